@@ -1,0 +1,1 @@
+"""Problems: Bayesian methods."""

@@ -1,0 +1,92 @@
+"""The belief over some hypotheses after one or several measurements."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Probability, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.parts import Part
+from rldrill.problems.parts import Table as TableKind
+
+TITLE = "Bayes' rule"
+SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
+REVISION = 1
+
+
+class Given(Givens):
+    """A prior over hypotheses, the likelihood of every reading under each, and the readings made."""
+
+    prior: dict[Name, Probability] = Field(min_length=2)
+    likelihood: dict[Name, dict[Name, Probability]]
+    measurements: tuple[Name, ...] = Field(min_length=1, max_length=26)
+    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if sum(self.prior.values()) != 1:
+            raise ValueError(f"prior: the probabilities sum to {sum(self.prior.values())}, not to 1")
+        known = tuple(self.prior)
+        for reading, chances in self.likelihood.items():
+            check_keys(chances, known, f"the likelihood of {reading!r}", needed=known)
+        for hypothesis in known:
+            if (total := sum(chances[hypothesis] for chances in self.likelihood.values())) > 1:
+                raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {total}, more than 1")
+        check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", needed=())
+        return self
+
+
+_STORIES = (
+    ("A robot stands before a door and looks at it with a camera.", ("open", "closed", "ajar"), ("looks open", "looks closed")),
+    ("A probe drills for water and reads its sensor.", ("water", "rock", "sand"), ("wet", "dry")),
+    ("A robot in a corridor does not know in which part it is; it senses a door or a wall.", ("west", "middle", "east"), ("door", "wall")),
+    ("A factory tests whether a motor is sound.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
+)  # fmt: skip
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two hypotheses and one measurement; then three; then three and two measurements."""
+    story, hypotheses, readings = rng.choice(_STORIES)
+    hypotheses = hypotheses[: 2 if level == 1 else 3]
+    tenths = ("1/10", "1/5", "3/10", "2/5", "3/5", "7/10", "4/5", "9/10")
+    likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
+    likelihood = {
+        readings[0]: likely,
+        readings[1]: {hypothesis: 1 - chance for hypothesis, chance in likely.items()},
+    }
+    return Given(
+        prior=dict(zip(hypotheses, rng.split(len(hypotheses), (4, 5, 10)), strict=True)),
+        likelihood=likelihood,
+        measurements=tuple(rng.choice(readings) for _ in range(2 if level == 3 else 1)),
+        story=story,
+    )
+
+
+def question(given: Given) -> Question:
+    """The prior and the sensor as tables; the belief after every measurement is a part."""
+    hypotheses = tuple(given.prior)
+    blocks = (
+        *([Paragraph(given.story)] if given.story else []),
+        Paragraph("Beforehand it believes:"),
+        Table(
+            header=("$h$", *hypotheses),
+            rows=(("$p(h)$", *(f"${shown(chance)}$" for chance in given.prior.values())),),
+        ),
+        Paragraph("What is measured depends on which of them is true:"),
+        Table(
+            header=("$p(z|h)$", *hypotheses),
+            rows=tuple(
+                (reading, *(f"${shown(chances[hypothesis])}$" for hypothesis in hypotheses))
+                for reading, chances in given.likelihood.items()
+            ),
+        ),
+    )
+    parts = []
+    for index, measurement in enumerate(given.measurements):
+        first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
+        ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
+        parts.append(Part(chr(ord("a") + index), ask, TableKind("p", hypotheses)))
+    return Question(blocks, tuple(parts))

@@ -1,0 +1,82 @@
+"""One Bellman backup: the value of a state under a policy, from given values of the next states."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Open, Parameter
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import (
+    Dynamics,
+    Name,
+    PolicyField,
+    check_keys,
+    check_policy,
+    discount,
+    in_open,
+    policy_table,
+    transitions_table,
+    values_table,
+)
+from rldrill.problems.parts import Number, Part
+from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
+
+TITLE = "Bellman backup"
+SOURCE = "Sutton & Barto 2018, section 3.5"
+REVISION = 1
+
+
+class Given(Givens):
+    """What the actions of one state do, the policy there, the values of the next states and the discount."""
+
+    dynamics: Dynamics
+    policy: PolicyField
+    values: dict[Name, Open] = Field(min_length=1)
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if len(self.dynamics.states) != 1:
+            raise ValueError("dynamics must hold the actions of one state only")
+        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
+        check_keys(self.values, (*reached, *self.dynamics.states), "the value", needed=reached)
+        check_policy(self.policy, self.dynamics)
+        return self
+
+    @property
+    def state(self) -> str:
+        """The state whose value is asked for."""
+        return self.dynamics.states[0]
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two actions with one outcome each; then with two; then with three, and the policy left open."""
+    setting = draw_setting(rng)
+    state = setting.states[0]
+    everything = setting.states[:3]
+    actions = setting.actions[:2]
+    shape = Shape(states=3, actions=2, branches=level, denominators=(2, 4, 5))
+    rows = [row for action in actions for row in draw_outcomes(rng, state, action, rng.sample(everything, level), shape)]
+    reached = [name for name in everything if any(row.next == name for row in rows)]
+    chances = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
+    return Given(
+        dynamics=Dynamics(transitions=tuple(rows)),
+        policy={state: dict(zip(actions, chances, strict=True))},
+        values={name: rng.nonzero(-4, 10) for name in reached},
+        gamma=rng.fraction("1/2", "4/5", "9/10"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The model of one state, the policy and the values; one number is asked for."""
+    blocks = (
+        Paragraph(f"In state {given.state} the actions do this:"),
+        transitions_table(given.dynamics),
+        Paragraph("The policy takes them with these probabilities:"),
+        policy_table(given.policy),
+        Paragraph(f"The values of the next states under the policy are known. {discount(given.gamma)}"),
+        values_table(given.values, "V^π"),
+    )
+    return Question(blocks, (Part("a", f'What is $V^π("{given.state}")${in_open(given)}?', Number()),))

@@ -1,0 +1,105 @@
+"""The exact value of every state of a small MDP under a policy."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Parameter
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import (
+    Model,
+    PolicyField,
+    Transition,
+    check_policy,
+    discount,
+    equiprobable,
+    in_open,
+    policy_table,
+    terminal_note,
+    transitions_table,
+)
+from rldrill.problems.parts import Part, Table
+from rldrill.problems.settings import Shape, draw_model, draw_setting
+
+TITLE = "Value of a policy"
+SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
+REVISION = 1
+
+
+class Given(Givens):
+    """A model, a policy and the discount; without a policy every action is equally probable."""
+
+    mdp: Model
+    policy: PolicyField | None = None
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if self.policy is not None:
+            check_policy(self.policy, self.mdp)
+        return self
+
+    @property
+    def chances(self) -> PolicyField:
+        """The policy, written out."""
+        return self.policy or equiprobable(self.mdp)
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two states and one action in each; then two actions; then γ or a transition probability left open."""
+    setting = draw_setting(rng)
+    if level == 3:
+        return _left_open(rng)
+    shape = Shape(states=2, actions=level, branches=2, denominators=(2,), reward=4 + 2 * level)
+    mdp = draw_model(rng, setting, shape)
+    while level == 2 and not _coupled(mdp):
+        mdp = draw_model(rng, setting, shape)
+    policy = {
+        state: dict(zip(actions, rng.split(len(actions), (2, 4)) if len(actions) > 1 else (1,), strict=True))
+        for state, actions in mdp.actions.items()
+    }
+    return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3", "4/5"))
+
+
+def _coupled(mdp: Model) -> bool:
+    """Whether each of two states can be reached from the other, so that the equations must be solved together."""
+    first, second = mdp.states
+    moves = {(row.state, row.next) for row in mdp.transitions}
+    return (first, second) in moves and (second, first) in moves
+
+
+def _left_open(rng: Draws) -> Given:
+    setting = draw_setting(rng)
+    first, second = setting.states[:2]
+    action = setting.actions[0]
+    p, rest = Parameter("p"), Parameter("1-p")
+    in_gamma = rng.chance(rng.fraction("1/2"))
+    half = rng.fraction("1/2", "1/4", "3/4")
+    stay, leave = (half, 1 - half) if in_gamma else (p, rest)
+    rows = (
+        Transition(first, action, first, stay, rng.nonzero(-3, 6)),
+        Transition(first, action, second, leave, rng.nonzero(-3, 6)),
+        Transition(second, action, first, rng.fraction("1/2"), rng.nonzero(-3, 6)),
+        Transition(second, action, setting.terminal, rng.fraction("1/2"), rng.nonzero(-3, 6)),
+    )
+    return Given(
+        mdp=Model(transitions=rows, terminal=(setting.terminal,)),
+        gamma=Parameter("gamma") if in_gamma else rng.fraction("1/2", "4/5"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The model and the policy; a value is asked for every state."""
+    blocks = [
+        Paragraph("A Markov decision process moves and pays like this:"),
+        transitions_table(given.mdp),
+        *terminal_note(given.mdp.terminal),
+    ]
+    if any(len(actions) > 1 for actions in given.mdp.actions.values()):
+        blocks += [Paragraph("The policy is:"), policy_table(given.chances)]
+    blocks.append(Paragraph(discount(given.gamma)))
+    return Question(
+        tuple(blocks), (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),)
+    )

@@ -1,0 +1,80 @@
+"""The catalogue is the tree: every file in a topic's folder is a family."""
+
+import difflib
+from functools import cache
+from pathlib import Path
+
+from rldrill.problems.errors import UsageError
+from rldrill.problems.family import Family
+
+_ROOT = Path(__file__).parent
+
+#: The order of the sheet; a topic that is not named here comes after these.
+_ORDER = (
+    "fundamentals",
+    "bellman",
+    "dynamic_programming",
+    "temporal_difference",
+    "control",
+    "policy_gradient",
+    "linear_methods",
+    "backup_diagrams",
+    "bayes",
+    "inverse_rl",
+    "function_approximation",
+    "beyond_the_sheet",
+)
+
+
+@cache
+def topics() -> dict[str, tuple[str, ...]]:
+    """Every topic with the names of its families, read from the folders without importing anything."""
+    found = {
+        folder.name: tuple(
+            sorted(file.stem.replace("_", "-") for file in folder.glob("*.py") if file.stem != "__init__")
+        )
+        for folder in _ROOT.iterdir()
+        if (folder / "__init__.py").is_file()
+    }
+    order = [*[topic for topic in _ORDER if topic in found], *sorted(set(found) - set(_ORDER))]
+    return {topic: found[topic] for topic in order}
+
+
+def families() -> tuple[str, ...]:
+    """The names of all families, topic by topic."""
+    return tuple(name for names in topics().values() for name in names)
+
+
+@cache
+def family(name: str) -> Family:
+    """The family of that name (``td-zero`` or ``td_zero``).
+
+    Raises:
+        UsageError: there is none.
+    """
+    wanted = name.strip().lower().replace("_", "-")
+    for topic, names in topics().items():
+        if wanted in names:
+            return Family.load(topic, wanted)
+    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; see 'rldrill list'.")
+
+
+def selection(names: tuple[str, ...] | list[str]) -> tuple[Family, ...]:
+    """The families that topics and families name, in the order of the catalogue; all where none is named.
+
+    Raises:
+        UsageError: a name is neither a topic nor a family.
+    """
+    if not names:
+        return tuple(family(name) for name in families())
+    chosen: set[str] = set()
+    for name in names:
+        topic = name.strip().lower().replace("-", "_")
+        chosen.update(topics()[topic] if topic in topics() else (family(name).name,))
+    return tuple(family(name) for name in families() if name in chosen)
+
+
+def _similar(wanted: str) -> str:
+    known = [*families(), *(topic.replace("_", "-") for topic in topics())]
+    close = difflib.get_close_matches(wanted, known, n=1)
+    return f" (did you mean {close[0]!r}?)" if close else ""

@@ -1,0 +1,1 @@
+"""Problems: TD control."""

@@ -1,0 +1,62 @@
+"""A page as data: the blocks that questions and workings are made of, before anything renders them.
+
+Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.mathematics``).
+"""
+
+import re
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from rldrill.problems.mathematics import Math, mathematics
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """Running text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """A short line above what follows."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table with a header line; cells are texts."""
+
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """Mathematics on lines of its own: a left side, then right sides one under the other.
+
+    ``signs`` holds the relation before each right side; an empty sign goes on with the side above.
+    """
+
+    left: Math
+    rights: tuple[Math, ...]
+    signs: tuple[str, ...]
+    label: str = ""
+
+
+Block: TypeAlias = Paragraph | Heading | Table | Equation
+Document: TypeAlias = tuple[Block, ...]
+
+_PIECES = re.compile(r"\$([^$]*)\$")
+
+
+def pieces(text: str) -> list[str | Math]:
+    """Take a text apart into plain text and mathematics."""
+    parts = _PIECES.split(text)
+    return [mathematics(part) if index % 2 else part for index, part in enumerate(parts) if part]
+
+
+def joined(items: list[str]) -> str:
+    """A list in words: ``a``, ``a and b``, ``a, b and c``."""
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"

@@ -1,0 +1,70 @@
+"""Random draws that are the same on every machine, Python and release."""
+
+import hashlib
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+
+class Draws:
+    """A stream of choices that depends on its key alone.
+
+    It rests on ``random.Random.random()`` after seeding with an integer, which Python's documentation
+    promises to keep, and on nothing else of that module.
+    """
+
+    def __init__(self, key: str) -> None:
+        digest = hashlib.sha256(key.encode()).digest()
+        self._random = random.Random(int.from_bytes(digest, "big")).random
+
+    def below(self, bound: int) -> int:
+        """A whole number from 0 to ``bound - 1``."""
+        if bound < 1:
+            raise ValueError(f"nothing to choose from below {bound}")
+        return int(self._random() * bound)
+
+    def whole(self, low: int, high: int) -> Fraction:
+        """A whole number from ``low`` to ``high``, both included."""
+        return Fraction(low + self.below(high - low + 1))
+
+    def nonzero(self, low: int, high: int) -> Fraction:
+        """A whole number from ``low`` to ``high`` that is not 0."""
+        while True:
+            if number := self.whole(low, high):
+                return number
+
+    def choice(self, items: Sequence[Item]) -> Item:
+        """One of the items."""
+        return items[self.below(len(items))]
+
+    def fraction(self, *texts: str) -> Fraction:
+        """One of the given fractions, written ``"1/2"``."""
+        return Fraction(self.choice(texts))
+
+    def chance(self, probability: Fraction) -> bool:
+        """True with the given probability."""
+        return self.below(probability.denominator) < probability.numerator
+
+    def shuffled(self, items: Sequence[Item]) -> tuple[Item, ...]:
+        """The items in another order."""
+        rest = list(items)
+        return tuple(rest.pop(self.below(len(rest))) for _ in items)
+
+    def sample(self, items: Sequence[Item], count: int) -> tuple[Item, ...]:
+        """``count`` different items, in the order in which they stand."""
+        kept = sorted(self.shuffled(range(len(items)))[:count])
+        return tuple(items[index] for index in kept)
+
+    def distinct(self, count: int, low: int, high: int) -> tuple[Fraction, ...]:
+        """``count`` different whole numbers from ``low`` to ``high``."""
+        return tuple(Fraction(number) for number in self.shuffled(range(low, high + 1))[:count])
+
+    def split(self, parts: int, denominators: Sequence[int] = (2, 4, 5, 10)) -> tuple[Fraction, ...]:
+        """Positive probabilities that sum to 1, over one of the denominators that is large enough."""
+        whole = self.choice([number for number in denominators if number >= parts])
+        cuts = sorted(1 + index for index in self.shuffled(range(whole - 1))[: parts - 1])
+        edges = (0, *cuts, whole)
+        return tuple(Fraction(right - left, whole) for left, right in zip(edges, edges[1:], strict=False))

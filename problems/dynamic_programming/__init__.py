@@ -1,0 +1,1 @@
+"""Problems: Dynamic programming."""

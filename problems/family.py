@@ -1,0 +1,148 @@
+"""A family of problems, a problem drawn from it, and the base of all givens."""
+
+import importlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from rldrill.problems.document import Document
+from rldrill.problems.draws import Draws
+from rldrill.problems.errors import FileError
+from rldrill.problems.exact import Parameter
+from rldrill.problems.identity import LEVELS, Identity
+from rldrill.problems.parts import Part
+
+
+class Givens(BaseModel):
+    """What a problem gives: typed, frozen, exact, validated; the same form is read from problem files."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters left open anywhere in the givens."""
+        return tuple(dict.fromkeys(_parameters(self)))
+
+
+def _parameters(value: object) -> Iterator[str]:
+    if isinstance(value, Parameter):
+        yield value.symbol
+    elif isinstance(value, BaseModel):
+        for field in type(value).model_fields:
+            yield from _parameters(getattr(value, field))
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from _parameters(item)
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _parameters(item)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is printed: the situation, then the parts."""
+
+    blocks: Document
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True)
+class Family:
+    """One family: the module ``problems/<topic>/<name>.py`` as an object."""
+
+    name: str
+    topic: str
+    title: str
+    source: str
+    revision: int
+    given: type[Givens]
+    draw: Callable[[int, Draws], Givens]
+    question: Callable[[Any], Question]
+    levels: tuple[int, ...] = LEVELS
+
+    @classmethod
+    def load(cls, topic: str, name: str) -> "Family":
+        """Load a family from its module.
+
+        Raises:
+            TypeError: the module lacks something that a family must have.
+        """
+        module = importlib.import_module(f"rldrill.problems.{topic}.{name.replace('-', '_')}")
+        return cls(
+            name=name,
+            topic=topic,
+            title=_demanded(module, "TITLE"),
+            source=_demanded(module, "SOURCE"),
+            revision=_demanded(module, "REVISION"),
+            given=_demanded(module, "Given"),
+            draw=_demanded(module, "draw"),
+            question=_demanded(module, "question"),
+            levels=getattr(module, "LEVELS", LEVELS),
+        )
+
+    def read(self, given: object) -> Givens:
+        """Read givens from what a file holds.
+
+        Raises:
+            FileError: they do not fit; the sentence names the field.
+        """
+        try:
+            return self.given.model_validate(given)
+        except ValidationError as error:
+            raise FileError(_sentence(error)) from None
+
+
+def _demanded(module: ModuleType, name: str) -> Any:
+    try:
+        return getattr(module, name)
+    except AttributeError:
+        raise TypeError(f"{module.__file__}: a family must have {name}") from None
+
+
+def _sentence(error: ValidationError) -> str:
+    first, *rest = error.errors()
+    steps = [f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in first["loc"]]
+    if first["type"] == "missing":
+        message = "is missing"
+    elif first["type"] == "extra_forbidden":
+        message = "is not a field of this family"
+    else:
+        message = str(first["msg"]).removeprefix("Value error, ")
+    more = f" (and {len(rest)} more)" if rest else ""
+    return f"given{''.join(steps)}: {message}{more}"
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One problem: its family and what is given; its identity unless somebody brought it from outside."""
+
+    family: Family
+    given: Givens
+    identity: Identity | None = None
+
+    @cached_property
+    def question(self) -> Question:
+        """The situation and the parts, as they are printed."""
+        return self.family.question(self.given)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The parts in their order."""
+        return self.question.parts
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that an answer may contain."""
+        return self.given.parameters()
+
+    @property
+    def level(self) -> int | None:
+        """1 to 3, or None for a problem from outside."""
+        return None if self.identity is None else self.identity.level
+
+    def data(self) -> dict[str, Any]:
+        """The problem as problem files hold it: ``{"family": …, "given": …}``."""
+        return {"family": self.family.name, "given": self.given.model_dump(mode="json", exclude_none=True)}

@@ -1,0 +1,1 @@
+"""Problems: Returns and the elements of a reinforcement learning problem."""

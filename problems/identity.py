@@ -1,0 +1,43 @@
+"""Problem IDs: ``value-iteration/2/7@1`` is family, level, seed and the family's revision."""
+
+import re
+from dataclasses import dataclass
+
+from rldrill.problems.errors import UsageError
+
+LEVELS = (1, 2, 3)
+MAX_SEED = 10**12
+_ID = re.compile(r"(?P<family>[a-z0-9-]+)/(?P<level>[1-3])/(?P<seed>\d{1,12})(?:@(?P<revision>\d{1,6}))?")
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """The name of one problem: the same ID is the same problem, to the letter, everywhere."""
+
+    family: str
+    level: int
+    seed: int
+    revision: int
+
+    def __str__(self) -> str:
+        return f"{self.family}/{self.level}/{self.seed}@{self.revision}"
+
+
+def looks_like_id(text: str) -> bool:
+    """Whether the text has the form of a problem ID, with or without its revision."""
+    return _ID.fullmatch(text) is not None
+
+
+def split_id(text: str) -> tuple[str, int, int, int | None]:
+    """Take an ID apart into family, level, seed and revision (None where it is left out).
+
+    Raises:
+        UsageError: the text is not an ID.
+    """
+    match = _ID.fullmatch(text)
+    if match is None:
+        raise UsageError(
+            f"{text[:60]!r} is not a problem ID; IDs look like value-iteration/2/7 (family/level 1-3/seed)."
+        )
+    revision = match["revision"]
+    return match["family"], int(match["level"]), int(match["seed"]), None if revision is None else int(revision)

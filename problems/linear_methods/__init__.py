@@ -1,0 +1,1 @@
+"""Problems: Linear methods: LQR."""

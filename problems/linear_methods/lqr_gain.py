@@ -1,0 +1,82 @@
+"""The LQR gain at one time from the value matrix of the next."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.mathematics import Grid, Math, mathematics, number
+from rldrill.problems.parts import Matrix as MatrixKind
+from rldrill.problems.parts import Part
+
+TITLE = "LQR gain"
+SOURCE = "Bertsekas 2017, section 3.1"
+REVISION = 1
+
+MatrixField = tuple[tuple[Exact, ...], ...]
+
+
+class Given(Givens):
+    """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows."""
+
+    A: MatrixField = Field(min_length=1)
+    B: MatrixField = Field(min_length=1)
+    R: MatrixField = Field(min_length=1)
+    P: MatrixField = Field(min_length=1)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        n, m = len(self.A), len(self.B[0])
+        for name, matrix, rows, columns in (
+            ("A", self.A, n, n), ("B", self.B, n, m), ("R", self.R, m, m), ("P", self.P, n, n),
+        ):  # fmt: skip
+            if len(matrix) != rows or any(len(line) != columns for line in matrix):
+                shape = f"{len(matrix)}×{len(matrix[0])}"
+                raise ValueError(f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}")
+        for name, matrix in (("R", self.R), ("P", self.P)):
+            if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
+                raise ValueError(f"{name} must be symmetric")
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Scalars; then two states and one input; then two states and two inputs."""
+    if level == 1:
+        scalars = (rng.nonzero(1, 4), rng.nonzero(1, 3), rng.nonzero(1, 4), -rng.nonzero(1, 5))
+        A, B, R, P = (((value,),) for value in scalars)
+        return Given(A=A, B=B, R=R, P=P)
+    inputs = level - 1
+    A = tuple(tuple(rng.whole(-1, 2) for _ in range(2)) for _ in range(2))
+    B = tuple(tuple(rng.whole(0, 1 if level == 3 else 2) for _ in range(inputs)) for _ in range(2))
+    R = tuple(tuple(rng.nonzero(1, 3) if i == j else rng.whole(0, 0) for j in range(inputs)) for i in range(inputs))
+    corner = rng.whole(0, 1)
+    P = ((-rng.nonzero(2, 4), corner), (corner, -rng.nonzero(2, 4)))
+    return Given(A=A, B=B, R=R, P=P)
+
+
+def matrix(lines: MatrixField) -> Math:
+    """A given matrix as mathematics; a 1×1 matrix is a number."""
+    if len(lines) == len(lines[0]) == 1:
+        return number(lines[0][0])
+    return Grid(tuple(tuple(number(entry) for entry in line) for line in lines))
+
+
+def question(given: Given) -> Question:
+    """The four matrices; the gain is asked for."""
+    named = (("A_t", given.A), ("B_t", given.B), ("R_t", given.R), ("P_{t+1}", given.P))
+    blocks = (
+        Paragraph(
+            "A linear system $s_{t+1} = A_t s_t + B_t a_t$ earns the reward "
+            "$r(s_t, a_t) = −(s_t^T Q_t s_t + a_t^T R_t a_t)$. The value from the next time on is "
+            "$V_{t+1}(s) = s^T P_{t+1} s$. At time $t$:"
+        ),
+        *(Equation(mathematics(name), (matrix(lines),), ("=",)) for name, lines in named),
+    )
+    rows, columns = len(given.B[0]), len(given.A)
+    return Question(
+        blocks,
+        (Part("a", "What is the gain $L_t$ of the optimal action $a_t = −L_t s_t$?", MatrixKind(rows, columns)),),
+    )

@@ -1,0 +1,222 @@
+"""Mathematics as data: what formulas, steps and questions are made of before they are typeset.
+
+Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
+stand for themselves, ``_`` and ``^`` make scripts, a word of several letters or in quotes is set upright,
+``3/4`` is a fraction. Formulas arrive here from sympy expressions.
+"""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal, TypeAlias
+
+Style = Literal["variable", "word", "number", "operator", "relation", "punctuation"]
+
+
+@dataclass(frozen=True, slots=True)
+class Glyph:
+    """One sign: a letter, a word, a number, an operator."""
+
+    text: str
+    style: Style
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Things side by side."""
+
+    items: tuple["Math", ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fraction:
+    """A quotient, one above the other where there is room."""
+
+    numerator: "Math"
+    denominator: "Math"
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """Something with a subscript, a superscript or both."""
+
+    body: "Math"
+    below: "Math | None" = None
+    above: "Math | None" = None
+
+
+@dataclass(frozen=True, slots=True)
+class Fence:
+    """Something in brackets that grow with it."""
+
+    body: "Math"
+    left: str = "("
+    right: str = ")"
+
+
+@dataclass(frozen=True, slots=True)
+class Big:
+    """A large operator with limits: Σ, max, arg max, 𝔼."""
+
+    sign: str
+    below: "Math | None" = None
+    above: "Math | None" = None
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A square root."""
+
+    body: "Math"
+
+
+@dataclass(frozen=True, slots=True)
+class Accent:
+    """A letter with a mark above it."""
+
+    body: "Math"
+    mark: Literal["hat", "bar", "tilde"]
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """A matrix, or a column of cells, between brackets."""
+
+    rows: tuple[tuple["Math", ...], ...]
+    left: str = "["
+    right: str = "]"
+
+
+Math: TypeAlias = Glyph | Row | Fraction | Script | Fence | Big | Root | Accent | Grid
+
+
+def variable(text: str) -> Glyph:
+    """A letter that stands for a quantity."""
+    return Glyph(text, "variable")
+
+
+def word(text: str) -> Glyph:
+    """A word or name, set upright."""
+    return Glyph(text, "word")
+
+
+def operator(text: str) -> Glyph:
+    """A sign between two terms or factors."""
+    return Glyph(text, "operator")
+
+
+def relation(text: str) -> Glyph:
+    """A sign between two sides."""
+    return Glyph(text, "relation")
+
+
+def punctuation(text: str) -> Glyph:
+    """A comma, a bar, a bracket."""
+    return Glyph(text, "punctuation")
+
+
+def row(*items: Math) -> Math:
+    """Things side by side; rows inside are dissolved."""
+    flat: list[Math] = []
+    for item in items:
+        flat.extend(item.items if isinstance(item, Row) else [item])
+    return flat[0] if len(flat) == 1 else Row(tuple(flat))
+
+
+def listed(items: Iterable[Math], separator: str = ",") -> Math:
+    """Things with a separator between them."""
+    result: list[Math] = []
+    for item in items:
+        if result:
+            result.append(punctuation(separator))
+        result.append(item)
+    return row(*result)
+
+
+def name(text: str) -> Glyph:
+    """The name of a state or an action: one letter (with digits, primes) is a variable, more is a word."""
+    return variable(text) if re.fullmatch(r"[^\W\d_][₀-₉′]*", text) else word(text)
+
+
+def number(value: object) -> Math:
+    """A rational number, its minus sign typographic; anything with ``/`` in it becomes a fraction."""
+    text = str(value)
+    minus = text.startswith("-")
+    numerator, _, denominator = text.removeprefix("-").partition("/")
+    magnitude: Math = Glyph(numerator, "number")
+    if denominator:
+        magnitude = Fraction(magnitude, Glyph(denominator, "number"))
+    return row(operator("−"), magnitude) if minus else magnitude
+
+
+_TOKEN = re.compile(
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[₀-₉′]*|['′]+)
+    |(?P<space>\s+)|(?P<other>.)""",
+    re.VERBOSE,
+)
+_RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
+_OPERATORS = set("+−-·×*±")
+_LETTER = re.compile(r"[^\W\d_]")
+_OPENING = {"(": ")", "[": "]", "{": "}"}
+
+
+@lru_cache(maxsize=4096)
+def mathematics(text: str) -> Math:
+    """Read the notation between ``$`` signs.
+
+    Raises:
+        ValueError: a brace or bracket is left open.
+    """
+    tokens = [match for match in _TOKEN.finditer(text) if match.lastgroup != "space"]
+    items, rest = _sequence(tokens, 0, None)
+    if rest != len(tokens):
+        raise ValueError(f"unmatched {tokens[rest][0]!r} in the mathematics {text!r}")
+    return row(*items)
+
+
+def _sequence(tokens: Sequence[re.Match[str]], at: int, closing: str | None) -> tuple[list[Math], int]:
+    items: list[Math] = []
+    while at < len(tokens):
+        token = tokens[at][0]
+        if token == closing or (token in ")]}" and closing is not None):
+            return items, at
+        if token in "_^":
+            script, at = _single(tokens, at + 1)
+            body = items.pop() if items else word("")
+            below, above = (script, None) if token == "_" else (None, script)
+            if isinstance(body, Script) and (body.below is None or below is None):
+                body = Script(body.body, body.below or below, body.above or above)
+            else:
+                body = Script(body, below, above)
+            items.append(body)
+            continue
+        item, at = _single(tokens, at)
+        items.append(item)
+    if closing is not None:
+        raise ValueError(f"{closing!r} is missing in mathematics")
+    return items, at
+
+
+def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
+    if at >= len(tokens):
+        raise ValueError("a script is missing in mathematics")
+    match = tokens[at]
+    token = match[0]
+    if token in _OPENING:
+        items, end = _sequence(tokens, at + 1, _OPENING[token])
+        inside = row(*items)
+        if tokens[end][0] != _OPENING[token]:
+            raise ValueError(f"{_OPENING[token]!r} is missing in mathematics")
+        return (inside if token == "{" else Fence(inside, token, _OPENING[token])), end + 1
+    if match.lastgroup == "quoted":
+        return name(token[1:-1]), at + 1
+    if match.lastgroup == "number":
+        return number(token), at + 1
+    if match.lastgroup == "letters":
+        return name(token), at + 1
+    if token in _RELATIONS:
+        return relation(token), at + 1
+    if token in _OPERATORS:
+        return operator(token.replace("-", "−").replace("*", "·")), at + 1
+    return punctuation(token), at + 1

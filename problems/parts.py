@@ -1,0 +1,88 @@
+"""The parts (a), (b), … of a problem, and the kinds of answer that they ask for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+Key: TypeAlias = str | tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """One number, or an expression in the parameters left open."""
+
+    name: ClassVar[str] = "number"
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """Numbers in a stated order; ``entries`` says in mathematics what each is (``R_0``)."""
+
+    entries: tuple[str, ...]
+    name: ClassVar[str] = "vector"
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """A matrix of a known shape."""
+
+    rows: int
+    columns: int
+    name: ClassVar[str] = "matrix"
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A number for every state, or for every pair of state and action; ``of`` is the function asked for."""
+
+    of: str
+    keys: tuple[Key, ...]
+    name: ClassVar[str] = "table"
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """An action for every state; ``actions`` holds the states, and what is possible in each."""
+
+    actions: Mapping[str, tuple[str, ...]]
+    name: ClassVar[str] = "policy"
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One of several options, each a letter and its text."""
+
+    options: Mapping[str, str]
+    name: ClassVar[str] = "choice"
+
+
+@dataclass(frozen=True, slots=True)
+class YesNo:
+    """Yes or no."""
+
+    name: ClassVar[str] = "yes/no"
+
+
+Kind: TypeAlias = Number | Vector | Matrix | Table | Policy | Choice | YesNo
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One thing asked.
+
+    Args:
+        label: the letter of the part, ``a``.
+        ask: the sentence that asks, with its mathematics between ``$`` signs.
+        kind: what kind of answer is wanted.
+        points: what a right answer earns.
+        ties: whether several best actions may be right together (only where the question is about ties).
+        zero: whether 0 is as good an answer as any other.
+    """
+
+    label: str
+    ask: str
+    kind: Kind
+    points: int = 1
+    ties: bool = False
+    zero: bool = False
+

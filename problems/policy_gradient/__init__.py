@@ -1,0 +1,1 @@
+"""Problems: Policy gradient methods."""

@@ -1,0 +1,85 @@
+"""The little worlds in which problems are set, and random models of them."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from rldrill.problems.draws import Draws
+from rldrill.problems.models import Model, Transition
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A world: what it is about, its states, the one in which it ends, and the actions."""
+
+    story: str
+    states: tuple[str, ...]
+    terminal: str
+    actions: tuple[str, ...]
+
+
+SETTINGS = (
+    Setting("A racing car drives fast or slowly, and must not overheat.",
+            ("cool", "warm", "hot", "smoking"), "overheated", ("slow", "fast", "brake")),
+    Setting("A recycling robot looks for cans until its battery is empty.",
+            ("high", "medium", "low", "critical"), "empty", ("search", "wait", "recharge")),
+    Setting("A machine wears out; it can be run, oiled or repaired until it breaks.",
+            ("new", "worn", "rattling", "cracked"), "broken", ("run", "oil", "repair")),
+    Setting("A robot moves along a corridor to its charger.",
+            ("door", "hall", "bend", "ramp"), "charger", ("roll", "climb", "turn")),
+    Setting("A gambler plays until he leaves the table.",
+            ("poor", "even", "rich", "lucky"), "gone", ("bet", "double", "pass")),
+    Setting("A rover explores a crater and drives back to its lander.",
+            ("rim", "slope", "floor", "cave"), "lander", ("drill", "drive", "scan")),
+)  # fmt: skip
+
+
+def draw_setting(rng: Draws) -> Setting:
+    """One of the worlds."""
+    return rng.choice(SETTINGS)
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """How large a random model is.
+
+    Args:
+        states: states in which an action is taken.
+        actions: actions in each of them.
+        branches: how many next states an action may have at most.
+        reward: the largest reward; rewards are whole numbers from minus half of it.
+        ends: whether there is a terminal state that can be reached from everywhere.
+    """
+
+    states: int
+    actions: int
+    branches: int
+    reward: int = 6
+    ends: bool = True
+    denominators: tuple[int, ...] = (2, 4)
+
+
+def draw_outcomes(
+    rng: Draws, state: str, action: str, targets: tuple[str, ...], shape: Shape
+) -> list[Transition]:
+    """The transitions of one action: to all the targets, with random probabilities and rewards."""
+    chances = (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
+    return [
+        Transition(state, action, target, chance, rng.whole(-(shape.reward // 2), shape.reward))
+        for target, chance in zip(targets, chances, strict=True)
+    ]
+
+
+def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
+    """A random model of a world; from every state some action can lead to the next and so to the end."""
+    states = setting.states[: shape.states]
+    ends = (setting.terminal,) if shape.ends else ()
+    everything = (*states, *ends)
+    rows = []
+    for index, state in enumerate(states):
+        onward = everything[index + 1] if index + 1 < len(everything) else states[0]
+        for number, action in enumerate(setting.actions[: shape.actions]):
+            targets = rng.sample(everything, 1 + rng.below(min(shape.branches, len(everything))))
+            if number == 0 and onward not in targets:
+                targets = tuple(target for target in everything if target in (onward, *targets[1:]))
+            rows += draw_outcomes(rng, state, action, targets, shape)
+    return Model(transitions=tuple(rows), terminal=ends)

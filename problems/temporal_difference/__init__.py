@@ -1,0 +1,1 @@
+"""Problems: Temporal difference learning."""

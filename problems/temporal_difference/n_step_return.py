@@ -1,0 +1,78 @@
+"""The n-step return along a trajectory."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Exact, Parameter
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import (
+    Name,
+    Trajectory,
+    check_keys,
+    discount,
+    in_open,
+    terminal_note,
+    trajectory_table,
+    values_table,
+)
+from rldrill.problems.parts import Number, Part
+from rldrill.problems.settings import draw_setting
+
+TITLE = "n-step return"
+SOURCE = "Sutton & Barto 2018, section 7.1"
+REVISION = 1
+
+
+class Given(Givens):
+    """A trajectory, the current values, the discount, and which returns are asked: pairs of time and n."""
+
+    trajectory: Trajectory
+    values: dict[Name, Exact]
+    gamma: Discount
+    asked: tuple[tuple[int, int], ...] = Field(min_length=1, max_length=26)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        known = tuple(dict.fromkeys((*self.trajectory.states, *self.trajectory.terminal)))
+        needed = tuple(state for state in known if state not in self.trajectory.terminal)
+        check_keys(self.values, known, "the value", needed=needed)
+        last = len(self.trajectory.rewards)
+        for time, steps in self.asked:
+            if time < 0 or steps < 1 or time + steps > last:
+                raise ValueError(f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}")
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two steps; then three steps and two; then an expression in γ."""
+    setting = draw_setting(rng)
+    length = {1: 4, 2: 5, 3: 5}[level]
+    states = [rng.choice(setting.states[:3]) for _ in range(length)]
+    named = [state for state in setting.states if state in states]
+    asked = {1: ((0, 2),), 2: ((0, 3), (1, 2)), 3: ((0, 3), (1, 2))}[level]
+    return Given(
+        trajectory=Trajectory(states=tuple(states), rewards=tuple(rng.nonzero(-3, 8) for _ in states[1:])),
+        values={state: rng.nonzero(-4, 10) for state in named},
+        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "9/10", "4/5"),
+        asked=asked,
+    )
+
+
+def question(given: Given) -> Question:
+    """The run as a table over time; each return is a part."""
+    blocks = (
+        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(given.trajectory),
+        *terminal_note(given.trajectory.terminal),
+        Paragraph(f"The current values are these. {discount(given.gamma)}"),
+        values_table(given.values),
+    )
+    tail = in_open(given)
+    parts = tuple(
+        Part(chr(ord("a") + index), f"What is the {n}-step return $R_{{{t}}}^{{({n})}}$ from time ${t}${tail}?", Number())
+        for index, (t, n) in enumerate(given.asked)
+    )
+    return Question(blocks, parts)

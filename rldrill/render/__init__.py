@@ -1,0 +1,1 @@
+"""Documents and mathematics as text for the terminal, Typst, LaTeX and Markdown."""

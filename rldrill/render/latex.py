@@ -1,0 +1,63 @@
+"""Mathematics as LaTeX, for Markdown, notebooks and flash cards."""
+
+from rldrill.problems.mathematics import (
+    Accent,
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Grid,
+    Math,
+    Root,
+    Row,
+    Script,
+)
+
+_COMMANDS = {
+    "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ε": r"\varepsilon", "θ": r"\theta",
+    "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi",
+    "ξ": r"\xi", "∞": r"\infty", "∇": r"\nabla", "𝔼": r"\mathbb{E}", "·": r"\cdot", "×": r"\times", "±": r"\pm",
+    "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
+    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "∫": r"\int",
+    "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
+    "log": r"\log", "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
+}  # fmt: skip
+_PLAIN_WORDS = {"max", "min", "ln", "exp", "log"}
+
+
+def latex(math: Math) -> str:
+    """Mathematics as LaTeX, without the signs that open and close it."""
+    match math:
+        case Glyph(text, style):
+            return _glyph(text, style)
+        case Row(items):
+            return " ".join(map(latex, items))
+        case Fraction(numerator, denominator):
+            return rf"\frac{{{latex(numerator)}}}{{{latex(denominator)}}}"
+        case Script(body, below, above):
+            base = latex(body) if isinstance(body, Glyph) and body.style != "word" else f"{{{latex(body)}}}"
+            return base + _limits(below, above)
+        case Fence(body, left, right):
+            return rf"\left{_COMMANDS.get(left, left)} {latex(body)} \right{_COMMANDS.get(right, right)}"
+        case Big(sign, below, above):
+            return _COMMANDS.get(sign, rf"\operatorname*{{{sign}}}") + _limits(below, above)
+        case Root(body):
+            return rf"\sqrt{{{latex(body)}}}"
+        case Accent(body, mark):
+            return rf"\{mark}{{{latex(body)}}}"
+        case Grid(rows, left, right):
+            lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
+            return rf"\left{left} \begin{{matrix}} {lines} \end{{matrix}} \right{right}"
+
+
+def _glyph(text: str, style: str) -> str:
+    stem = text.rstrip("′")
+    primes = "'" * (len(text) - len(stem))
+    if style == "word" and stem not in _PLAIN_WORDS:
+        return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}" + primes
+    return _COMMANDS.get(stem, stem) + primes
+
+
+def _limits(below: Math | None, above: Math | None) -> str:
+    lower = "" if below is None else f"_{{{latex(below)}}}"
+    return lower + ("" if above is None else f"^{{{latex(above)}}}")

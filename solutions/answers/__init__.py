@@ -1,0 +1,1 @@
+"""Reading and judging answers: text to exact value, exact value to verdict."""

@@ -1,0 +1,163 @@
+"""From a typed answer to a verdict that says what is wrong and why."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from typing import Any
+
+from rldrill.problems.parts import Part
+from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.rule import is_close, is_right
+from rldrill.solutions.answers.text import Reading, Unreadable
+from rldrill.solutions.exact import Value
+from rldrill.solutions.formula.formula import Misconception
+from rldrill.solutions.solution import Solution
+
+
+class Outcome(Enum):
+    """What an answer is."""
+
+    RIGHT = "right"
+    FOLLOW_THROUGH = "follow-through"
+    CLOSE = "close"
+    MISCONCEPTION = "misconception"
+    WRONG = "wrong"
+    UNREADABLE = "unreadable"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The judgement of one part.
+
+    Args:
+        outcome: what the answer is.
+        says: one or two sentences to the person.
+        credit: the share of the points that it earns, 0 to 1.
+        read: how the answer was read; empty if it was not.
+        misconceptions: the typical mistakes that give exactly this answer.
+        wrong_cells: which entries of a table, vector or matrix are wrong.
+        value: the value that was read, to go on from in later parts.
+    """
+
+    outcome: Outcome
+    says: str
+    credit: Fraction = Fraction(0)
+    read: str = ""
+    misconceptions: tuple[Misconception, ...] = ()
+    wrong_cells: tuple[str, ...] = ()
+    value: Any = field(default=None, compare=False)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the part is done."""
+        return self.outcome in (Outcome.RIGHT, Outcome.FOLLOW_THROUGH)
+
+
+def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] | None = None) -> Verdict:
+    """Judge what was typed as the answer of a part.
+
+    Args:
+        solution: the solution of the problem.
+        label: the part, ``a``.
+        text: what was typed.
+        earlier: the values that the person gave to earlier parts (``Verdict.value``), for follow-through.
+
+    Raises:
+        KeyError: the problem has no such part.
+    """
+    part = part_of(solution, label)
+    kind = answer_kind(part.kind)
+    try:
+        cells = kind.read(text, solution.problem.parameters)
+    except Unreadable as error:
+        return Verdict(Outcome.UNREADABLE, str(error))
+    value = kind.value({name: _content(cell) for name, cell in cells.items()})
+    read = ", ".join(
+        f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items())
+    )
+    return _judge(solution, part, cells, value, read, dict(earlier or {}))
+
+
+def part_of(solution: Solution, label: str) -> Part:
+    """The part with that letter.
+
+    Raises:
+        KeyError: there is none.
+    """
+    for part in solution.problem.parts:
+        if part.label == label:
+            return part
+    raise KeyError(label)
+
+
+def _judge(
+    solution: Solution, part: Part, cells: dict[str, Cell], value: Any, read: str, earlier: dict[str, Any]
+) -> Verdict:
+    label = part.label
+    key = answer_kind(part.kind).cells(solution.answers[label])
+    wrong = _wrong_cells(cells, key)
+    if not wrong:
+        return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
+    if earlier:
+        follows = solution.following(earlier)
+        if label in follows and not _wrong_cells(cells, answer_kind(part.kind).cells(follows[label])):
+            return Verdict(
+                Outcome.FOLLOW_THROUGH,
+                "Right, going on from your earlier answer.",
+                Fraction(1),
+                read,
+                value=value,
+            )
+    made = _made(solution, part, cells, earlier)
+    credit = Fraction(len(key) - len(wrong), len(key)) if len(key) > 1 else Fraction(0)
+    named = tuple(name for name in wrong if name)
+    if made:
+        says = " Or: ".join(dict.fromkeys(misconception.says for misconception in made))
+        return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value)
+    if all(_is_close(cells[name], key[name]) for name in wrong):
+        return Verdict(
+            Outcome.CLOSE, "Right idea; give an exact value or three digits.", credit, read, (), named, value
+        )
+    says = "Not right."
+    if named and len(named) < len(key):
+        says = f"Not right at {'; '.join(named)}; the rest is right."
+    return Verdict(Outcome.WRONG, says, credit, read, (), named, value)
+
+
+def _made(
+    solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]
+) -> tuple[Misconception, ...]:
+    """The misconceptions that give this answer, from the start or from the person's earlier answers."""
+    kind = answer_kind(part.kind)
+    for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):
+        made = tuple(
+            misconception
+            for misconception, answers in mistakes
+            if part.label in answers and not _wrong_cells(cells, kind.cells(answers[part.label]))
+        )
+        if made:
+            return made
+    return ()
+
+
+def _content(cell: Cell) -> Any:
+    return cell.value if isinstance(cell, Reading) else cell
+
+
+def _echo(cell: Cell) -> str:
+    return cell.echo if isinstance(cell, Reading) else cell
+
+
+def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(name for name, content in key.items() if not _cell_is_right(cells[name], content))
+
+
+def _cell_is_right(cell: Cell, key: Value) -> bool:
+    if isinstance(cell, Reading):
+        return is_right(cell.value, key, rounded=cell.decimal)
+    return cell in key
+
+
+def _is_close(cell: Cell, key: Value) -> bool:
+    return isinstance(cell, Reading) and is_close(cell.value, key)

@@ -1,0 +1,393 @@
+"""The kinds of answer: how each is read, written, taken apart into cells, and tested with samples."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from flint import fmpq, fmpq_mat
+
+from rldrill.problems import parts
+from rldrill.problems.document import joined
+from rldrill.problems.mathematics import Math, mathematics, name, punctuation, row
+from rldrill.solutions.answers.text import (
+    Reading,
+    Unreadable,
+    read_choice,
+    read_matrix,
+    read_number,
+    read_table,
+    read_vector,
+    read_words,
+    read_yes_no,
+)
+from rldrill.solutions.exact import Value, decimal, to_sympy
+from rldrill.solutions.formula.typesetting import grid, typeset_value
+
+KindT = TypeVar("KindT", bound=parts.Kind)
+#: A cell of a typed answer: a number as it was read, or a word.
+Cell: TypeAlias = Reading | str
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """Texts that a kind makes up to test itself with, from a right answer."""
+
+    right: tuple[str, ...]
+    wrong: tuple[str, ...]
+    unreadable: tuple[str, ...]
+
+
+class Answer(ABC, Generic[KindT]):
+    """One kind of answer. A value is what a solver gave; its cells are what is judged one by one."""
+
+    def __init__(self, kind: KindT) -> None:
+        self.kind = kind
+
+    @abstractmethod
+    def cells(self, value: Any) -> dict[str, Any]:
+        """The value cell by cell, each under the name that a person would use for it."""
+
+    @abstractmethod
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
+        """What was typed, cell by cell.
+
+        Raises:
+            Unreadable: it cannot be understood.
+        """
+
+    @abstractmethod
+    def value(self, cells: Mapping[str, Any]) -> Any:
+        """The value that these cells make up: the inverse of ``cells``."""
+
+    @abstractmethod
+    def write(self, value: Any) -> str:
+        """The value as a person would type it."""
+
+    @abstractmethod
+    def data(self, value: Any) -> Any:
+        """The value as JSON has it; numbers are exact strings."""
+
+    @abstractmethod
+    def decimals(self, value: Any) -> Any:
+        """The same, with decimals; None where a parameter is open or there are no numbers."""
+
+    @abstractmethod
+    def mathematics(self, value: Any) -> Math:
+        """The value typeset."""
+
+    @abstractmethod
+    def how_to_type(self) -> str:
+        """An example of what to type."""
+
+    def samples(self, value: Any) -> Samples:
+        """Right, wrong and unreadable texts for the given right answer."""
+        right = self.write(value)
+        return Samples((right, f"  {right} "), tuple(self._wrong(value)), ("", "?!", "1 +", "x" * 3000))
+
+    def _wrong(self, value: Any) -> list[str]:
+        cells = self.cells(value)
+        return [self.write(self.value(cells | {cell: _spoilt(content)})) for cell, content in cells.items()]
+
+
+def text_of(value: Value) -> str:
+    """An exact number as it is typed and stored: ``7/2``, ``exp(-1/8)``, ``gamma/(1 - gamma)``."""
+    return str(to_sympy(value)).replace("**", "^")
+
+
+def _spoilt(content: Any) -> Any:
+    return content + content + 1 if not isinstance(content, str) else content
+
+
+class NumberAnswer(Answer[parts.Number]):
+    """One number or expression."""
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {"": value}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+        return {"": read_number(text, parameters)}
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        return cells[""]
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return text_of(value)
+
+    data = write
+
+    def decimals(self, value: Any) -> Any:  # noqa: D102
+        return decimal(value)
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        return typeset_value(value)
+
+    def how_to_type(self) -> str:  # noqa: D102
+        return "a number: 3/4, 0.75 or 2 + 1/2*3"
+
+
+class VectorAnswer(Answer[parts.Vector]):
+    """Numbers in a stated order."""
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {f"entry {index + 1}": number for index, number in enumerate(value)}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+        return dict(self.cells(read_vector(text, len(self.kind.entries), parameters)))
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        return tuple(cells.values())
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return ", ".join(map(text_of, value))
+
+    def data(self, value: Any) -> Any:  # noqa: D102
+        return [text_of(number) for number in value]
+
+    def decimals(self, value: Any) -> Any:  # noqa: D102
+        return [decimal(number) for number in value]
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        return _commas([row(mathematics(f"{entry} ="), typeset_value(number))
+                        for entry, number in zip(self.kind.entries, value, strict=True)])  # fmt: skip
+
+    def how_to_type(self) -> str:  # noqa: D102
+        return f"{len(self.kind.entries)} numbers in that order: 1, 3/4, 0.5 …"
+
+
+class MatrixAnswer(Answer[parts.Matrix]):
+    """A matrix, row by row."""
+
+    def _lines(self, value: Any) -> list[list[Any]]:
+        if isinstance(value, fmpq_mat):
+            return [list(line) for line in value.tolist()]
+        return [list(line) for line in value]
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {
+            f"row {row_ + 1}, column {column + 1}": entry
+            for row_, line in enumerate(self._lines(value))
+            for column, entry in enumerate(line)
+        }
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+        return dict(self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), parameters)))
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        entries = list(cells.values())
+        if all(isinstance(entry, fmpq) for entry in entries):
+            return fmpq_mat(self.kind.rows, self.kind.columns, entries)
+        width = self.kind.columns
+        return tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return f"[{'; '.join(', '.join(map(text_of, line)) for line in self._lines(value))}]"
+
+    def data(self, value: Any) -> Any:  # noqa: D102
+        return [[text_of(entry) for entry in line] for line in self._lines(value)]
+
+    def decimals(self, value: Any) -> Any:  # noqa: D102
+        return [[decimal(entry) for entry in line] for line in self._lines(value)]
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        lines = self._lines(value)
+        return typeset_value(lines[0][0]) if len(lines) == len(lines[0]) == 1 else grid(lines)
+
+    def how_to_type(self) -> str:  # noqa: D102
+        if self.kind.rows == self.kind.columns == 1:
+            return "a number: 3/4 or 0.75"
+        return f"{self.kind.rows} × {self.kind.columns}, rows parted by semicolons: [1, 2; 3, 4]"
+
+
+class TableAnswer(Answer[parts.Table]):
+    """A number for every state, or every state and action."""
+
+    def _name(self, key: parts.Key) -> str:
+        return key if isinstance(key, str) else ", ".join(key)
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {self._name(key): value[key] for key in self.kind.keys}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+        return dict(self.cells(read_table(text, self.kind.keys, parameters)))
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        return {key: cells[self._name(key)] for key in self.kind.keys}
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return ", ".join(
+            f"{key if isinstance(key, str) else f'({self._name(key)})'}: {text_of(value[key])}"
+            for key in self.kind.keys
+        )
+
+    def data(self, value: Any) -> Any:  # noqa: D102
+        return self._nested(value, text_of)
+
+    def decimals(self, value: Any) -> Any:  # noqa: D102
+        return self._nested(value, decimal)
+
+    def _nested(self, value: Any, write: Any) -> Any:
+        result: dict[str, Any] = {}
+        for key in self.kind.keys:
+            if isinstance(key, str):
+                result[key] = write(value[key])
+            else:
+                result.setdefault(key[0], {})[key[1]] = write(value[key])
+        return result
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        head = mathematics(self.kind.of)
+        written = []
+        for key in self.kind.keys:
+            names = [name(part) for part in ((key,) if isinstance(key, str) else key)]
+            inside = row(names[0], *(item for other in names[1:] for item in (punctuation(","), other)))
+            written.append(
+                row(
+                    head,
+                    punctuation("("),
+                    inside,
+                    punctuation(")"),
+                    mathematics("="),
+                    typeset_value(value[key]),
+                )
+            )
+        return _commas(written)
+
+    def how_to_type(self) -> str:  # noqa: D102
+        first = self.kind.keys[0]
+        return f"one value for each: {first if isinstance(first, str) else f'({self._name(first)})'}: 3/4, …"
+
+
+class PolicyAnswer(Answer[parts.Policy]):
+    """An action for every state; the value holds all best actions, and any of them is right."""
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {state: value[state] for state in self.kind.actions}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions))
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        return {
+            state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()
+        }
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return ", ".join(f"{state}: {value[state][0]}" for state in self.kind.actions)
+
+    def data(self, value: Any) -> Any:  # noqa: D102
+        return {
+            state: value[state][0] if len(value[state]) == 1 else list(value[state])
+            for state in self.kind.actions
+        }
+
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+        return None
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        return _commas(
+            [mathematics(f'π("{state}") = "{" or ".join(value[state])}"') for state in self.kind.actions]
+        )
+
+    def how_to_type(self) -> str:  # noqa: D102
+        state, actions = next(iter(self.kind.actions.items()))
+        return f"an action for each state: {state}: {actions[0]}, …"
+
+    def _wrong(self, value: Any) -> list[str]:
+        return [
+            self.write(value | {state: (other,)})
+            for state, actions in self.kind.actions.items()
+            for other in actions
+            if other not in value[state]
+        ]
+
+
+class ChoiceAnswer(Answer[parts.Choice]):
+    """One of several options."""
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {"": (value,)}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+        return {"": read_choice(text, tuple(self.kind.options))}
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        content = cells[""]
+        return content if isinstance(content, str) else content[0]
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return str(value)
+
+    data = write
+
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+        return None
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        return name(f"({value})")
+
+    def how_to_type(self) -> str:  # noqa: D102
+        return f"one of {joined(list(self.kind.options))}"
+
+    def _wrong(self, value: Any) -> list[str]:
+        return [option for option in self.kind.options if option != value]
+
+
+class YesNoAnswer(Answer[parts.YesNo]):
+    """Yes or no."""
+
+    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+        return {"": (self.write(value),)}
+
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+        return {"": self.write(read_yes_no(text))}
+
+    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+        content = cells[""]
+        return (content if isinstance(content, str) else content[0]) == "yes"
+
+    def write(self, value: Any) -> str:  # noqa: D102
+        return "yes" if value else "no"
+
+    data = write
+
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+        return None
+
+    def mathematics(self, value: Any) -> Math:  # noqa: D102
+        return name(self.write(value))
+
+    def how_to_type(self) -> str:  # noqa: D102
+        return "yes or no"
+
+    def _wrong(self, value: Any) -> list[str]:
+        return [self.write(not value)]
+
+
+def _commas(items: Sequence[Math]) -> Math:
+    return row(
+        *(
+            piece
+            for index, item in enumerate(items)
+            for piece in ((punctuation(","), item) if index else (item,))
+        )
+    )
+
+
+_KINDS: dict[type, type[Answer[Any]]] = {
+    parts.Number: NumberAnswer,
+    parts.Vector: VectorAnswer,
+    parts.Matrix: MatrixAnswer,
+    parts.Table: TableAnswer,
+    parts.Policy: PolicyAnswer,
+    parts.Choice: ChoiceAnswer,
+    parts.YesNo: YesNoAnswer,
+}
+
+
+def answer_kind(kind: parts.Kind) -> Answer[Any]:
+    """How answers of this kind are handled."""
+    return _KINDS[type(kind)](kind)
+
+
+__all__ = ["Answer", "Cell", "Samples", "Unreadable", "answer_kind", "text_of"]

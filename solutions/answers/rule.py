@@ -1,0 +1,95 @@
+"""The rule for judging a number: exact, or right to three significant digits; compared in exact arithmetic."""
+
+import math
+
+from flint import fmpq
+from sympy.polys.fields import FracElement
+
+from rldrill.solutions.exact import Value, enclosure, from_sympy, is_zero, parameters, sign, to_sympy
+
+#: The rule in words, printed beside every question.
+RULE = "an exact value, or a decimal that is right to 3 significant digits"
+DIGITS = 3
+_AT_ZERO = fmpq(1, 2000)
+_CLOSE = fmpq(1, 50)
+#: Where an expression in a parameter is compared with a rounded one; none is a special value of any formula.
+_POINTS = (fmpq(1, 7), fmpq(3, 11), fmpq(5, 13), fmpq(9, 17), fmpq(13, 19), fmpq(19, 23))
+
+
+def tolerance(value: Value) -> fmpq:
+    """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
+    if is_zero(value):
+        return _AT_ZERO
+    exponent = math.floor(math.log10(abs(float(enclosure(value).mid()))))
+    # The logarithm is a guess; the comparisons decide, exactly.
+    while sign(abs(value) - fmpq(10) ** (exponent + 1)) >= 0:
+        exponent += 1
+    while sign(abs(value) - fmpq(10) ** exponent) < 0:
+        exponent -= 1
+    return fmpq(10) ** (exponent - DIGITS + 1) / 2
+
+
+def within(value: Value, key: Value, bound: fmpq) -> bool:
+    """Whether |value − key| ≤ bound, the bound included."""
+    difference = value - key
+    return sign(bound - difference) >= 0 and sign(bound + difference) >= 0
+
+
+def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
+    """Whether a value is the key, exactly or to three significant digits.
+
+    Args:
+        value: what was answered.
+        key: the exact answer.
+        rounded: whether the answer was typed with decimals. An expression in a parameter that was not
+            must be equivalent; other numbers are held against the tolerance either way.
+    """
+    if not parameters(key) and not parameters(value):
+        return within(value, key, tolerance(key))
+    if equivalent(value, key):
+        return True
+    return rounded and all(_right_at(value, key, point) for point in _POINTS)
+
+
+def is_close(value: Value, key: Value) -> bool:
+    """Whether a value is within 2 % of the key."""
+    if parameters(key) or parameters(value) or is_zero(key):
+        return False
+    return within(value, key, abs(key) * _CLOSE)
+
+
+def apart(key: Value, other: Value) -> bool:
+    """Whether a marker can tell two answers from each other, even rounded to three digits."""
+    if parameters(key) or parameters(other):
+        return not equivalent(key, other)
+    return not within(other, key, tolerance(key) + tolerance(other))
+
+
+def equivalent(value: Value, key: Value) -> bool:
+    """Whether two expressions are the same function of the parameter: points first, then a proof."""
+    if isinstance(value, FracElement) and isinstance(key, FracElement):
+        return bool(value.numer * key.denom == key.numer * value.denom)
+    if isinstance(value, fmpq | FracElement) and isinstance(key, fmpq | FracElement):
+        return bool(value == key)
+    difference = value - key
+    for point in _POINTS:
+        try:
+            if sign(difference, point) != 0:
+                return False
+        except ValueError:
+            return False
+    return True
+
+
+def _right_at(value: Value, key: Value, point: fmpq) -> bool:
+    try:
+        here = at(key, point)
+        return within(at(value, point), here, tolerance(here))
+    except (ValueError, ZeroDivisionError):
+        return False
+
+
+def at(value: Value, point: fmpq) -> Value:
+    """The value with a number in place of the open parameter."""
+    expression = to_sympy(value)
+    return from_sympy(expression.subs(dict.fromkeys(expression.free_symbols, to_sympy(point))))

@@ -1,0 +1,36 @@
+"""Bayes' rule once for every measurement; each posterior is the next prior."""
+
+import numpy as np
+
+from rldrill.problems.bayes.bayes_rule import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bayes import BASE_RATE_IGNORED, BAYES, LIKELIHOOD_FOR_POSTERIOR, NOT_NORMALISED
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (NOT_NORMALISED, BASE_RATE_IGNORED, LIKELIHOOD_FOR_POSTERIOR)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The posterior of every hypothesis, measurement by measurement."""
+    likelihood = {
+        (reading, hypothesis): exact(chance)
+        for reading, chances in given.likelihood.items()
+        for hypothesis, chance in chances.items()
+    }
+    hypotheses = tuple(given.prior)
+    belief = knowns.values(given.prior)
+    for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
+        known = {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses}
+        belief = work.answer(part, {h: work.step(BAYES, h=h, **known) for h in hypotheses})
+
+
+def oracle(given: Given) -> Answers:
+    """The joint probability of hypothesis and all readings so far, one column normalised."""
+    joint = np.array([at(chance) for chance in given.prior.values()])
+    answers = {}
+    for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
+        joint = joint * [at(given.likelihood[reading][hypothesis]) for hypothesis in given.prior]
+        answers[part] = joint / joint.sum()
+    return answers

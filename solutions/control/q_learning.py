@@ -1,0 +1,41 @@
+"""Q-learning along a run: each update with the values then current."""
+
+from rldrill.problems.control.q_learning import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import FORGOT_GAMMA, MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
+
+#: The one action of a terminal state, worth nothing, so that the maximum over its actions is 0.
+_NONE = "none"
+
+
+def solve(given: Given, work: Work) -> None:
+    """One update for every transition."""
+    run = given.trajectory
+    known = knowns.trajectory(run) | {
+        "alpha": exact(given.alpha),
+        "gamma": exact(given.gamma),
+        "actions": {state: tuple(row) for state, row in given.values.items()} | dict.fromkeys(run.terminal, (_NONE,)),
+    }
+    known["A"].setdefault(len(run.rewards), _NONE)
+    values = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
+    values |= {(state, _NONE): ZERO for state in run.terminal}
+    for time in range(len(run.rewards)):
+        pair = run.states[time], run.actions[time]
+        values = values | {pair: work.step(Q_LEARNING, t=time, Q=values, **known)}
+    work.answer("a", {pair: values[pair] for pair in given.updated})
+
+
+def oracle(given: Given) -> Answers:
+    """The update as a weighted mean of old value and target, on nested dictionaries of floats."""
+    run = given.trajectory
+    table = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
+    for state, action, reward, after in zip(run.states, run.actions, run.rewards, run.states[1:], strict=False):
+        best = 0.0 if after in run.terminal else sorted(table[after].values())[-1]
+        target = at(reward) + at(given.gamma) * best
+        table[state][action] += at(given.alpha) * (target - table[state][action])
+    return {"a": [table[state][action] for state, action in given.updated]}

@@ -1,0 +1,114 @@
+"""Drawing a problem that is a good exam question, with its solution."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from flint import fmpq
+from sympy.polys.fields import FracElement
+
+from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.draws import Draws
+from rldrill.problems.errors import UsageError
+from rldrill.problems.family import Family, Problem
+from rldrill.problems.identity import MAX_SEED, Identity, split_id
+from rldrill.problems.parts import Part
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.rule import apart
+from rldrill.solutions.exact import NoSolution, is_zero, parameters
+from rldrill.solutions.solution import Solution, solve
+
+ATTEMPTS = 2000
+#: The most digits, above and below the line together, that an answer may have at each level.
+HUMANE_DIGITS = {1: 5, 2: 8, 3: 11}
+
+
+def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
+    """Draw a problem and solve it; the same arguments give the same problem, to the letter.
+
+    Raises:
+        UsageError: there is no such family or level, or the seed is out of range.
+    """
+    if isinstance(family, str):
+        family = family_of(family)
+    if level not in family.levels:
+        raise UsageError(f"{family.name} has no level {level}; it has {', '.join(map(str, family.levels))}.")
+    if not 0 <= seed < MAX_SEED:
+        raise UsageError(f"The seed {seed} is out of range; take a whole number from 0 to {MAX_SEED - 1}.")
+    identity = Identity(family.name, level, seed, family.revision)
+    for attempt in range(ATTEMPTS):
+        given = family.draw(level, Draws(f"{identity}#{attempt}"))
+        try:
+            solution = solve(Problem(family, given, identity))
+        except NoSolution:
+            continue
+        if next(flaws(solution), None) is None:
+            return solution
+    raise RuntimeError(f"{identity}: no acceptable problem in {ATTEMPTS} attempts")
+
+
+def by_id(text: str) -> Solution:
+    """The problem with that ID, and its solution.
+
+    Raises:
+        UsageError: it is not an ID, or of a family or revision that does not exist.
+    """
+    name, level, seed, revision = split_id(text)
+    family = family_of(name)
+    if revision is not None and revision != family.revision:
+        raise UsageError(
+            f"{text} is of revision {revision}, but {name} is at revision {family.revision} in this release "
+            f"and draws other problems; install the release that printed it, or leave out '@{revision}'."
+        )
+    return draw(family, level, seed)
+
+
+def flaws(solution: Solution) -> Iterator[str]:
+    """What keeps a problem from being a good exam question, cheapest check first."""
+    level = solution.problem.level or max(HUMANE_DIGITS)
+    for part in solution.problem.parts:
+        answer = solution.answers[part.label]
+        cells = answer_kind(part.kind).cells(answer)
+        numbers = [content for content in cells.values() if not isinstance(content, tuple)]
+        if any(digits(number) > HUMANE_DIGITS[level] for number in numbers):
+            yield f"({part.label}) has more digits than a person can handle"
+        if numbers and solution.problem.parameters and not any(map(parameters, numbers)):
+            yield f"({part.label}) does not depend on what is left open"
+        if numbers and not part.zero and all(map(is_zero, numbers)):
+            yield f"({part.label}) is zero"
+        if not part.ties and any(isinstance(content, tuple) and len(content) > 1 for content in cells.values()):
+            yield f"({part.label}) has tied best actions"
+    for misconception in solution.applicable:
+        answers = solution.answers_with(misconception)
+        if answers is None:
+            yield f"{misconception.name} leads to no answer"
+        elif not distinguishable(solution, answers):
+            yield f"{misconception.name} gives the right answer"
+
+
+def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:
+    """Whether a marker can tell these answers from the right ones, in one part at least."""
+    return any(_differ(part, solution.answers[part.label], answers[part.label])
+               for part in solution.problem.parts if part.label in answers)  # fmt: skip
+
+
+def _differ(part: Part, key: Any, other: Any) -> bool:
+    kind = answer_kind(part.kind)
+    right, wrong = kind.cells(key), kind.cells(other)
+    for name, content in right.items():
+        if isinstance(content, tuple):
+            if not set(content) & set(wrong[name]):
+                return True
+        elif apart(content, wrong[name]):
+            return True
+    return False
+
+
+def digits(value: Any) -> int:
+    """How many digits a person must write for a number; closed forms count what stands in them."""
+    if isinstance(value, fmpq):
+        below = int(value.denominator)
+        return len(str(abs(int(value.numerator)))) + (len(str(below)) if below != 1 else 0)
+    if isinstance(value, FracElement):
+        coefficients = [*value.numer.coeffs(), *value.denom.coeffs()]
+        return max(digits(fmpq(coefficient)) for coefficient in coefficients) + len(coefficients)
+    return max((digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0)

@@ -1,0 +1,65 @@
+"""Synchronous sweeps of value iteration, then the greedy actions."""
+
+import numpy as np
+
+from rldrill.problems.dynamic_programming.value_iteration import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.oracle import Answers, at, lookahead, tensors
+from rldrill.solutions.sheet.dynamic_programming import FORGOT_GAMMA, GREEDY_FROM_V, MEAN_FOR_MAX, VALUE_ITERATION
+from rldrill.solutions.work import Work
+
+
+def _pays_at_the_end(given: Given) -> bool:
+    return any(row.next in given.mdp.terminal and row.reward for row in given.mdp.transitions)
+
+
+IN_PLACE = slip(
+    "in-place",
+    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
+)
+TERMINAL_TWICE = slip(
+    "terminal-reward-twice",
+    "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
+    when=_pays_at_the_end,
+)
+MISCONCEPTIONS = (MEAN_FOR_MAX, FORGOT_GAMMA, IN_PLACE, TERMINAL_TWICE)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Each sweep from the values of the one before."""
+    mdp = given.mdp
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    ends = dict.fromkeys(mdp.terminal, ZERO)
+    if work.makes(TERMINAL_TWICE):
+        ends |= {row.next: exact(row.reward) for row in mdp.transitions if row.next in ends}
+    values = dict.fromkeys(mdp.states, ZERO) if given.start is None else knowns.values(given.start)
+    values |= ends
+    for sweep in range(1, given.sweeps + 1):
+        work.say(f"Sweep {sweep}:")
+        old = values
+        values = dict(ends)
+        for state in mdp.states:
+            current = old | values if work.makes(IN_PLACE) else old
+            values[state] = work.step(VALUE_ITERATION, s=state, V=current, into=numbered(V, sweep), **known)
+    values = ends | work.answer("a", {state: values[state] for state in mdp.states})
+    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states})
+
+
+def oracle(given: Given) -> Answers:
+    """The same sweeps as array operations; the greedy action by trying all."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    P, R = tensors(given.mdp, states)
+    V = np.array([at((given.start or {}).get(state, 0)) for state in states])
+    n = len(given.mdp.states)
+    for _ in range(given.sweeps):
+        V = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:] * 0])
+    worth = lookahead(P, R, V, at(given.gamma))[:n]
+    names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+    best = {
+        state: {names[j] for j in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
+        for state, row in zip(given.mdp.states, worth, strict=True)
+    }
+    return {"a": V[:n], "b": best}

@@ -1,0 +1,209 @@
+"""Exact values: rationals, rational functions of one open parameter, and sympy's closed forms."""
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import cache
+from typing import Any, TypeAlias
+
+import sympy
+from flint import arb, ctx, fmpq
+from sympy import QQ
+from sympy.polys.fields import FracElement
+
+from rldrill.problems.exact import PARAMETERS, Parameter, Scalar
+
+#: ``fmpq`` where it is rational, ``FracElement`` where a parameter is open, else a sympy expression.
+Value: TypeAlias = Any
+
+
+
+class NoSolution(ArithmeticError):
+    """The values given have no answer: a singular matrix, a system without a solution."""
+
+
+ZERO = fmpq(0)
+ONE = fmpq(1)
+
+
+@cache
+def symbol(parameter: str) -> sympy.Symbol:
+    """The sympy symbol of an open parameter, by its name in files (``gamma``)."""
+    return sympy.Symbol(parameter, positive=True)
+
+
+@cache
+def generator(parameter: str) -> FracElement:
+    """The open parameter as an element of the field of rational functions in it."""
+    return QQ.frac_field(symbol(parameter)).gens[0]
+
+
+def exact(number: Scalar | int) -> Value:
+    """A given's number as a value to compute with."""
+    if isinstance(number, Parameter):
+        open_ = generator(number.symbol)
+        return 1 - open_ if number.complement else open_
+    if isinstance(number, int):
+        return fmpq(number)
+    return fmpq(number.numerator, number.denominator)
+
+
+def to_sympy(value: Value) -> sympy.Expr:
+    """Any exact value as a sympy expression."""
+    if isinstance(value, fmpq):
+        return sympy.Rational(int(value.numerator), int(value.denominator))
+    if isinstance(value, FracElement):
+        return value.as_expr()
+    return sympy.sympify(value) if isinstance(value, int) else value
+
+
+def ordered(expression: sympy.Expr) -> sympy.Expr:
+    """A computed sum with its terms as one writes them by hand: the constant, then rising powers."""
+    if not expression.is_Add:
+        return expression
+    return sympy.Add(*sorted(expression.args, key=_rank), evaluate=False)
+
+
+def _rank(term: sympy.Expr) -> tuple[int, object]:
+    free = term.free_symbols
+    degree = sympy.total_degree(term) if term.is_polynomial(*free) else 99
+    return int(degree), sympy.default_sort_key(term)
+
+
+def from_sympy(expression: sympy.Expr) -> Value:
+    """A sympy expression as the simplest kind of exact value that holds it."""
+    if expression.is_Rational:
+        return fmpq(int(expression.p), int(expression.q))
+    free = expression.free_symbols
+    if len(free) == 1:
+        (only,) = free
+        if only.name in PARAMETERS and expression.is_rational_function(only):
+            return QQ.frac_field(only).from_expr(expression)
+    return expression
+
+
+def simplest(value: Value) -> Value:
+    """The same value, as a plain rational where no parameter is left in it."""
+    if isinstance(value, FracElement):
+        expression = value.as_expr()
+        return fmpq(int(expression.p), int(expression.q)) if expression.is_Rational else value
+    if isinstance(value, int):
+        return fmpq(value)
+    if isinstance(value, Fraction):
+        return fmpq(value.numerator, value.denominator)
+    if isinstance(value, sympy.Expr) and value.is_Rational:
+        return from_sympy(value)
+    return value
+
+
+def parameters(value: Value) -> frozenset[str]:
+    """The names of the parameters that are left open in a value."""
+    if isinstance(value, fmpq):
+        return frozenset()
+    return frozenset(free.name for free in to_sympy(value).free_symbols)
+
+
+def is_zero(value: Value) -> bool:
+    """Whether the value is exactly zero."""
+    return sign(value) == 0 if isinstance(value, sympy.Expr) and not value.free_symbols else value == 0
+
+
+_ARB_FUNCTIONS = {sympy.exp: arb.exp, sympy.log: arb.log, sympy.sin: arb.sin, sympy.cos: arb.cos,
+                  sympy.tan: arb.tan, sympy.atan: arb.atan, sympy.Abs: abs}  # fmt: skip
+
+
+def enclosure(value: Value, at: fmpq | None = None) -> arb:
+    """A ball that is certain to hold the value, at the working precision of ``flint.ctx``.
+
+    Args:
+        value: an exact value.
+        at: what to put in for the open parameter.
+
+    Raises:
+        ValueError: the expression holds something that has no real value.
+    """
+    if isinstance(value, fmpq):
+        return arb(value)
+    return _ball(to_sympy(value), at)
+
+
+def _ball(expression: sympy.Expr, at: fmpq | None) -> arb:
+    if expression.is_Rational:
+        return arb(fmpq(int(expression.p), int(expression.q)))
+    if expression.is_Symbol:
+        if at is None:
+            raise ValueError(f"{expression} is left open")
+        return arb(at)
+    if expression is sympy.E:
+        return arb(1).exp()
+    if expression is sympy.pi:
+        return arb.pi()
+    balls = [_ball(argument, at) for argument in expression.args]
+    if expression.is_Add:
+        return sum(balls[1:], balls[0])
+    if expression.is_Mul:
+        product = arb(1)
+        for ball in balls:
+            product *= ball
+        return product
+    if expression.is_Pow:
+        exponent = expression.args[1]
+        if exponent.is_Integer:
+            return balls[0] ** int(exponent)
+        return balls[0].sqrt() if exponent == sympy.S.Half else balls[0] ** balls[1]
+    if expression.func in _ARB_FUNCTIONS:
+        return _ARB_FUNCTIONS[expression.func](balls[0])
+    if isinstance(expression, sympy.Max):
+        largest = balls[0]
+        for ball in balls[1:]:
+            largest = largest.max(ball)
+        return largest
+    raise ValueError(f"{expression.func.__name__} has no real value here")
+
+
+def sign(value: Value, at: fmpq | None = None) -> int:
+    """−1, 0 or 1: the exact sign of a real value.
+
+    Raises:
+        ValueError: the value is not a real number.
+    """
+    if isinstance(value, fmpq):
+        return (value > 0) - (value < 0)
+    before = ctx.prec
+    try:
+        for precision in (64, 256, 1024):
+            ctx.prec = precision
+            ball = enclosure(value, at)
+            if not ball.is_finite():
+                continue
+            if ball > 0:
+                return 1
+            if ball < 0:
+                return -1
+    finally:
+        ctx.prec = before
+    expression = to_sympy(value) if at is None else to_sympy(value).subs(
+        {free: to_sympy(at) for free in to_sympy(value).free_symbols}
+    )  # fmt: skip
+    if expression.equals(0):
+        return 0
+    raise ValueError(f"{expression} is not a real number that can be told from zero")
+
+
+def largest(values: Iterable[Value]) -> Value:
+    """The greatest of some real values."""
+    best, *rest = values
+    for value in rest:
+        try:
+            if sign(value - best) > 0:
+                best = value
+        except ValueError:
+            raise NoSolution("which is the greatest depends on what is left open") from None
+    return best
+
+
+def decimal(value: Value, digits: int = 6) -> str | None:
+    """The value as a decimal of at most ``digits`` significant digits; None while a parameter is open."""
+    if parameters(value):
+        return None
+    number = float(to_sympy(value).evalf(digits + 10))
+    return f"{number:.{digits}g}"

@@ -1,0 +1,153 @@
+"""The exact reading of a formula: compiled once into a Python function over exact values."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from typing import Any
+
+import sympy
+from flint import fmpq, fmpq_mat
+from sympy import Expr
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign
+from rldrill.solutions.formula.notation import Counting, MaxOver, MeanOver, Over, Quantity, SumOver
+
+
+class _Code(StrPrinter):
+    """Prints a formula as Python; every quantity is a lookup in what it is bound to."""
+
+    def __init__(self) -> None:
+        super().__init__({"order": "none"})
+
+    def _print_Symbol(self, expression: Any) -> str:
+        return str(expression.name)
+
+    def _print_Integer(self, expression: Any) -> str:
+        return str(expression.p)
+
+    def _print_Rational(self, expression: Any) -> str:
+        return f"Rational({expression.p}, {expression.q})"
+
+    def _print_Add(self, expression: Any, order: Any = None) -> str:  # noqa: ARG002
+        return " + ".join(self.parenthesize(term, PRECEDENCE["Add"]) for term in expression.args)
+
+    def _print_Mul(self, expression: Any) -> str:
+        return "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args)
+
+    def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
+        base, exponent = expression.args
+        if exponent == -1:
+            return f"inverse({self._print(base)})"
+        return f"(({self._print(base)})**({self._print(exponent)}))"
+
+    def _print_Quantity(self, expression: Any) -> str:
+        return f"{expression.code}[{', '.join(map(self._print, expression.args))}]"
+
+    _print_Function = _print_Quantity
+
+    def _print_exp(self, expression: Any) -> str:
+        return f"exp({self._print(expression.args[0])})"
+
+    def _print_log(self, expression: Any) -> str:
+        return f"log({self._print(expression.args[0])})"
+
+    def _over(self, expression: Over) -> str:
+        return f"[{self._print(expression.body)} for {expression.index} in {self._print(expression.domain)}]"
+
+    def _print_SumOver(self, expression: Over) -> str:
+        return f"total({self._over(expression)})"
+
+    def _print_MaxOver(self, expression: Over) -> str:
+        return f"largest({self._over(expression)})"
+
+    def _print_MeanOver(self, expression: Over) -> str:
+        return f"mean({self._over(expression)})"
+
+    def _print_ArgMaxOver(self, expression: Over) -> str:
+        keys = self._print(expression.domain)
+        return f"arg_max({keys}, {self._over(expression)})"
+
+    def _print_Counting(self, expression: Counting) -> str:
+        first, last, _ = expression.args
+        return f"range({self._print(first)}, {self._print(last)} + 1)"
+
+    def _print_Indicator(self, expression: Any) -> str:
+        left, right = map(self._print, expression.args)
+        return f"(1 if {left} == {right} else 0)"
+
+    def _print_Transposed(self, expression: Any) -> str:
+        return f"({self._print(expression.args[0])}).transpose()"
+
+
+def _total(values: Sequence[Value]) -> Value:
+    return sum(values, ZERO)
+
+
+def _mean(values: Sequence[Value]) -> Value:
+    return sum(values, ZERO) / len(values)
+
+
+def _inverse(value: Value) -> Value:
+    try:
+        return value.inv() if isinstance(value, fmpq_mat) else ONE / value
+    except ZeroDivisionError:
+        raise NoSolution("it would divide by zero, or invert a singular matrix") from None
+
+
+def _exp(value: Value) -> Value:
+    return sympy.exp(sympy.sympify(value))
+
+
+def _log(value: Value) -> Value:
+    return sympy.log(sympy.sympify(value))
+
+
+def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
+    """All keys whose value is the greatest, in their order."""
+    best = largest(values)
+    return tuple(key for key, value in zip(keys, values, strict=True) if sign(best - value) == 0)
+
+
+_NAMES = {
+    "total": _total,
+    "mean": _mean,
+    "largest": largest,
+    "arg_max": arg_max,
+    "inverse": _inverse,
+    "exp": _exp,
+    "log": _log,
+    "Rational": fmpq,
+    "range": range,
+}
+
+
+@cache
+def needs(expression: Expr) -> tuple[str, ...]:
+    """The names that values must be given for, sorted."""
+    codes = {node.code for node in sympy.preorder_traversal(expression) if isinstance(node, Quantity)}
+    return tuple(sorted(codes | {symbol.name for symbol in expression.free_symbols}))
+
+
+@cache
+def compiled(expression: Expr) -> Callable[..., Value]:
+    """The expression as a Python function of the names that it needs, in their order.
+
+    The text that is compiled is printed from a formula of this project; nothing that a person types gets here.
+    """
+    source = f"lambda {', '.join(needs(expression))}: {_Code().doprint(expression)}"
+    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))  # type: ignore[no-any-return]
+
+
+def evaluate(expression: Expr, known: Mapping[str, Any]) -> Value:
+    """The exact value of an expression.
+
+    Raises:
+        TypeError: a value is missing.
+        NoSolution: it has no value.
+    """
+    try:
+        values = [known[name] for name in needs(expression)]
+    except KeyError as error:
+        raise TypeError(f"no value is given for {error.args[0]!r}, which the formula needs") from None
+    return compiled(expression)(*values)

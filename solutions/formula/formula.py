@@ -1,0 +1,94 @@
+"""A formula of the sheet, and the mistakes that are made with it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Expr
+
+from rldrill.problems.document import Equation
+from rldrill.solutions.exact import Value
+from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.typesetting import typeset
+
+
+@dataclass(frozen=True, eq=False)
+class Formula:
+    """One formula, stated once.
+
+    Args:
+        key: its name on the sheet, ``td-zero``.
+        left: what it gives.
+        right: how, as a sympy expression in textbook order.
+        title: what the sheet calls it.
+        source: book and equation.
+        hint: one sentence for somebody who is stuck.
+        sign: ``=``, or ``←`` where it is an update.
+        also: further right sides that the sheet prints before the one that is computed with.
+        note: what the sheet adds in words.
+    """
+
+    key: str
+    left: Expr
+    right: Expr
+    title: str
+    source: str
+    hint: str
+    sign: str = "="
+    also: tuple[Expr, ...] = ()
+    note: str = ""
+
+    def __repr__(self) -> str:
+        return f"<formula {self.key}>"
+
+    def equation(self, right: Expr | None = None) -> Equation:
+        """The formula typeset, or with another right side: how a mistake reads it."""
+        sides = (*self.also, self.right) if right is None else (right,)
+        return Equation(
+            typeset(self.left), tuple(map(typeset, sides)), (self.sign, *["="] * (len(sides) - 1)), self.key
+        )
+
+    def value(self, known: Mapping[str, Any]) -> Value:
+        """The exact value for known quantities."""
+        return evaluate(self.right, known)
+
+
+@dataclass(frozen=True, eq=False)
+class Misconception:
+    """A typical mistake.
+
+    Either a formula read with one term changed (``formula`` and ``reads``), or a slip in the procedure:
+    then both are None, and the solver asks ``work.makes(SLIP)`` where the procedure forks.
+
+    Args:
+        name: a short name, ``forgot-gamma``.
+        says: one sentence to the person who made it: what is right instead.
+        formula: the formula that is misread.
+        reads: the right side that the mistake puts in its place.
+        when: for which givens the mistake can be made at all; always, if None.
+    """
+
+    name: str
+    says: str
+    formula: Formula | None = None
+    reads: Expr | None = None
+    when: Callable[[Any], bool] | None = None
+
+    def __repr__(self) -> str:
+        return f"<misconception {self.name}>"
+
+    def applies(self, given: object) -> bool:
+        """Whether the mistake can be made in this problem."""
+        return self.when is None or self.when(given)
+
+
+def misread(
+    formula: Formula, name: str, reads: Expr, says: str, when: Callable[[Any], bool] | None = None
+) -> Misconception:
+    """The mistake of reading a formula with one term changed."""
+    return Misconception(name, says, formula, reads, when)
+
+
+def slip(name: str, says: str, when: Callable[[Any], bool] | None = None) -> Misconception:
+    """The mistake of going about it the wrong way; solvers ask ``work.makes`` for it."""
+    return Misconception(name, says, when=when)

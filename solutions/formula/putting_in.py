@@ -1,0 +1,187 @@
+"""The reading of a formula as a step: the givens put in, nothing evaluated, the textbook's order kept."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy
+from flint import fmpq_mat
+from sympy import Add, Expr, Mul, Pow
+
+from rldrill.solutions.exact import ordered, to_sympy
+from rldrill.solutions.formula.compiling import evaluate, needs
+from rldrill.solutions.formula.notation import (
+    ArgMaxOver,
+    Indicator,
+    MatrixLeaf,
+    MaxOf,
+    MaxOver,
+    MeanOver,
+    Negative,
+    Over,
+    Quantity,
+    SumOver,
+    Transposed,
+    label,
+)
+
+Known = Mapping[str, Any]
+
+
+def put_in(expression: Expr, known: Known) -> Expr:
+    """Put the known values into an expression, unevaluated.
+
+    Sums and maxima are written out over their sets; terms that are zero are dropped. What is not known
+    (the unknowns of a system) stays a quantity, with its indices put in.
+    """
+    if isinstance(expression, Quantity):
+        return _quantity(expression, known)
+    if isinstance(expression, Over):
+        return _over(expression, known)
+    if isinstance(expression, Indicator):
+        return sympy.Integer(evaluate(expression, known))
+    if expression.is_Symbol:
+        return leaf(known[expression.name]) if expression.name in known else expression
+    if not expression.args:
+        return expression
+    arguments = [put_in(argument, known) for argument in expression.args]
+    if expression.is_Add:
+        return _sum(arguments)
+    if expression.is_Mul:
+        return _product(arguments)
+    if isinstance(expression, Transposed) and getattr(arguments[0], "scalar", False):
+        return arguments[0]
+    if expression.is_Pow:
+        # An exponent counts steps; it is not part of the working.
+        return _power(arguments[0], evaluated(arguments[1]))
+    return expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
+
+
+def indexed(expression: Expr, known: Known) -> Expr:
+    """Put in the indices only: ``V(s_t)`` becomes ``V(cool)``."""
+    if isinstance(expression, Quantity):
+        return expression.func(*[_index(argument, known) for argument in expression.args])
+    return expression
+
+
+def leaf(value: Any) -> Expr:
+    """An exact value, a matrix or a name as a leaf of an expression."""
+    if isinstance(value, str):
+        return label(value)
+    if isinstance(value, fmpq_mat):
+        return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
+    return computed(ordered(to_sympy(value)))
+
+
+def computed(value: Any) -> Expr:
+    """A number or matrix that sympy computed, as a leaf."""
+    if isinstance(value, sympy.MatrixBase):
+        return MatrixLeaf(value)
+    return Negative(value) if value.is_Number and value.is_negative else value
+
+
+def _index(expression: Expr, known: Known) -> Expr:
+    if all(name in known for name in needs(expression)):
+        try:
+            return label(evaluate(expression, known))
+        except (KeyError, IndexError):
+            return expression
+    return expression
+
+
+def _quantity(expression: Quantity, known: Known) -> Expr:
+    if expression.code in known:
+        try:
+            return leaf(evaluate(expression, known))
+        except KeyError:  # an unknown of a system, among values that are fixed
+            pass
+    return indexed(expression, known)
+
+
+def _over(expression: Over, known: Known) -> Expr:
+    items = list(evaluate(expression.domain, known))
+    terms = [put_in(expression.body, {**known, expression.index.name: item}) for item in items]
+    if isinstance(expression, SumOver):
+        return _sum(terms)
+    if isinstance(expression, MaxOver):
+        return MaxOf(*terms)
+    if isinstance(expression, MeanOver):
+        return _product([_sum(terms), Pow(sympy.Integer(len(terms)), -1, evaluate=False)])
+    if isinstance(expression, ArgMaxOver):
+        return ArgMaxOver(MaxOf(*terms), expression.index, expression.domain)
+    raise TypeError(f"{expression.func.__name__} cannot be written out")
+
+
+def _flat(kind: type[Expr], arguments: list[Expr]) -> list[Expr]:
+    return [part for argument in arguments for part in (argument.args if argument.func is kind else [argument])]
+
+
+def _sum(terms: list[Expr]) -> Expr:
+    kept = [term for term in _flat(Add, terms) if not term.is_zero]
+    if not kept:
+        return sympy.S.Zero
+    return kept[0] if len(kept) == 1 else Add(*kept, evaluate=False)
+
+
+def _product(factors: list[Expr]) -> Expr:
+    flat = _flat(Mul, factors)
+    if any(factor.is_Number and factor.is_zero for factor in flat):
+        return sympy.S.Zero
+    kept = [factor for factor in flat if factor != 1]
+    if not kept:
+        return sympy.S.One
+    return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
+
+
+def _power(base: Expr, exponent: Expr) -> Expr:
+    if exponent == 1:
+        return base
+    if exponent == 0:
+        return sympy.S.One
+    return Pow(base, exponent, evaluate=False)
+
+
+def evaluated(expression: Expr) -> Expr:
+    """The value of a step without unknowns, as sympy computes it."""
+    if isinstance(expression, MaxOf):
+        return sympy.Max(*map(evaluated, expression.args))
+    if isinstance(expression, MatrixLeaf | Negative):
+        return expression.args[0]
+    if not expression.args or expression.is_Symbol:
+        return expression
+    arguments = [evaluated(argument) for argument in expression.args]
+    if expression.is_Mul:
+        product = arguments[0]
+        for factor in arguments[1:]:
+            product = product * factor
+        return product
+    if expression.is_Add:
+        total = arguments[0]
+        for term in arguments[1:]:
+            total = total + term
+        return total
+    if expression.is_Pow:
+        return arguments[0] ** arguments[1]
+    return arguments[0].T if isinstance(expression, Transposed) else expression.func(*arguments)
+
+
+def reduced(expression: Expr) -> Expr:
+    """The step with its inner brackets worked out: what one writes between putting in and the result."""
+    if isinstance(expression, MaxOf):
+        return MaxOf(*[_worked_out(argument) for argument in expression.args])
+    if isinstance(expression, ArgMaxOver):
+        return ArgMaxOver(reduced(expression.body), expression.index, expression.domain)
+    if expression.is_Add:
+        return Add(*[_inner(term) for term in expression.args], evaluate=False)
+    return _inner(expression)
+
+
+def _inner(term: Expr) -> Expr:
+    if term.is_Mul:
+        return Mul(*[_inner(factor) for factor in term.args], evaluate=False)
+    if term.is_Pow and term.args[1] == -1:
+        return Pow(_worked_out(term.args[0]), -1, evaluate=False)
+    return _worked_out(term) if term.is_Add or isinstance(term, MaxOf) else term
+
+
+def _worked_out(expression: Expr) -> Expr:
+    return computed(evaluated(expression))

@@ -1,0 +1,275 @@
+"""The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import sympy
+from sympy import Expr
+
+from rldrill.problems.exact import PARAMETERS
+from rldrill.problems.mathematics import (
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Grid,
+    Math,
+    Root,
+    Script,
+    listed,
+    name,
+    number,
+    operator,
+    relation,
+    row,
+    variable,
+    word,
+)
+from rldrill.solutions.exact import Value, ordered, to_sympy
+from rldrill.solutions.formula.notation import (
+    GLYPHS,
+    ArgMaxOver,
+    Counting,
+    Indicator,
+    Label,
+    MatrixLeaf,
+    MaxOf,
+    MaxOver,
+    MeanOver,
+    Negative,
+    Over,
+    Quantity,
+    SumOver,
+    Transposed,
+)
+
+_MINUS = operator("−")
+_PLUS = operator("+")
+_TIMES = operator("·")
+
+
+def typeset(expression: Expr) -> Math:
+    """An expression as mathematics."""
+    if isinstance(expression, Quantity):
+        return expression.layout(*map(typeset, expression.args))
+    if isinstance(expression, Label):
+        return name(expression.name)
+    if expression.is_Symbol:
+        return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
+    if expression.is_Rational:
+        return number(expression)
+    if expression.is_Add:
+        return _sum(expression.args)
+    if expression.is_Mul:
+        return _product(expression.args)
+    if expression.is_Pow:
+        return _power(*expression.args)
+    for kind, writer in _WRITERS.items():
+        if isinstance(expression, kind):
+            return writer(expression)
+    if expression is sympy.E:
+        return variable("e")
+    if expression is sympy.pi:
+        return variable("π")
+    if expression.is_Function:
+        return row(word(expression.func.__name__), Fence(listed(map(typeset, expression.args))))
+    raise TypeError(f"{expression.func.__name__} has no typesetting")
+
+
+def typeset_value(value: Value) -> Math:
+    """A computed value as mathematics: sympy's own order, since it is a result and not a formula."""
+    expression = ordered(to_sympy(value))
+    if expression.is_Add:
+        return _sum(expression.args)
+    numerator, denominator = sympy.fraction(expression)
+    if denominator != 1 and not expression.is_Rational:
+        if _negative(first_term(denominator)):  # (9 − 3p)/(1 − p), not (−9 + 3p)/(−1 + p)
+            numerator, denominator = sympy.expand(-numerator), sympy.expand(-denominator)
+        minus = _negative(first_term(numerator)) and not numerator.is_Add
+        quotient = Fraction(typeset_value(-numerator if minus else numerator), typeset_value(denominator))
+        return row(_MINUS, quotient) if minus else quotient
+    return typeset(expression)
+
+
+def first_term(expression: Expr) -> Expr:
+    """The term that is written first."""
+    written = ordered(expression)
+    return written.args[0] if written.is_Add else written
+
+
+def _negative(term: Expr) -> bool:
+    """Whether a term is subtracted: −1 times something, or a number below zero."""
+    first = term.args[0] if term.is_Mul else term
+    return bool(first.is_Number and first.is_negative)
+
+
+def _opposite(term: Expr) -> Expr:
+    if term.is_Number:
+        return -term
+    first, *rest = term.args
+    factors = rest if first == -1 else [-first, *rest]
+    return factors[0] if len(factors) == 1 else sympy.Mul(*factors, evaluate=False)
+
+
+def _sum(terms: Sequence[Expr]) -> Math:
+    items: list[Math] = []
+    flat = [part for term in terms for part in (term.args if term.is_Add else [term])]
+    for position, term in enumerate(flat):
+        if _negative(term):
+            items += [_MINUS, _addend(_opposite(term))]
+        else:
+            items += [_PLUS, _addend(term)] if position else [_addend(term)]
+    return row(*items)
+
+
+def _addend(term: Expr) -> Math:
+    return Fence(typeset(term)) if term.is_Add or _negative(term) else typeset(term)
+
+
+def _product(factors: Sequence[Expr]) -> Math:
+    flat = [part for factor in factors for part in (factor.args if factor.is_Mul else [factor])]
+    if flat[0] == -1 and len(flat) > 1:
+        return row(_MINUS, _product(flat[1:]))
+    below = [factor.args[0] for factor in flat if _reciprocal(factor)]
+    if below and all(factor.is_commutative is not False for factor in flat):
+        above = [factor for factor in flat if not _reciprocal(factor)]
+        numerator = _product(above) if len(above) > 1 else typeset(above[0]) if above else number(1)
+        return Fraction(numerator, _product(below) if len(below) > 1 else typeset(below[0]))
+    items: list[Math] = []
+    for position, factor in enumerate(flat):
+        written = _factor(factor, last=position == len(flat) - 1)
+        if position and _needs_dot(flat[position - 1], factor):
+            items.append(_TIMES)
+        items.append(written)
+    return row(*items)
+
+
+def _reciprocal(factor: Expr) -> bool:
+    return bool(factor.is_Pow and factor.args[1] == -1 and factor.is_commutative is not False)
+
+
+def _numeric(factor: Expr) -> bool:
+    base = factor.args[0] if factor.is_Pow else factor
+    return bool(base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar))
+
+
+def _is_grid(factor: Expr) -> bool:
+    base = factor.args[0] if factor.is_Pow or isinstance(factor, Transposed) else factor
+    return isinstance(base, MatrixLeaf) and not base.scalar
+
+
+def _needs_dot(before: Expr, factor: Expr) -> bool:
+    """Numbers are kept apart by a dot; letters stand side by side, as the sheet prints them."""
+    if _is_grid(before) or _is_grid(factor):
+        return False
+    if before.is_Rational and not before.is_Integer:
+        return True  # or the letter would seem to stand below the line
+    plain = bool(before.is_Symbol or isinstance(before, Quantity))
+    if _numeric(factor):
+        return True
+    if _numeric(before):
+        letter = factor.args[0] if factor.is_Pow else factor
+        return not (letter.is_Symbol or isinstance(letter, Quantity))
+    return not plain and factor.is_Add and before.is_Add
+
+
+def _factor(factor: Expr, *, last: bool) -> Math:
+    if factor.is_Add or (factor.is_Number and factor.is_negative):
+        return Fence(typeset(factor))
+    if isinstance(factor, SumOver | MaxOver) and not last:
+        return Fence(typeset(factor))
+    return typeset(factor)
+
+
+def _power(base: Expr, exponent: Expr) -> Math:
+    if exponent == sympy.S.Half:
+        return Root(typeset(base))
+    if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
+        rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
+        return Fraction(number(1), typeset(rest))
+    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf) or (base.is_Integer and base >= 0)
+    return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
+
+
+def _limits(expression: Over) -> tuple[Math, Math | None]:
+    if isinstance(expression.domain, Counting):
+        first, _, shown = expression.domain.args
+        return row(typeset(expression.index), relation("="), typeset(first)), typeset(shown)
+    return typeset(expression.index), None
+
+
+def _body(expression: Expr) -> Math:
+    return Fence(typeset(expression)) if expression.is_Add else typeset(expression)
+
+
+def _over(expression: Over) -> Math:
+    signs = {SumOver: "Σ", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
+    body = expression.body
+    if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
+        return row(Big("arg max", typeset(expression.index)), _braces(body.args))
+    below, above = _limits(expression)
+    return row(Big(signs[expression.func], below, above), _body(body))
+
+
+def _braces(values: Sequence[Expr]) -> Math:
+    return Fence(listed((typeset(_bare(value)) for value in values), ";"), "{", "}")
+
+
+def _bare(expression: Expr) -> Expr:
+    """A put-in negative number that stands alone needs no brackets."""
+    return expression.args[0] if isinstance(expression, Negative) else expression
+
+
+def _max_of(expression: MaxOf) -> Math:
+    return row(word("max"), _braces(expression.args))
+
+
+def _indicator(expression: Indicator) -> Math:
+    left, right = map(typeset, expression.args)
+    return row(Glyph("1", "number"), Fence(row(left, relation("="), right)))
+
+
+def _transposed(expression: Transposed) -> Math:
+    body = expression.args[0]
+    simple = body.is_Symbol or isinstance(body, Quantity | MatrixLeaf)
+    written = typeset(body) if simple else Fence(typeset(body))
+    if isinstance(written, Script) and written.above is None:
+        return Script(written.body, written.below, word("T"))
+    return Script(written, above=word("T"))
+
+
+def _matrix(expression: MatrixLeaf) -> Math:
+    matrix = expression.args[0]
+    if expression.scalar:
+        return Fence(typeset(matrix[0])) if matrix[0].is_negative else typeset(matrix[0])
+    return grid([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
+
+
+def grid(lines: Sequence[Sequence[Value]]) -> Grid:
+    """A matrix of values as mathematics."""
+    return Grid(tuple(tuple(typeset_value(value) for value in line) for line in lines))
+
+
+def _exponential(expression: Any) -> Math:
+    exponent = expression.args[0]
+    return Script(variable("e"), above=typeset(_bare(exponent)))
+
+
+def _logarithm(expression: Any) -> Math:
+    argument = expression.args[0]
+    if argument.is_Integer or argument.is_Symbol:
+        return row(word("ln"), typeset(argument))
+    return row(word("ln"), Fence(typeset(argument)))
+
+
+_WRITERS: dict[type, Any] = {
+    Over: _over,
+    MaxOf: _max_of,
+    Indicator: _indicator,
+    Transposed: _transposed,
+    MatrixLeaf: _matrix,
+    Negative: lambda expression: Fence(typeset(expression.args[0])),
+    sympy.exp: _exponential,
+    sympy.log: _logarithm,
+}
+

@@ -1,0 +1,1 @@
+"""Solvers: Returns and the elements of a reinforcement learning problem."""

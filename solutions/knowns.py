@@ -1,0 +1,54 @@
+"""What problems give, as what formulas need: exact values by the formulas' letters."""
+
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from rldrill.problems.exact import Scalar
+from rldrill.problems.models import Dynamics, Policy, Trajectory
+from rldrill.solutions.exact import ZERO, Value, exact
+
+Key = TypeVar("Key")
+
+
+def values(numbers: Mapping[Key, Scalar]) -> dict[Key, Value]:
+    """A mapping of given numbers as exact values."""
+    return {key: exact(number) for key, number in numbers.items()}
+
+
+def state_values(numbers: Mapping[str, Scalar], terminal: tuple[str, ...]) -> dict[str, Value]:
+    """Given state values; a terminal state is worth 0."""
+    return values(numbers) | dict.fromkeys(terminal, ZERO)
+
+
+def model(given: Dynamics) -> dict[str, Any]:
+    """A model as P, R, the actions and the successors; pairs of states without a transition have P = R = 0."""
+    P: dict[Any, Value] = defaultdict(_zero)
+    R: dict[Any, Value] = defaultdict(_zero)
+    successors = {}
+    for pair, outcomes in given.outcomes.items():
+        successors[pair] = tuple(outcome.next for outcome in outcomes)
+        for outcome in outcomes:
+            P[outcome[:3]] = exact(outcome.probability)
+            R[outcome[:3]] = exact(outcome.reward)
+    return {"P": P, "R": R, "actions": given.actions, "successors": successors}
+
+
+def _zero() -> Value:
+    return ZERO
+
+
+def policy(given: Policy) -> dict[tuple[str, str], Value]:
+    """A policy as π(a|s), with the action first."""
+    return {
+        (action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()
+    }
+
+
+def trajectory(run: Trajectory) -> dict[str, Any]:
+    """A run as s_t, a_t and r_t, by time."""
+    return {
+        "S": dict(enumerate(run.states)),
+        "A": dict(enumerate(run.actions)),
+        "r": {time + 1: exact(reward) for time, reward in enumerate(run.rewards)},
+    }

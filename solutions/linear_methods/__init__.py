@@ -1,0 +1,1 @@
+"""Solvers: Linear methods: LQR."""

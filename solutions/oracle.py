@@ -1,0 +1,63 @@
+"""What the independent solvers are made of: floating point, numpy, none of the formulas.
+
+Every family's ``oracle`` gets its answers by other means than its ``solve``: it iterates, simulates or
+tries everything. Open parameters are replaced by ``OPEN``; exact answers are evaluated there too.
+"""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.models import Dynamics, Policy
+
+#: Answers in floating point by part; tables and vectors in the order of the part's keys, policies by state.
+Answers: TypeAlias = Mapping[str, Any]
+Array: TypeAlias = NDArray[np.float64]
+
+#: The number at which expressions in an open parameter are compared.
+OPEN = Fraction(7, 19)
+
+
+def at(number: Scalar | int) -> float:
+    """A given number as a float; an open parameter takes the value ``OPEN``."""
+    if isinstance(number, Parameter):
+        return float(1 - OPEN if number.complement else OPEN)
+    return float(number)
+
+
+def tensors(model: Dynamics, states: tuple[str, ...]) -> tuple[Array, Array]:
+    """The model as arrays P and R of shape (states, actions, states).
+
+    Actions that a state does not have are rows of zeros in P and −∞ in R.
+    """
+    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    P = np.zeros((len(states), len(names), len(states)))
+    R = np.full(P.shape, -np.inf)
+    for state, action in model.outcomes:
+        R[states.index(state), names.index(action)] = 0.0
+    for row in model.transitions:
+        cell = states.index(row.state), names.index(row.action), states.index(row.next)
+        P[cell] = at(row.probability)
+        R[cell] = at(row.reward)
+    return P, R
+
+
+def lookahead(P: Array, R: Array, V: Array, gamma: float) -> Array:
+    """The worth of every action in every state, shape (states, actions); −∞ where there is no such action."""
+    worth: Array = np.einsum("ijk,ijk->ij", P, np.where(np.isinf(R), 0.0, R) + gamma * V)
+    worth[np.isinf(R).all(axis=2)] = -np.inf
+    return worth
+
+
+def chances(policy: Policy, model: Dynamics, states: tuple[str, ...]) -> Array:
+    """The policy as an array of shape (states, actions)."""
+    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    result = np.zeros((len(states), len(names)))
+    for state, actions in policy.items():
+        for action, chance in actions.items():
+            result[states.index(state), names.index(action)] = at(chance)
+    return result

@@ -1,0 +1,1 @@
+"""Solvers: Policy gradient methods."""

@@ -1,0 +1,133 @@
+"""A solver for every family, and the solution of a problem: answers, working, and what mistakes would give."""
+
+import importlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from types import ModuleType
+from typing import Any
+
+from rldrill.problems.family import Family, Problem
+from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.work import Line, Step, Work
+
+
+@dataclass(frozen=True)
+class Solver:
+    """The twin of a family: the module ``solutions/<topic>/<name>.py`` as an object.
+
+    ``oracle`` gives the same answers by other means (numpy, simulation, brute force), in floating point,
+    as what ``numpy.asarray`` reads; tables and vectors in the order of the part's keys.
+    """
+
+    family: Family
+    solve: Callable[[Any, Work], None]
+    misconceptions: tuple[Misconception, ...]
+    oracle: Callable[[Any], Mapping[str, Any]]
+
+
+@cache
+def solver(family: Family) -> Solver:
+    """The solver of a family.
+
+    Raises:
+        TypeError: its module lacks something that a solver must have.
+    """
+    module = importlib.import_module(f"rldrill.solutions.{family.topic}.{family.name.replace('-', '_')}")
+    return Solver(
+        family,
+        _demanded(module, "solve"),
+        tuple(_demanded(module, "MISCONCEPTIONS")),
+        _demanded(module, "oracle"),
+    )
+
+
+def _demanded(module: ModuleType, name: str) -> Any:
+    try:
+        return getattr(module, name)
+    except AttributeError:
+        raise TypeError(f"{module.__file__}: a solver must have {name}") from None
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The solution of one problem."""
+
+    problem: Problem
+    work: Work
+
+    @property
+    def answers(self) -> Mapping[str, Any]:
+        """The exact answer of every part."""
+        return self.work.answers
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The whole working."""
+        return tuple(self.work.lines)
+
+    def lines_of(self, label: str) -> tuple[Line, ...]:
+        """The lines of the working that come after the part before and lead to this part's answer."""
+        start = max((end for end in self.work.ends.values() if end < self.work.ends[label]), default=0)
+        return tuple(self.work.lines[start : self.work.ends[label]])
+
+    def formulas(self, label: str | None = None) -> tuple[Formula, ...]:
+        """The formulas that were used, in their order; those of one part, where it uses any of its own."""
+        lines = self.lines if label is None else self.lines_of(label)
+        used = dict.fromkeys(line.formula for line in lines if isinstance(line, Step))
+        return tuple(used) if used or label is None else self.formulas()
+
+    @cached_property
+    def mistakes(self) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
+        """Every misconception that applies here and leads to an answer, with the answers that it gives."""
+        return self.mistaken({})
+
+    def mistaken(self, carried: Mapping[str, Any]) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
+        """The same, going on from a person's own answers to earlier parts."""
+        made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
+        return tuple((misconception, answers) for misconception, answers in made if answers is not None)
+
+    @property
+    def applicable(self) -> tuple[Misconception, ...]:
+        """The misconceptions of the family that can be made in this problem."""
+        every = solver(self.problem.family).misconceptions
+        return tuple(misconception for misconception in every if misconception.applies(self.problem.given))
+
+    def answers_with(
+        self, misconception: Misconception, carried: Mapping[str, Any] | None = None
+    ) -> Mapping[str, Any] | None:
+        """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
+        try:
+            return run(self.problem, misconception, carried).answers
+        except (NoSolution, ZeroDivisionError):
+            return None
+
+    def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The answers of somebody who goes on correctly from own answers to earlier parts."""
+        try:
+            return run(self.problem, carried=carried).answers
+        except (NoSolution, ArithmeticError, TypeError, ValueError):
+            return {}  # nothing follows from what was typed
+
+
+def run(
+    problem: Problem, misconception: Misconception | None = None, carried: Mapping[str, Any] | None = None
+) -> Work:
+    """Let the family's solver work, with a mistake or somebody's earlier answers if given.
+
+    Raises:
+        NoSolution: the problem has no answer.
+    """
+    work = Work(misconception, carried or {})
+    solver(problem.family).solve(problem.given, work)
+    return work
+
+
+def solve(problem: Problem) -> Solution:
+    """Solve a problem exactly.
+
+    Raises:
+        NoSolution: the problem has no answer (a value that does not exist, a singular matrix).
+    """
+    return Solution(problem, run(problem))

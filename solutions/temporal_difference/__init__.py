@@ -1,0 +1,1 @@
+"""Solvers: Temporal difference learning."""

@@ -1,0 +1,190 @@
+"""The working of a problem: the solver's notebook, in which every step is data."""
+
+from collections.abc import Hashable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from flint import fmpq_mat
+from sympy import Expr
+
+from rldrill.problems.document import Equation
+from rldrill.problems.mathematics import Math, listed, name
+from rldrill.solutions.exact import ZERO, Value, simplest
+from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.formula.linear import Affine, solve_linear
+from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
+from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value
+
+
+@dataclass(frozen=True)
+class Step:
+    """One application of a formula: what was put in, and the exact value that came out."""
+
+    formula: Formula
+    right: Expr
+    known: Mapping[str, Any]
+    value: Any
+    into: Expr
+    sign: str
+
+    @cached_property
+    def left(self) -> Expr:
+        """The name of the quantity, its indices put in: ``V(cool)``."""
+        return indexed(self.into, self.known)
+
+    @cached_property
+    def put_in(self) -> Expr:
+        """The right side with the numbers put in, unevaluated."""
+        return put_in(self.right, self.known)
+
+    def equation(self) -> Equation:
+        """The step as one writes it: numbers put in, brackets worked out, result."""
+        rights = [typeset(self.put_in)]
+        if self.value is not None:  # an equation of a system has no value of its own
+            rights += [typeset(reduced(self.put_in)), shown_value(self.value)]
+        distinct = tuple(dict.fromkeys(rights))
+        return Equation(typeset(self.left), distinct, (self.sign, *["="] * (len(distinct) - 1)))
+
+
+@dataclass(frozen=True)
+class Note:
+    """A sentence between the steps."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Result:
+    """Values that a procedure gives together: the solution of a system, a table at its end."""
+
+    lefts: tuple[Expr, ...]
+    values: tuple[Value, ...]
+
+    def equations(self) -> tuple[Equation, ...]:
+        """One line for every value."""
+        return tuple(
+            Equation(typeset(left), (shown_value(value),), ("=",))
+            for left, value in zip(self.lefts, self.values, strict=True)
+        )
+
+
+Line = Step | Note | Result
+
+
+def shown_value(value: Any) -> Math:
+    """A value of any kind as mathematics: a number, a matrix, the actions that are best."""
+    if isinstance(value, tuple):
+        return listed(name(str(item)) for item in value)
+    if isinstance(value, fmpq_mat):
+        return typeset_value(value[0, 0]) if value.nrows() == value.ncols() == 1 else grid(value.tolist())
+    return typeset_value(value)
+
+
+@dataclass
+class Work:
+    """What a solver writes into.
+
+    Args:
+        misconception: the mistake to make, if any.
+        carried: for follow-through, a person's own answers to earlier parts.
+    """
+
+    misconception: Misconception | None = None
+    carried: Mapping[str, Any] = field(default_factory=dict)
+    lines: list[Line] = field(default_factory=list)
+    answers: dict[str, Any] = field(default_factory=dict)
+    ends: dict[str, int] = field(default_factory=dict)
+
+    def makes(self, slip: Misconception) -> bool:
+        """Whether this working is to make the given slip: solvers ask it where the procedure forks."""
+        return self.misconception is slip
+
+    def misreads(self, formula: Formula) -> bool:
+        """Whether the mistake to make is in this formula: what follows from it rightly need not follow now."""
+        return self.misconception is not None and self.misconception.formula is formula
+
+    def reading(self, formula: Formula) -> Expr:
+        """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
+        mistake = self.misconception
+        if mistake is not None and mistake.formula is formula and mistake.reads is not None:
+            return mistake.reads
+        return formula.right
+
+    def step(self, formula: Formula, *, into: type[Quantity] | None = None, **known: Any) -> Value:
+        """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
+
+        Args:
+            formula: a formula of the sheet.
+            into: the quantity to name the result by, where it is not the formula's own (V₂ for V).
+            **known: the values by the formula's letters; quantities are mappings from their arguments.
+        """
+        right = self.reading(formula)
+        value = evaluate(right, known)
+        left = formula.left if into is None else into(*formula.left.args)
+        sign = formula.sign if into is None else "="
+        self.lines.append(Step(formula, right, known, value, left, sign))
+        return value
+
+    def system(self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any) -> dict[Any, Value]:
+        """Solve the linear equations that a formula states, one for every case.
+
+        Args:
+            formula: a formula that gives the unknown quantity, linear in it.
+            unknown: the quantity to solve for.
+            cases: the indices of every equation, such as ``{"s": "cool"}``.
+            **known: everything else; values of the unknown that are fixed may be among it.
+
+        Raises:
+            NoSolution: there is no unique solution.
+        """
+        right = self.reading(formula)
+        fixed = dict(known.get(unknown.code, {}))
+        keys = [(tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases]
+        lookup: dict[Hashable, Any] = {key: Affine({key: ZERO + 1}) for key, _ in keys}
+        bound = {**known, unknown.code: _Unknowns({**lookup, **fixed}, ZERO)}
+        equations = {}
+        for key, case in keys:
+            equations[key] = evaluate(right, {**bound, **case})
+            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
+        solution = solve_linear(equations)
+        lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
+        self.lines.append(Note("Solving these equations:"))
+        self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
+        return {**fixed, **solution}
+
+    def say(self, text: str) -> None:
+        """Write a sentence between the steps; mathematics stands between ``$`` signs."""
+        self.lines.append(Note(text))
+
+    def answer(self, label: str, value: Any) -> Any:
+        """Give the answer of a part, and get back what to go on with.
+
+        That is the value itself, or in follow-through the answer that the person gave to this part.
+        """
+        value = _simplest(value)
+        self.answers[label] = value
+        self.ends[label] = len(self.lines)
+        return self.carried.get(label, value)
+
+
+def _simplest(value: Any) -> Any:
+    """A number, or the numbers of a vector or table, as plain rationals where no parameter is left in them."""
+    if isinstance(value, dict):
+        return {key: simplest(number) for key, number in value.items()}
+    if isinstance(value, tuple):
+        return tuple(map(simplest, value))
+    return simplest(value)
+
+
+class _Unknowns(dict[Hashable, Any]):
+    """The unknowns of a system; a state that is not among them is worth nothing."""
+
+    def __init__(self, values: Mapping[Hashable, Any], missing: Any) -> None:
+        super().__init__(values)
+        self._missing = missing
+
+    def __missing__(self, key: Hashable) -> Any:
+        return self._missing
