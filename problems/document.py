@@ -10,22 +10,28 @@ from typing import TypeAlias
 from rldrill.problems.mathematics import Math, mathematics
 
 
+class Block:
+    """Something that stands on lines of its own."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class Paragraph:
+class Paragraph(Block):
     """Running text."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Heading:
+class Heading(Block):
     """A short line above what follows."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Table(Block):
     """A table with a header line; cells are texts."""
 
     header: tuple[str, ...]
@@ -33,7 +39,7 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Equation:
+class Equation(Block):
     """Mathematics on lines of its own: a left side, then right sides one under the other.
 
     ``signs`` holds the relation before each right side; an empty sign goes on with the side above.
@@ -45,7 +51,6 @@ class Equation:
     label: str = ""
 
 
-Block: TypeAlias = Paragraph | Heading | Table | Equation
 Document: TypeAlias = tuple[Block, ...]
 
 _PIECES = re.compile(r"\$([^$]*)\$")

@@ -56,6 +56,7 @@ class Family:
     name: str
     topic: str
     title: str
+    summary: str
     source: str
     revision: int
     given: type[Givens]
@@ -75,6 +76,7 @@ class Family:
             name=name,
             topic=topic,
             title=_demanded(module, "TITLE"),
+            summary=(module.__doc__ or "").partition("\n")[0],
             source=_demanded(module, "SOURCE"),
             revision=_demanded(module, "REVISION"),
             given=_demanded(module, "Given"),

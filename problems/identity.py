@@ -40,4 +40,9 @@ def split_id(text: str) -> tuple[str, int, int, int | None]:
             f"{text[:60]!r} is not a problem ID; IDs look like value-iteration/2/7 (family/level 1-3/seed)."
         )
     revision = match["revision"]
-    return match["family"], int(match["level"]), int(match["seed"]), None if revision is None else int(revision)
+    return (
+        match["family"],
+        int(match["level"]),
+        int(match["seed"]),
+        None if revision is None else int(revision),
+    )

@@ -124,6 +124,10 @@ def row(*items: Math) -> Math:
     return flat[0] if len(flat) == 1 else Row(tuple(flat))
 
 
+#: Nothing at all.
+EMPTY = Row(())
+
+
 def listed(items: Iterable[Math], separator: str = ",") -> Math:
     """Things with a separator between them."""
     result: list[Math] = []
@@ -151,7 +155,7 @@ def number(value: object) -> Math:
 
 
 _TOKEN = re.compile(
-    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[₀-₉′]*|['′]+)
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[₀-₉'′]*)
     |(?P<space>\s+)|(?P<other>.)""",
     re.VERBOSE,
 )
@@ -214,7 +218,7 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
     if match.lastgroup == "number":
         return number(token), at + 1
     if match.lastgroup == "letters":
-        return name(token), at + 1
+        return name(token.replace("'", "′")), at + 1
     if token in _RELATIONS:
         return relation(token), at + 1
     if token in _OPERATORS:

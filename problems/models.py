@@ -19,7 +19,9 @@ def _name(value: object) -> object:
 
 
 #: The name of a state, an action or a hypothesis. Dollar signs and backslashes would be read as mathematics.
-Name = Annotated[str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)]
+Name = Annotated[
+    str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)
+]
 
 
 class Transition(NamedTuple):
@@ -76,7 +78,6 @@ class Dynamics(Givens):
         return tuple(self.outcomes)
 
 
-
 class Model(Dynamics):
     """A finite Markov decision process: its transitions, and the states in which an episode ends."""
 
@@ -96,14 +97,18 @@ class Model(Dynamics):
         return self
 
 
-def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
+def check_keys(
+    values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]
+) -> None:
     """Demand that a mapping names the needed keys, and none that is not known."""
     for key in needed:
         if key not in values:
             raise ValueError(f"{what} of {key!r} is missing")
     for key in values:
         if key not in known:
-            raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
+            raise ValueError(
+                f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}"
+            )
 
 
 def _sums_to_one(probabilities: list[Scalar]) -> bool:
@@ -134,10 +139,11 @@ PolicyField = Annotated[
 ]
 
 
-def equiprobable(model: Dynamics) -> dict[str, dict[str, Fraction]]:
+def equiprobable(model: Dynamics) -> dict[str, dict[str, Scalar]]:
     """The policy that takes every action of a state with the same probability."""
     return {
-        state: dict.fromkeys(actions, Fraction(1, len(actions))) for state, actions in model.actions.items()
+        state: {action: Fraction(1, len(actions)) for action in actions}
+        for state, actions in model.actions.items()
     }
 
 

@@ -85,4 +85,3 @@ class Part:
     points: int = 1
     ties: bool = False
     zero: bool = False
-

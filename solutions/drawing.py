@@ -19,7 +19,7 @@ from rldrill.solutions.solution import Solution, solve
 
 ATTEMPTS = 2000
 #: The most digits, above and below the line together, that an answer may have at each level.
-HUMANE_DIGITS = {1: 5, 2: 8, 3: 11}
+HUMANE_DIGITS = {1: 4, 2: 7, 3: 9}
 
 
 def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
@@ -75,7 +75,9 @@ def flaws(solution: Solution) -> Iterator[str]:
             yield f"({part.label}) does not depend on what is left open"
         if numbers and not part.zero and all(map(is_zero, numbers)):
             yield f"({part.label}) is zero"
-        if not part.ties and any(isinstance(content, tuple) and len(content) > 1 for content in cells.values()):
+        if not part.ties and any(
+            isinstance(content, tuple) and len(content) > 1 for content in cells.values()
+        ):
             yield f"({part.label}) has tied best actions"
     for misconception in solution.applicable:
         answers = solution.answers_with(misconception)
@@ -111,4 +113,6 @@ def digits(value: Any) -> int:
     if isinstance(value, FracElement):
         coefficients = [*value.numer.coeffs(), *value.denom.coeffs()]
         return max(digits(fmpq(coefficient)) for coefficient in coefficients) + len(coefficients)
-    return max((digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0)
+    return max(
+        (digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0
+    )

@@ -16,7 +16,6 @@ from rldrill.problems.exact import PARAMETERS, Parameter, Scalar
 Value: TypeAlias = Any
 
 
-
 class NoSolution(ArithmeticError):
     """The values given have no answer: a singular matrix, a system without a solution."""
 

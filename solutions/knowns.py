@@ -22,7 +22,7 @@ def state_values(numbers: Mapping[str, Scalar], terminal: tuple[str, ...]) -> di
 
 
 def model(given: Dynamics) -> dict[str, Any]:
-    """A model as P, R, the actions and the successors; pairs of states without a transition have P = R = 0."""
+    """A model as P, R, actions and successors; pairs of states without a transition have P = R = 0."""
     P: dict[Any, Value] = defaultdict(_zero)
     R: dict[Any, Value] = defaultdict(_zero)
     successors = {}
@@ -41,7 +41,9 @@ def _zero() -> Value:
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
     """A policy as π(a|s), with the action first."""
     return {
-        (action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()
+        (action, state): exact(chance)
+        for state, chances in given.items()
+        for action, chance in chances.items()
     }
 
 

@@ -1,4 +1,4 @@
-"""A solver for every family, and the solution of a problem: answers, working, and what mistakes would give."""
+"""A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
 import importlib
 from collections.abc import Callable, Mapping
@@ -85,7 +85,9 @@ class Solution:
 
     def mistaken(self, carried: Mapping[str, Any]) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
         """The same, going on from a person's own answers to earlier parts."""
-        made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
+        made = (
+            (misconception, self.answers_with(misconception, carried)) for misconception in self.applicable
+        )
         return tuple((misconception, answers) for misconception, answers in made if answers is not None)
 
     @property

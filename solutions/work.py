@@ -103,7 +103,7 @@ class Work:
         return self.misconception is slip
 
     def misreads(self, formula: Formula) -> bool:
-        """Whether the mistake to make is in this formula: what follows from it rightly need not follow now."""
+        """Whether the mistake to make is in this formula: what follows from it need not follow now."""
         return self.misconception is not None and self.misconception.formula is formula
 
     def reading(self, formula: Formula) -> Expr:
@@ -128,7 +128,9 @@ class Work:
         self.lines.append(Step(formula, right, known, value, left, sign))
         return value
 
-    def system(self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any) -> dict[Any, Value]:
+    def system(
+        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any
+    ) -> dict[Any, Value]:
         """Solve the linear equations that a formula states, one for every case.
 
         Args:
@@ -142,13 +144,17 @@ class Work:
         """
         right = self.reading(formula)
         fixed = dict(known.get(unknown.code, {}))
-        keys = [(tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases]
+        keys = [
+            (tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases
+        ]
         lookup: dict[Hashable, Any] = {key: Affine({key: ZERO + 1}) for key, _ in keys}
         bound = {**known, unknown.code: _Unknowns({**lookup, **fixed}, ZERO)}
         equations = {}
         for key, case in keys:
             equations[key] = evaluate(right, {**bound, **case})
-            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
+            self.lines.append(
+                Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "=")
+            )
         solution = solve_linear(equations)
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
         self.lines.append(Note("Solving these equations:"))
@@ -171,7 +177,7 @@ class Work:
 
 
 def _simplest(value: Any) -> Any:
-    """A number, or the numbers of a vector or table, as plain rationals where no parameter is left in them."""
+    """Numbers, alone or in a vector or table, as plain rationals where no parameter is left in them."""
     if isinstance(value, dict):
         return {key: simplest(number) for key, number in value.items()}
     if isinstance(value, tuple):

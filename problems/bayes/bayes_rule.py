@@ -49,8 +49,8 @@ _STORIES = (
 
 def draw(level: int, rng: Draws) -> Given:
     """Two hypotheses and one measurement; then three; then three and two measurements."""
-    story, hypotheses, readings = rng.choice(_STORIES)
-    hypotheses = hypotheses[: 2 if level == 1 else 3]
+    story, every, readings = rng.choice(_STORIES)
+    hypotheses = every[: 2 if level == 1 else 3]
     tenths = ("1/10", "1/5", "3/10", "2/5", "3/5", "7/10", "4/5", "9/10")
     likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
     likelihood = {
@@ -86,7 +86,11 @@ def question(given: Given) -> Question:
     )
     parts = []
     for index, measurement in enumerate(given.measurements):
-        first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
+        first = (
+            f"The measurement is “{measurement}”."
+            if index == 0
+            else f"The next measurement is “{measurement}”."
+        )
         ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
         parts.append(Part(chr(ord("a") + index), ask, TableKind("p", hypotheses)))
     return Question(blocks, tuple(parts))

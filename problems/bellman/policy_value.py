@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Givens, Question
@@ -92,7 +92,7 @@ def _left_open(rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
-    blocks = [
+    blocks: list[Block] = [
         Paragraph("A Markov decision process moves and pays like this:"),
         transitions_table(given.mdp),
         *terminal_note(given.mdp.terminal),
@@ -101,5 +101,6 @@ def question(given: Given) -> Question:
         blocks += [Paragraph("The policy is:"), policy_table(given.chances)]
     blocks.append(Paragraph(discount(given.gamma)))
     return Question(
-        tuple(blocks), (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),)
+        tuple(blocks),
+        (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),),
     )

@@ -8,7 +8,15 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, StepSize, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, Trajectory, discount, in_open, step_size, terminal_note, trajectory_table
+from rldrill.problems.models import (
+    Name,
+    Trajectory,
+    discount,
+    in_open,
+    step_size,
+    terminal_note,
+    trajectory_table,
+)
 from rldrill.problems.parts import Part
 from rldrill.problems.parts import Table as TableKind
 from rldrill.problems.settings import draw_setting
@@ -51,7 +59,11 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     first, second, third = rng.shuffled(setting.states)[:3]
     choices = setting.actions[: 2 if level == 1 else 3]
-    states = {1: (first, second), 2: (first, second, first, second), 3: (first, second, third, second, first)}[level]
+    states = {
+        1: (first, second),
+        2: (first, second, first, second),
+        3: (first, second, third, second, first),
+    }[level]
     named = [state for state in setting.states if state in states]
     values = {state: dict(zip(choices, rng.distinct(len(choices), -3, 9), strict=True)) for state in named}
     return Given(
@@ -84,10 +96,18 @@ def question(given: Given) -> Question:
         Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
         trajectory_table(given.trajectory),
         *terminal_note(given.trajectory.terminal),
-        Paragraph(f"Before the run the action values are these. {step_size(given.alpha)} {discount(given.gamma)}"),
+        Paragraph(
+            f"Before the run the action values are these. {step_size(given.alpha)} {discount(given.gamma)}"
+        ),
         values_table(given.values),
         Paragraph("Q-learning updates after every transition, with the values that are current then."),
     )
     pairs = given.updated
-    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
-    return Question(blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", TableKind("Q", pairs)),))
+    asked = (
+        f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$'
+        if len(pairs) == 1
+        else "the value of every pair that is updated"
+    )
+    return Question(
+        blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", TableKind("Q", pairs)),)
+    )

@@ -8,7 +8,15 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_keys, discount, terminal_note, transitions_table, values_table
+from rldrill.problems.models import (
+    Model,
+    Name,
+    check_keys,
+    discount,
+    terminal_note,
+    transitions_table,
+    values_table,
+)
 from rldrill.problems.parts import Part, Policy, Table
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -28,14 +36,18 @@ class Given(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if self.start is not None:
-            check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
+            check_keys(
+                self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states
+            )
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
     """One sweep from given values; then two from zero; then three over three states."""
     setting = draw_setting(rng)
-    shape = Shape(states=3 if level == 3 else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,))
+    shape = Shape(
+        states=3 if level == 3 else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,)
+    )
     mdp = draw_model(rng, setting, shape)
     start = {state: rng.nonzero(-4, 9) for state in mdp.states} if level == 1 else None
     return Given(mdp=mdp, gamma=rng.fraction("1/2", "4/5", "9/10"), sweeps=level, start=start)
@@ -55,15 +67,18 @@ def question(given: Given) -> Question:
         *terminal_note(given.mdp.terminal),
         *begin,
         Paragraph(
-            f"{discount(given.gamma)} Sweeps are synchronous: "
-            "each uses only the values of the sweep before."
+            f"{discount(given.gamma)} Sweeps are synchronous: each uses only the values of the sweep before."
         ),
     )
     k = given.sweeps
     return Question(
         blocks,
         (
-            Part("a", f"What is $V_{{{k}}}(s)$, the value of every state after {sweeps}?", Table(f"V_{{{k}}}", given.mdp.states)),
+            Part(
+                "a",
+                f"What is $V_{{{k}}}(s)$, the value of every state after {sweeps}?",
+                Table(f"V_{{{k}}}", given.mdp.states),
+            ),
             Part("b", f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),
         ),
     )

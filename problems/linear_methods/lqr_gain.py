@@ -1,5 +1,6 @@
 """The LQR gain at one time from the value matrix of the next."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -35,7 +36,9 @@ class Given(Givens):
         ):  # fmt: skip
             if len(matrix) != rows or any(len(line) != columns for line in matrix):
                 shape = f"{len(matrix)}×{len(matrix[0])}"
-                raise ValueError(f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}")
+                raise ValueError(
+                    f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}"
+                )
         for name, matrix in (("R", self.R), ("P", self.P)):
             if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
                 raise ValueError(f"{name} must be symmetric")
@@ -45,15 +48,14 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Scalars; then two states and one input; then two states and two inputs."""
     if level == 1:
-        scalars = (rng.nonzero(1, 4), rng.nonzero(1, 3), rng.nonzero(1, 4), -rng.nonzero(1, 5))
-        A, B, R, P = (((value,),) for value in scalars)
-        return Given(A=A, B=B, R=R, P=P)
+        a, b, r, p = rng.whole(1, 4), rng.whole(1, 3), rng.whole(1, 4), -rng.whole(1, 5)
+        return Given(A=((a,),), B=((b,),), R=((r,),), P=((p,),))
     inputs = level - 1
     A = tuple(tuple(rng.whole(-1, 2) for _ in range(2)) for _ in range(2))
     B = tuple(tuple(rng.whole(0, 1 if level == 3 else 2) for _ in range(inputs)) for _ in range(2))
-    R = tuple(tuple(rng.nonzero(1, 3) if i == j else rng.whole(0, 0) for j in range(inputs)) for i in range(inputs))
+    R = tuple(tuple(rng.whole(1, 3) if i == j else Fraction(0) for j in range(inputs)) for i in range(inputs))
     corner = rng.whole(0, 1)
-    P = ((-rng.nonzero(2, 4), corner), (corner, -rng.nonzero(2, 4)))
+    P = ((-rng.whole(2, 4), corner), (corner, -rng.whole(2, 4)))
     return Given(A=A, B=B, R=R, P=P)
 
 
@@ -78,5 +80,11 @@ def question(given: Given) -> Question:
     rows, columns = len(given.B[0]), len(given.A)
     return Question(
         blocks,
-        (Part("a", "What is the gain $L_t$ of the optimal action $a_t = −L_t s_t$?", MatrixKind(rows, columns)),),
+        (
+            Part(
+                "a",
+                "What is the gain $L_t$ of the optimal action $a_t = −L_t s_t$?",
+                MatrixKind(rows, columns),
+            ),
+        ),
     )

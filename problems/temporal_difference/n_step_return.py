@@ -42,7 +42,9 @@ class Given(Givens):
         last = len(self.trajectory.rewards)
         for time, steps in self.asked:
             if time < 0 or steps < 1 or time + steps > last:
-                raise ValueError(f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}")
+                raise ValueError(
+                    f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}"
+                )
         return self
 
 
@@ -72,7 +74,11 @@ def question(given: Given) -> Question:
     )
     tail = in_open(given)
     parts = tuple(
-        Part(chr(ord("a") + index), f"What is the {n}-step return $R_{{{t}}}^{{({n})}}$ from time ${t}${tail}?", Number())
+        Part(
+            chr(ord("a") + index),
+            f"What is the {n}-step return $R_{{{t}}}^{{({n})}}$ from time ${t}${tail}?",
+            Number(),
+        )
         for index, (t, n) in enumerate(given.asked)
     )
     return Question(blocks, parts)

@@ -1,5 +1,6 @@
 """Mathematics on one line of Unicode, for terminals."""
 
+from rldrill.problems.document import Block, Equation, Heading, Paragraph, Table, pieces
 from rldrill.problems.mathematics import (
     Accent,
     Big,
@@ -13,7 +14,9 @@ from rldrill.problems.mathematics import (
     Script,
 )
 
-_BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
+_BELOW = dict(
+    zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True)
+)
 _ABOVE = dict(
     zip(
         "0123456789+−=()abcdefghijklmnoprstuvwxyzTABβγδφ",
@@ -42,8 +45,7 @@ def unicode(math: Math) -> str:
         case Fence(body, left, right):
             return f"{left}{unicode(body).strip()}{right}"
         case Big(sign, below, above):
-            limits = _lowered(below) + _raised(above)
-            return f"{sign}{limits} "
+            return f"{sign}{scripts(below, above)} "
         case Root(body):
             return f"√{_grouped(body)}"
         case Accent(body, mark):
@@ -51,6 +53,26 @@ def unicode(math: Math) -> str:
         case Grid(rows, left, right):
             lines = ["  ".join(unicode(cell) for cell in line) for line in rows]
             return f"{left}{' ; '.join(lines)}{right}"
+
+
+def unicode_text(block: Block) -> str:
+    """A block as plain text, mathematics in Unicode; a table has a line for every row, cells parted by bars."""
+    match block:
+        case Paragraph(text) | Heading(text):
+            return inline(text)
+        case Table(header, rows):
+            return "\n".join(" | ".join(map(inline, line)) for line in (header, *rows))
+        case Equation(left, rights, signs):
+            return unicode(left) + "".join(
+                f" {sign} {unicode(right)}" for sign, right in zip(signs, rights, strict=True)
+            )
+        case _:
+            raise TypeError(f"{type(block).__name__} has no text")
+
+
+def inline(text: str) -> str:
+    """A text with its mathematics in Unicode."""
+    return "".join(piece if isinstance(piece, str) else unicode(piece).strip() for piece in pieces(text))
 
 
 def _row(items: tuple[Math, ...]) -> str:
@@ -68,9 +90,16 @@ def _row(items: tuple[Math, ...]) -> str:
             if isinstance(item, Glyph) and item.style == "word" and text and text[-1].isalnum():
                 text += " "
             text += unicode(item)
-            if _is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
+            if (
+                _is_word(item)
+                and position + 1 < len(items)
+                and isinstance(items[position + 1], Glyph | Script)
+            ):
                 following = items[position + 1]
-                if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
+                if not (
+                    isinstance(following, Glyph)
+                    and following.style in ("punctuation", "relation", "operator")
+                ):
                     text += " "
     return text
 
@@ -102,13 +131,23 @@ def _grouped(math: Math) -> str:
     return text if single else f"({text})"
 
 
+def scripts(below: Math | None, above: Math | None) -> str:
+    """A subscript and a superscript as text."""
+    return _lowered(below) + _raised(above)
+
+
 def _script(body: Math, below: Math | None, above: Math | None) -> str:
     base = unicode(body)
-    if body == Glyph("e", "variable") and below is None and above is not None and not _all_shift(above, _ABOVE):
+    if (
+        body == Glyph("e", "variable")
+        and below is None
+        and above is not None
+        and not _all_shift(above, _ABOVE)
+    ):
         return f"exp({unicode(above)})"
     if isinstance(body, Fraction | Row):
         base = f"({base})"
-    return base + _lowered(below) + _raised(above)
+    return base + scripts(below, above)
 
 
 def _lowered(math: Math | None) -> str:

@@ -8,8 +8,18 @@ from typing import Any, Generic, TypeAlias, TypeVar
 from flint import fmpq, fmpq_mat
 
 from rldrill.problems import parts
-from rldrill.problems.document import joined
-from rldrill.problems.mathematics import Math, mathematics, name, punctuation, row
+from rldrill.problems.document import Equation, joined
+from rldrill.problems.mathematics import (
+    EMPTY,
+    Fence,
+    Math,
+    listed,
+    mathematics,
+    name,
+    relation,
+    row,
+    variable,
+)
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -73,8 +83,15 @@ class Answer(ABC, Generic[KindT]):
         """The same, with decimals; None where a parameter is open or there are no numbers."""
 
     @abstractmethod
-    def mathematics(self, value: Any) -> Math:
-        """The value typeset."""
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        """The value typeset, line by line: what it is (None where the question says it), and what it is worth."""
+
+    def block(self, value: Any) -> Equation:
+        """The value as a block of a page, one line for every number."""
+        written = tuple(
+            right if left is None else row(left, relation("="), right) for left, right in self.lines(value)
+        )
+        return Equation(EMPTY, written, ("",) * len(written))
 
     @abstractmethod
     def how_to_type(self) -> str:
@@ -96,62 +113,64 @@ def text_of(value: Value) -> str:
 
 
 def _spoilt(content: Any) -> Any:
-    return content + content + 1 if not isinstance(content, str) else content
+    return content * 2 if content else content + 1
 
 
 class NumberAnswer(Answer[parts.Number]):
     """One number or expression."""
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {"": value}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
         return {"": read_number(text, parameters)}
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         return cells[""]
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return text_of(value)
 
     data = write
 
-    def decimals(self, value: Any) -> Any:  # noqa: D102
+    def decimals(self, value: Any) -> Any:
         return decimal(value)
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        return typeset_value(value)
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        return [(None, typeset_value(value))]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         return "a number: 3/4, 0.75 or 2 + 1/2*3"
 
 
 class VectorAnswer(Answer[parts.Vector]):
     """Numbers in a stated order."""
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
         return dict(self.cells(read_vector(text, len(self.kind.entries), parameters)))
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return ", ".join(map(text_of, value))
 
-    def data(self, value: Any) -> Any:  # noqa: D102
+    def data(self, value: Any) -> Any:
         return [text_of(number) for number in value]
 
-    def decimals(self, value: Any) -> Any:  # noqa: D102
+    def decimals(self, value: Any) -> Any:
         return [decimal(number) for number in value]
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        return _commas([row(mathematics(f"{entry} ="), typeset_value(number))
-                        for entry, number in zip(self.kind.entries, value, strict=True)])  # fmt: skip
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        return [
+            (mathematics(entry), typeset_value(number))
+            for entry, number in zip(self.kind.entries, value, strict=True)
+        ]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         return f"{len(self.kind.entries)} numbers in that order: 1, 3/4, 0.5 …"
 
 
@@ -163,37 +182,37 @@ class MatrixAnswer(Answer[parts.Matrix]):
             return [list(line) for line in value.tolist()]
         return [list(line) for line in value]
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {
             f"row {row_ + 1}, column {column + 1}": entry
             for row_, line in enumerate(self._lines(value))
             for column, entry in enumerate(line)
         }
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
         return dict(self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), parameters)))
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         entries = list(cells.values())
         if all(isinstance(entry, fmpq) for entry in entries):
             return fmpq_mat(self.kind.rows, self.kind.columns, entries)
         width = self.kind.columns
         return tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return f"[{'; '.join(', '.join(map(text_of, line)) for line in self._lines(value))}]"
 
-    def data(self, value: Any) -> Any:  # noqa: D102
+    def data(self, value: Any) -> Any:
         return [[text_of(entry) for entry in line] for line in self._lines(value)]
 
-    def decimals(self, value: Any) -> Any:  # noqa: D102
+    def decimals(self, value: Any) -> Any:
         return [[decimal(entry) for entry in line] for line in self._lines(value)]
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        lines = self._lines(value)
-        return typeset_value(lines[0][0]) if len(lines) == len(lines[0]) == 1 else grid(lines)
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        rows = self._lines(value)
+        return [(None, typeset_value(rows[0][0]) if len(rows) == len(rows[0]) == 1 else grid(rows))]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         if self.kind.rows == self.kind.columns == 1:
             return "a number: 3/4 or 0.75"
         return f"{self.kind.rows} × {self.kind.columns}, rows parted by semicolons: [1, 2; 3, 4]"
@@ -205,25 +224,25 @@ class TableAnswer(Answer[parts.Table]):
     def _name(self, key: parts.Key) -> str:
         return key if isinstance(key, str) else ", ".join(key)
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {self._name(key): value[key] for key in self.kind.keys}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
         return dict(self.cells(read_table(text, self.kind.keys, parameters)))
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         return {key: cells[self._name(key)] for key in self.kind.keys}
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return ", ".join(
             f"{key if isinstance(key, str) else f'({self._name(key)})'}: {text_of(value[key])}"
             for key in self.kind.keys
         )
 
-    def data(self, value: Any) -> Any:  # noqa: D102
+    def data(self, value: Any) -> Any:
         return self._nested(value, text_of)
 
-    def decimals(self, value: Any) -> Any:  # noqa: D102
+    def decimals(self, value: Any) -> Any:
         return self._nested(value, decimal)
 
     def _nested(self, value: Any, write: Any) -> Any:
@@ -235,25 +254,17 @@ class TableAnswer(Answer[parts.Table]):
                 result.setdefault(key[0], {})[key[1]] = write(value[key])
         return result
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         head = mathematics(self.kind.of)
-        written = []
-        for key in self.kind.keys:
-            names = [name(part) for part in ((key,) if isinstance(key, str) else key)]
-            inside = row(names[0], *(item for other in names[1:] for item in (punctuation(","), other)))
-            written.append(
-                row(
-                    head,
-                    punctuation("("),
-                    inside,
-                    punctuation(")"),
-                    mathematics("="),
-                    typeset_value(value[key]),
-                )
+        return [
+            (
+                row(head, Fence(listed(map(name, (key,) if isinstance(key, str) else key)))),
+                typeset_value(value[key]),
             )
-        return _commas(written)
+            for key in self.kind.keys
+        ]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         first = self.kind.keys[0]
         return f"one value for each: {first if isinstance(first, str) else f'({self._name(first)})'}: 3/4, …"
 
@@ -261,35 +272,36 @@ class TableAnswer(Answer[parts.Table]):
 class PolicyAnswer(Answer[parts.Policy]):
     """An action for every state; the value holds all best actions, and any of them is right."""
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {state: value[state] for state in self.kind.actions}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
         return dict(read_words(text, tuple(self.kind.actions), self.kind.actions))
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         return {
             state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()
         }
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return ", ".join(f"{state}: {value[state][0]}" for state in self.kind.actions)
 
-    def data(self, value: Any) -> Any:  # noqa: D102
+    def data(self, value: Any) -> Any:
         return {
             state: value[state][0] if len(value[state]) == 1 else list(value[state])
             for state in self.kind.actions
         }
 
-    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002
         return None
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        return _commas(
-            [mathematics(f'π("{state}") = "{" or ".join(value[state])}"') for state in self.kind.actions]
-        )
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        return [
+            (row(variable("π"), Fence(name(state))), name(" or ".join(value[state])))
+            for state in self.kind.actions
+        ]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         state, actions = next(iter(self.kind.actions.items()))
         return f"an action for each state: {state}: {actions[0]}, …"
 
@@ -305,28 +317,28 @@ class PolicyAnswer(Answer[parts.Policy]):
 class ChoiceAnswer(Answer[parts.Choice]):
     """One of several options."""
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {"": (value,)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
         return {"": read_choice(text, tuple(self.kind.options))}
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         content = cells[""]
         return content if isinstance(content, str) else content[0]
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return str(value)
 
     data = write
 
-    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002
         return None
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        return name(f"({value})")
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        return [(None, name(f"({value})"))]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         return f"one of {joined(list(self.kind.options))}"
 
     def _wrong(self, value: Any) -> list[str]:
@@ -336,42 +348,32 @@ class ChoiceAnswer(Answer[parts.Choice]):
 class YesNoAnswer(Answer[parts.YesNo]):
     """Yes or no."""
 
-    def cells(self, value: Any) -> dict[str, Any]:  # noqa: D102
+    def cells(self, value: Any) -> dict[str, Any]:
         return {"": (self.write(value),)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002, D102
+    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
         return {"": self.write(read_yes_no(text))}
 
-    def value(self, cells: Mapping[str, Any]) -> Any:  # noqa: D102
+    def value(self, cells: Mapping[str, Any]) -> Any:
         content = cells[""]
         return (content if isinstance(content, str) else content[0]) == "yes"
 
-    def write(self, value: Any) -> str:  # noqa: D102
+    def write(self, value: Any) -> str:
         return "yes" if value else "no"
 
     data = write
 
-    def decimals(self, value: Any) -> Any:  # noqa: ARG002, D102
+    def decimals(self, value: Any) -> Any:  # noqa: ARG002
         return None
 
-    def mathematics(self, value: Any) -> Math:  # noqa: D102
-        return name(self.write(value))
+    def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
+        return [(None, name(self.write(value)))]
 
-    def how_to_type(self) -> str:  # noqa: D102
+    def how_to_type(self) -> str:
         return "yes or no"
 
     def _wrong(self, value: Any) -> list[str]:
         return [self.write(not value)]
-
-
-def _commas(items: Sequence[Math]) -> Math:
-    return row(
-        *(
-            piece
-            for index, item in enumerate(items)
-            for piece in ((punctuation(","), item) if index else (item,))
-        )
-    )
 
 
 _KINDS: dict[type, type[Answer[Any]]] = {

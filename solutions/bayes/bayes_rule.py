@@ -1,5 +1,7 @@
 """Bayes' rule once for every measurement; each posterior is the next prior."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.bayes.bayes_rule import Given
@@ -22,7 +24,12 @@ def solve(given: Given, work: Work) -> None:
     hypotheses = tuple(given.prior)
     belief = knowns.values(given.prior)
     for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
-        known = {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses}
+        known: dict[str, Any] = {
+            "z": reading,
+            "p": belief,
+            "likelihood": likelihood,
+            "hypotheses": hypotheses,
+        }
         belief = work.answer(part, {h: work.step(BAYES, h=h, **known) for h in hypotheses})
 
 

@@ -4,7 +4,13 @@ from rldrill.problems.bellman.bellman_backup import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import BELLMAN_V, DISCOUNTED_REWARD, FORGOT_GAMMA, FORGOT_POLICY, MAX_FOR_MEAN
+from rldrill.solutions.sheet.bellman import (
+    BELLMAN_V,
+    DISCOUNTED_REWARD,
+    FORGOT_GAMMA,
+    FORGOT_POLICY,
+    MAX_FOR_MEAN,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (FORGOT_POLICY, DISCOUNTED_REWARD, FORGOT_GAMMA, MAX_FOR_MEAN)

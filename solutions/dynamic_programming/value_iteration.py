@@ -8,7 +8,12 @@ from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import Answers, at, lookahead, tensors
-from rldrill.solutions.sheet.dynamic_programming import FORGOT_GAMMA, GREEDY_FROM_V, MEAN_FOR_MAX, VALUE_ITERATION
+from rldrill.solutions.sheet.dynamic_programming import (
+    FORGOT_GAMMA,
+    GREEDY_FROM_V,
+    MEAN_FOR_MAX,
+    VALUE_ITERATION,
+)
 from rldrill.solutions.work import Work
 
 

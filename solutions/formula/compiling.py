@@ -11,7 +11,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign
-from rldrill.solutions.formula.notation import Counting, MaxOver, MeanOver, Over, Quantity, SumOver
+from rldrill.solutions.formula.notation import Counting, Over, Quantity
 
 
 class _Code(StrPrinter):
@@ -33,7 +33,9 @@ class _Code(StrPrinter):
         return " + ".join(self.parenthesize(term, PRECEDENCE["Add"]) for term in expression.args)
 
     def _print_Mul(self, expression: Any) -> str:
-        return "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args)
+        return "*".join(
+            self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args
+        )
 
     def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
         base, exponent = expression.args
@@ -133,10 +135,10 @@ def needs(expression: Expr) -> tuple[str, ...]:
 def compiled(expression: Expr) -> Callable[..., Value]:
     """The expression as a Python function of the names that it needs, in their order.
 
-    The text that is compiled is printed from a formula of this project; nothing that a person types gets here.
+    What is compiled is printed from a formula of this project; nothing that a person types gets here.
     """
     source = f"lambda {', '.join(needs(expression))}: {_Code().doprint(expression)}"
-    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))  # type: ignore[no-any-return]
+    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))
 
 
 def evaluate(expression: Expr, known: Mapping[str, Any]) -> Value:

@@ -14,13 +14,11 @@ from rldrill.problems.mathematics import (
     Row,
     Script,
     listed,
-    name,
     number,
     operator,
     punctuation,
     row,
     variable,
-    word,
 )
 
 GLYPHS: dict[sympy.Symbol, Math] = {}
@@ -94,8 +92,7 @@ def _beside(first: Math, second: Math) -> Math:
     return row(first, second) if short else row(first, punctuation(","), second)
 
 
-@cache
-def numbered(of: type[Quantity], count: int) -> type[Quantity]:
+def _numbered(of: type[Quantity], count: int) -> type[Quantity]:
     """The quantity after ``count`` sweeps: V₂(s)."""
 
     def layout(*arguments: Math) -> Math:
@@ -104,6 +101,10 @@ def numbered(of: type[Quantity], count: int) -> type[Quantity]:
         return row(Script(items[0], number(count)), *items[1:])
 
     return quantity(of.code, layout)
+
+
+#: Built once, so that equal quantities are the same class.
+numbered: Callable[[type[Quantity], int], type[Quantity]] = cache(_numbered)
 
 
 class Over(Expr):
@@ -205,7 +206,7 @@ class Negative(Expr):
     """A negative number that was put in: it keeps its brackets."""
 
 
-DOTS = letter("dots", Glyph("…", "punctuation"))
+DOTS = letter("dots", "…")
 INFINITY = letter("infinity", "∞")
 
 
@@ -251,4 +252,3 @@ A = quantity("A", subscripted("a"))
 r = quantity("r", subscripted("r"))
 G = quantity("G", subscripted("R"))
 Gn = quantity("Gn", subscripted("R", lambda upper: Fence(upper)))
-

@@ -1,6 +1,6 @@
 """The reading of a formula as a step: the givens put in, nothing evaluated, the textbook's order kept."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy
@@ -53,7 +53,9 @@ def put_in(expression: Expr, known: Known) -> Expr:
     if expression.is_Pow:
         # An exponent counts steps; it is not part of the working.
         return _power(arguments[0], evaluated(arguments[1]))
-    return expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
+    return (
+        expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
+    )
 
 
 def indexed(expression: Expr, known: Known) -> Expr:
@@ -111,8 +113,11 @@ def _over(expression: Over, known: Known) -> Expr:
     raise TypeError(f"{expression.func.__name__} cannot be written out")
 
 
-def _flat(kind: type[Expr], arguments: list[Expr]) -> list[Expr]:
-    return [part for argument in arguments for part in (argument.args if argument.func is kind else [argument])]
+def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
+    flat: list[Expr] = []
+    for argument in arguments:
+        flat += _flat(kind, argument.args) if argument.func is kind else [argument]
+    return flat
 
 
 def _sum(terms: list[Expr]) -> Expr:

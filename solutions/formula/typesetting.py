@@ -1,6 +1,6 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import sympy
@@ -113,7 +113,7 @@ def _opposite(term: Expr) -> Expr:
 
 def _sum(terms: Sequence[Expr]) -> Math:
     items: list[Math] = []
-    flat = [part for term in terms for part in (term.args if term.is_Add else [term])]
+    flat = [part for term in terms for part in _parts(term, sympy.Add)]
     for position, term in enumerate(flat):
         if _negative(term):
             items += [_MINUS, _addend(_opposite(term))]
@@ -122,12 +122,21 @@ def _sum(terms: Sequence[Expr]) -> Math:
     return row(*items)
 
 
+def _parts(expression: Expr, kind: type[Expr]) -> Iterator[Expr]:
+    """The terms of a sum or the factors of a product; what is nested to the left needs no brackets."""
+    if expression.func is kind:
+        for argument in expression.args:
+            yield from _parts(argument, kind)
+    else:
+        yield expression
+
+
 def _addend(term: Expr) -> Math:
     return Fence(typeset(term)) if term.is_Add or _negative(term) else typeset(term)
 
 
 def _product(factors: Sequence[Expr]) -> Math:
-    flat = [part for factor in factors for part in (factor.args if factor.is_Mul else [factor])]
+    flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
     if flat[0] == -1 and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
@@ -150,7 +159,9 @@ def _reciprocal(factor: Expr) -> bool:
 
 def _numeric(factor: Expr) -> bool:
     base = factor.args[0] if factor.is_Pow else factor
-    return bool(base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar))
+    return bool(
+        base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar)
+    )
 
 
 def _is_grid(factor: Expr) -> bool:
@@ -272,4 +283,3 @@ _WRITERS: dict[type, Any] = {
     sympy.exp: _exponential,
     sympy.log: _logarithm,
 }
-

@@ -1,5 +1,7 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.policy_gradient.softmax_policy import Given
@@ -20,7 +22,7 @@ def solve(given: Given, work: Work) -> None:
         for action, row in given.features.items()
         for index, value in enumerate(row, 1)
     }
-    known = {"s": "s", "theta": theta, "f": f, "features": tuple(theta), "choices": actions}
+    known: dict[str, Any] = {"s": "s", "theta": theta, "f": f, "features": tuple(theta), "choices": actions}
     preferences = work.answer("a", {action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
     work.answer("b", {action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})

@@ -1,4 +1,4 @@
-"""The formula sheet: one module per section, in the sheet's order; each formula is stated here and nowhere else."""
+"""The formula sheet: one module per section; each formula is stated here and nowhere else."""
 
 import importlib
 from functools import cache

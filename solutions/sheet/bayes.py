@@ -15,7 +15,7 @@ with evaluate(False):
         likelihood(z, h) * p(h) / SumOver(likelihood(z, h1) * p(h1), h1, Hypotheses),
         title="Bayes' rule",
         source="Thrun, Burgard & Fox 2005, eq. 2.24",
-        hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these products.",
+        hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these.",
     )
     NOT_NORMALISED = misread(
         BAYES,

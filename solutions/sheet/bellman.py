@@ -38,7 +38,7 @@ with evaluate(False):
         SumOver(pi(a, s) * LOOKAHEAD_PI, a, Actions(s)),
         title="Bellman equation for V",
         source="Sutton & Barto 2018, eq. 3.14",
-        hint="Average over the policy's actions, then over where each leads: reward plus γ times the value there.",
+        hint="Average over the actions, then over where each leads: reward plus γ times the value there.",
     )
     FORGOT_POLICY = misread(
         BELLMAN_V,
@@ -100,7 +100,9 @@ with evaluate(False):
         "bellman-optimality-q",
         Qstar(s, a),
         SumOver(
-            P(s, a, s1) * (R(s, a, s1) + gamma * MaxOver(Qstar(s1, a1), a1, Actions(s1))), s1, Successors(s, a)
+            P(s, a, s1) * (R(s, a, s1) + gamma * MaxOver(Qstar(s1, a1), a1, Actions(s1))),
+            s1,
+            Successors(s, a),
         ),
         title="Bellman optimality equation for Q",
         source="Sutton & Barto 2018, eq. 3.20",

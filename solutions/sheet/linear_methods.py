@@ -3,10 +3,10 @@
 from sympy import Pow, evaluate
 
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import Transposed, quantity, subscripted, t
+from rldrill.solutions.formula.notation import Quantity, Transposed, quantity, subscripted, t
 
 
-def _matrix(code: str, head: str):
+def _matrix(code: str, head: str) -> type[Quantity]:
     return quantity(code, subscripted(head), matrix=True)
 
 
@@ -42,7 +42,10 @@ with evaluate(False):
     TRANSPOSED_A = misread(
         LQR_GAIN,
         "transposed-a",
-        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * Transposed(At(t)),
+        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
+        * Transposed(Bt(t))
+        * Pt(t + 1)
+        * Transposed(At(t)),
         "A stands untransposed at the end; only B is transposed.",
         when=lambda given: len(given.A) > 1,  # a scalar is its own transpose
     )

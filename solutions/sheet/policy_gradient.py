@@ -2,6 +2,7 @@
 
 from sympy import evaluate, exp
 
+from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable
 from rldrill.solutions.formula.formula import Formula, misread
 from rldrill.solutions.formula.notation import (
     Choices,
@@ -16,7 +17,6 @@ from rldrill.solutions.formula.notation import (
     s,
     subscripted,
 )
-from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable
 
 
 def _feature(index: Math, *arguments: Math) -> Math:
@@ -45,7 +45,10 @@ with evaluate(False):
         hint="Exponentiate every action's preference, then divide by the sum of them all.",
     )
     NOT_NORMALISED = misread(
-        SOFTMAX_POLICY, "not-normalised", exp(H(s, a)), "Probabilities sum to 1: divide by the sum over all actions."
+        SOFTMAX_POLICY,
+        "not-normalised",
+        exp(H(s, a)),
+        "Probabilities sum to 1: divide by the sum over all actions.",
     )
     WITHOUT_EXP = misread(
         SOFTMAX_POLICY,

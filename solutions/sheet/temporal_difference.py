@@ -14,7 +14,7 @@ with evaluate(False):
         _REWARDS + gamma**n * V(S(t + n)),
         title="n-step return",
         source="Sutton & Barto 2018, eq. 7.1",
-        hint="n rewards, each discounted, then the value of the state reached after n steps, discounted by γⁿ.",
+        hint="n rewards, each discounted, then the value of the state reached after n steps, times γⁿ.",
         also=(r(t + 1) + DOTS + gamma ** (n - 1) * r(t + n) + gamma**n * V(S(t + n)),),
     )
     BOOTSTRAP_UNDISCOUNTED = misread(

@@ -1,0 +1,5 @@
+"""``python -m rldrill``."""
+
+from rldrill.cli import main
+
+main()

@@ -1,0 +1,134 @@
+"""Holding every exact answer against an independent solver, and every draw against what it promises."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.catalogue import selection
+from rldrill.problems.draws import Draws
+from rldrill.problems.family import Family
+from rldrill.problems.parts import Part, Policy
+from rldrill.selection import MAX_DRAWN
+from rldrill.solutions.answers.judging import Outcome, judge
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import enclosure, exact
+from rldrill.solutions.oracle import OPEN
+from rldrill.solutions.solution import Solution, solver
+
+#: How far an exact answer may be from the floating-point one, in units of the larger of 1 and the answer.
+TOLERANCE = 1e-8
+
+
+@dataclass
+class Finding:
+    """What the audit found in one family at one level.
+
+    Args:
+        drawn: how many problems were drawn.
+        disagreements: IDs and parts where the two solvers differ, with both answers.
+        refused: IDs and parts where the exact answer, typed, was not judged right.
+        ties: how many problems have tied best actions where the question assumes one.
+        made: how many misconceptions were tried.
+        recognised: how many of them, typed as answers, were recognised.
+        unrecognised: IDs and names of those that were not.
+    """
+
+    family: Family
+    level: int
+    drawn: int = 0
+    disagreements: list[str] = field(default_factory=list)
+    refused: list[str] = field(default_factory=list)
+    ties: int = 0
+    made: int = 0
+    recognised: int = 0
+    unrecognised: list[str] = field(default_factory=list)
+    seen: set[str] = field(default_factory=set)
+
+    @property
+    def clean(self) -> bool:
+        """Whether nothing is wrong."""
+        return not (self.disagreements or self.refused or self.ties or self.unrecognised)
+
+    @property
+    def never(self) -> tuple[str, ...]:
+        """The family's misconceptions that applied to no problem of this level."""
+        return tuple(m.name for m in solver(self.family).misconceptions if m.name not in self.seen)
+
+    def data(self) -> dict[str, Any]:
+        """The finding as JSON has it."""
+        return {
+            "family": self.family.name, "level": self.level, "drawn": self.drawn,
+            "disagreements": self.disagreements, "refused": self.refused, "ties": self.ties,
+            "misconceptions": {"made": self.made, "recognised": self.recognised,
+                               "unrecognised": self.unrecognised, "never_applicable": list(self.never)},
+        }  # fmt: skip
+
+
+def audit(
+    names: Sequence[str] = (), number: int = 200, seed: int = 0, progress: Callable[[], None] = lambda: None
+) -> Iterator[Finding]:
+    """Draw problems of every family and level, and check each.
+
+    Args:
+        names: topics and families; all, if empty.
+        number: problems per family and level.
+        seed: which problems.
+        progress: called after every problem.
+    """
+    for family in selection(tuple(names)):
+        for level in family.levels:
+            seeds = Draws(f"audit {seed} {family.name} {level}")
+            finding = Finding(family, level)
+            for _ in range(number):
+                examine(draw(family, level, seeds.below(MAX_DRAWN)), finding)
+                progress()
+            yield finding
+
+
+def examine(solution: Solution, finding: Finding) -> None:
+    """Check one problem, and add what is found."""
+    finding.drawn += 1
+    problem = solution.problem
+    expected = solver(problem.family).oracle(problem.given)
+    for part in problem.parts:
+        answer = solution.answers[part.label]
+        where = f"{problem.identity} ({part.label})"
+        if not agrees(part, answer, expected[part.label]):
+            finding.disagreements.append(f"{where}: exact {answer}, independent {expected[part.label]}")
+        if isinstance(part.kind, Policy) and not part.ties:
+            finding.ties += any(len(best) > 1 for best in expected[part.label].values())
+        if judge(solution, part.label, answer_kind(part.kind).write(answer)).outcome is not Outcome.RIGHT:
+            finding.refused.append(where)
+    for misconception, answers in solution.mistakes:
+        finding.made += 1
+        finding.seen.add(misconception.name)
+        if any(_recognised(solution, part, misconception.name, answers) for part in problem.parts):
+            finding.recognised += 1
+        else:
+            finding.unrecognised.append(f"{problem.identity}: {misconception.name}")
+
+
+def agrees(part: Part, answer: Any, expected: Any) -> bool:
+    """Whether an exact answer and an independent one are the same."""
+    cells = answer_kind(part.kind).cells(answer)
+    if isinstance(part.kind, Policy):
+        return {state: set(best) for state, best in cells.items()} == expected
+    if any(isinstance(content, tuple) for content in cells.values()):
+        return bool(answer == expected)
+    numbers = np.array([as_float(content) for content in cells.values()])
+    return bool(
+        np.allclose(numbers, np.asarray(expected, dtype=float).ravel(), rtol=TOLERANCE, atol=TOLERANCE)
+    )
+
+
+def as_float(value: Any) -> float:
+    """An exact number in floating point; an open parameter takes the oracle's value."""
+    return float(enclosure(value, exact(OPEN)).mid())
+
+
+def _recognised(solution: Solution, part: Part, name: str, answers: Mapping[str, Any]) -> bool:
+    verdict = judge(solution, part.label, answer_kind(part.kind).write(answers[part.label]))
+    return any(misconception.name == name for misconception in verdict.misconceptions)

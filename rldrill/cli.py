@@ -1,0 +1,68 @@
+"""The command line: one module for every command, and one place where errors become sentences."""
+
+import os
+import sys
+
+import typer
+
+from rldrill.commands import audit, generate, list_, quiz, sheet, show, solve, verify, worksheet
+from rldrill.problems.errors import UserError
+
+INTERNAL_ERROR = 70
+
+app = typer.Typer(
+    name="rldrill",
+    help="Drill the formulas of Reinforcement Learning and Robot Learning, with exact answers.",
+    epilog="Start with 'rldrill quiz'. Exit codes: 0 all right, 1 answers wrong, 2 usage, 3 a bad file, "
+    "4 nothing to grade, 70 our own fault, 130 Ctrl-C.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    pretty_exceptions_enable=False,
+)
+for module in (quiz, worksheet, verify, solve, show, sheet, list_, generate, audit):
+    app.command(module.NAME)(module.command)
+
+
+@app.callback(invoke_without_command=True)
+def version(
+    show_version: bool = typer.Option(False, "--version", help="Print the version and exit."),
+) -> None:
+    """Drill the formulas of Reinforcement Learning and Robot Learning, with exact answers."""
+    if show_version:
+        from rldrill import __version__
+
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+def main() -> None:
+    """Run a command; whatever goes wrong ends in one sentence and the exit code that belongs to it."""
+    try:
+        app()
+    except UserError as error:
+        fail(str(error), error.exit_code)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads on: end quietly
+        sys.exit(0)
+    except OSError as error:
+        if error.filename is None and error.errno is None:
+            raise
+        fail(f"{error.filename or 'The system'}: {(error.strerror or str(error)).lower()}.", 3)
+    except Exception as error:
+        if "RLDRILL_DEBUG" in os.environ:
+            raise
+        fail(
+            f"rldrill itself failed ({type(error).__name__}: {error}). Please report it with the command that you "
+            "ran; RLDRILL_DEBUG=1 shows where.",
+            INTERNAL_ERROR,
+        )
+
+
+def fail(sentence: str, code: int) -> None:
+    """Print one sentence to stderr and exit."""
+    print(f"rldrill: {sentence}", file=sys.stderr)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

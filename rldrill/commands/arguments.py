@@ -1,0 +1,41 @@
+"""The arguments that several commands share, and the completion of topics, families and IDs."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def complete_names(incomplete: str) -> list[str]:
+    """Topics and families that begin so."""
+    from rldrill.problems.catalogue import families, topics
+
+    names = [*(topic.replace("_", "-") for topic in topics()), *families()]
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def complete_ids(incomplete: str) -> list[str]:
+    """Families, and IDs of a family once it stands."""
+    from rldrill.problems.catalogue import families
+
+    head, slash, _ = incomplete.partition("/")
+    if slash and head in families():
+        return [name for level in (1, 2, 3) if (name := f"{head}/{level}/").startswith(incomplete)]
+    return [f"{name}/" for name in families() if name.startswith(incomplete)]
+
+
+Names = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="[TOPIC|FAMILY]…", autocompletion=complete_names, help="Topics or families; all, if none."
+    ),
+]
+Level = Annotated[
+    int | None,
+    typer.Option("--level", "-l", min=1, max=3, help="1 warm-up, 2 exam, 3 hard; mixed, if not given."),
+]
+Seed = Annotated[
+    int | None, typer.Option("--seed", "-s", min=0, help="Repeat the problems of an earlier run.")
+]
+Json = Annotated[bool, typer.Option("--json", help="Print data for programs.")]
+Output = Annotated[Path | None, typer.Option("--output", "-o", help="Write to this file.")]

@@ -1,0 +1,37 @@
+"""``rldrill show``."""
+
+from typing import Annotated
+
+import typer
+
+from rldrill.commands.arguments import Json, complete_ids
+
+NAME = "show"
+
+
+def command(
+    problem: Annotated[
+        str,
+        typer.Argument(
+            metavar="ID|FILE", autocompletion=complete_ids, help="A problem's ID, or a problem file."
+        ),
+    ],
+    json: Json = False,
+) -> None:
+    """Show a problem without its answer; with --json as a problem file with answers and steps.
+
+    Examples: rldrill show td-zero/2/7 · rldrill show td-zero/2/7 --json > mine.json
+    """
+    import json as json_
+
+    import rldrill
+    from rldrill.render.terminal import asked, console, render
+
+    exercise = rldrill.load(problem)
+    if json:
+        typer.echo(json_.dumps(exercise.data(), ensure_ascii=False, indent=2))
+        return
+    out = console()
+    out.print(render(exercise.question()))
+    for part in exercise.parts:
+        out.print(asked(part, only=len(exercise.parts) == 1))

@@ -1,0 +1,39 @@
+"""``rldrill solve``."""
+
+from typing import Annotated
+
+import typer
+
+from rldrill.commands.arguments import Json, complete_ids
+
+NAME = "solve"
+
+
+def command(
+    problem: Annotated[
+        str,
+        typer.Argument(
+            metavar="ID|FILE", autocompletion=complete_ids, help="A problem's ID, or a problem file."
+        ),
+    ],
+    json: Json = False,
+) -> None:
+    """Solve a problem exactly: the answers first, then every step of the working.
+
+    Examples: rldrill solve examples/racing-car.toml · rldrill solve td-zero/2/7 --json
+    """
+    import json as json_
+
+    import rldrill
+    from rldrill.problems.document import Heading
+    from rldrill.render.terminal import asked, console, render
+
+    exercise = rldrill.load(problem)
+    if json:
+        typer.echo(json_.dumps(exercise.data(), ensure_ascii=False, indent=2))
+        return
+    out = console()
+    for part in exercise.parts:
+        out.print(asked(part, only=len(exercise.parts) == 1))
+        out.print(render([exercise.answer(part)]))
+    out.print(render([Heading("Working"), *exercise.working()]))

@@ -1,0 +1,96 @@
+"""``rldrill verify``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rldrill.commands.arguments import Json
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from rldrill.verification import Report, Score, StudentReport
+
+NAME = "verify"
+_COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
+
+
+def command(
+    files: Annotated[
+        list[Path], typer.Argument(metavar="FILE…", help="Files of answers: .toml, .json, .csv or .jsonl.")
+    ],
+    json: Json = False,
+    show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too.")] = False,
+) -> None:
+    """Check files of answers, and say of each answer what is wrong and why.
+
+    A file holds a problem's ID (or a problem file), the part, and what was typed:
+
+    \b
+      TOML   student = "Ann"
+             ["return/1/7"]
+             a = "3/4"
+      CSV    student,problem,part,answer
+             Ann,return/1/7,a,3/4
+      JSON   {"student": "Ann", "answers": {"return/1/7": {"a": "3/4"}}}
+      JSONL  {"problem": "return/1/7", "part": "a", "answer": "3/4"}
+
+    An answer is right if it is exact, or right to 3 significant digits.
+
+    A part that was not answered counts as missing.
+
+    Exit codes: 0 all right, 1 not all right, 3 a bad file, 4 no answers.
+
+    Examples: rldrill verify answers.toml · rldrill verify handed-in/*.csv --json
+    """
+    import json as json_
+
+    from rldrill.verification import verify
+
+    report = verify(files)
+    for failure in report.failures:
+        typer.echo(f"rldrill: {failure.says}", err=True)
+    if json:
+        typer.echo(json_.dumps(report.to_json(show_key=show_key), ensure_ascii=False, indent=2))
+    else:
+        _print(report, show_key=show_key)
+    raise typer.Exit(report.exit_code)
+
+
+def _print(report: "Report", *, show_key: bool) -> None:
+    from rich.text import Text
+
+    from rldrill.render.terminal import console
+
+    out = console()
+    students = [(file, student) for file in report.files for student in file.students]
+    for file, student in students:
+        whose = student.student or ("no name" if len(file.students) > 1 else "")
+        out.print(Text(f"{file.path}: {whose}" if whose else file.path, "bold"))
+        out.print(_table(student, show_key=show_key))
+        out.print(Text(f"Score: {_points(student.score)}\n"))
+    if len(students) > 1:
+        out.print(Text(f"All together: {_points(report.score)}"))
+
+
+def _table(student: "StudentReport", *, show_key: bool) -> "Table":
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for title in ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else [])):
+        table.add_column(title, overflow="fold", no_wrap=title in ("Part", "Verdict", "Points"))
+    for row in student.rows:
+        why = "" if row.verdict == "right" else row.reason
+        points = f"{row.score.points} of {row.score.of}"
+        texts = [row.problem, row.part, row.read or "–", row.verdict, why, points, row.key]
+        cells = [Text(text) for text in texts[: len(table.columns)]]
+        cells[3].stylize(_COLOURS.get(row.verdict, "red"))
+        table.add_row(*cells)
+    return table
+
+
+def _points(score: "Score") -> str:
+    return f"{score.points} of {score.of} ({float(100 * score.points / score.of):.3g} %)"

@@ -1,0 +1,241 @@
+"""Reads files of text, TOML and JSON: every fault in one sentence, every number as it was written."""
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from rldrill.exercise import FORMAT
+from rldrill.problems.errors import FileError
+
+#: What the names of files that hold data end in.
+DATA_SUFFIXES = (".toml", ".json")
+_LARGEST = 10 * 10**6  # bytes
+_DEEPEST = 32  # levels of brackets; a problem file needs six
+_DIGITS = 40
+_TOO_DEEP = f"it nests deeper than {_DEEPEST} brackets; write it flatter."
+_TOO_LONG = f"a whole number has more than {_DIGITS} digits; shorten it."
+_IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
+_TOML_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)\)$")
+_NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
+
+
+def read_problem(path: str | Path) -> dict[str, Any]:
+    """The family and the givens that a problem file (TOML or JSON) holds.
+
+    What ``rldrill show ID --json`` writes beside them is passed over.
+
+    Raises:
+        FileError: the file cannot be read, or is not a problem file.
+    """
+    data = read_data(path)
+    where = shown(path)
+    if not isinstance(data, dict):
+        raise FileError(f"{where}: a problem file is a table with 'family' and 'given', not {_kind(data)}.")
+    version = data.get("format", FORMAT)
+    if type(version) is not int or version != FORMAT:
+        raise FileError(
+            f"{where}: its format is {_brief(version)}, and this release reads format {FORMAT}; "
+            "write the file again with this release's 'rldrill show ID --json'."
+        )
+    unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
+    if unknown:
+        raise FileError(
+            f"{where}: {_brief(unknown[0])} is not a field of a problem file; givens stand under 'given'."
+        )
+    return {key: data[key] for key in ("family", "given") if key in data}
+
+
+def read_data(path: str | Path) -> object:
+    """What a TOML or JSON file holds; numbers with a point or an exponent come as text, to stay exact.
+
+    Raises:
+        FileError: the file cannot be read, is empty, or its syntax is broken.
+    """
+    text = read_text(path, DATA_SUFFIXES)
+    if not text.strip():
+        raise FileError(f"{shown(path)}: the file is empty; write something into it, or name another.")
+    return parse(text, path)
+
+
+def read_text(path: str | Path, suffixes: Sequence[str]) -> str:
+    """The text of a file whose name ends as one of the suffixes says.
+
+    Raises:
+        FileError: it does not exist, cannot be read, ends otherwise, is too large or is not text.
+    """
+    path, where = Path(path), shown(path)
+    try:
+        if path.is_dir():
+            raise FileError(f"{where}: this is a directory; name a file in it.")
+        path.stat()
+        if path.suffix.lower() not in suffixes:
+            *others, last = suffixes
+            endings = f"{', '.join(others)} or {last}"
+            raise FileError(f"{where}: the name must end in {endings}; rename or convert the file.")
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except (FileNotFoundError, NotADirectoryError):
+        raise FileError(f"{where}: there is no such file; check its name and folder.") from None
+    except PermissionError:
+        raise FileError(f"{where}: reading it is not permitted; change its permissions.") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FileError(f"{where}: it cannot be read ({reason.lower()}); name another file.") from None
+    return _decoded(content, where)
+
+
+def _decoded(content: bytes, where: str) -> str:
+    if len(content) > _LARGEST:
+        raise FileError(f"{where}: the file is larger than {_LARGEST // 10**6} MB; split it.")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise FileError(f"{where}, line {line}: this is not UTF-8 text; save the file as UTF-8.") from None
+    if "\0" in text:
+        line = text.count("\n", 0, text.index("\0")) + 1
+        raise FileError(
+            f"{where}, line {line}: there is a null byte, so this is not text; save the file as UTF-8."
+        )
+    return text
+
+
+def parse(text: str, path: str | Path) -> object:
+    """What the text of a TOML or JSON file holds, by the suffix of its name.
+
+    Raises:
+        FileError: its syntax is broken, or a value in it is of no use.
+    """
+    read = _toml if Path(path).suffix.lower() == ".toml" else _json
+    return _parsed(read, text, shown(path), None)
+
+
+def parse_line(text: str, path: str | Path, line: int) -> object:
+    """What one line of a JSON Lines file holds; ``line`` is its number, for complaints.
+
+    Raises:
+        FileError: its syntax is broken, or a value in it is of no use.
+    """
+    return _parsed(_json, text, shown(path), line)
+
+
+class _BrokenError(ValueError):
+    """Broken syntax at a line and column of the text, or at its end."""
+
+    def __init__(self, reason: str, line: int | None, column: int | None) -> None:
+        super().__init__(reason)
+        self.line, self.column = line, column
+
+
+class _RefusedError(ValueError):
+    """A value that is well written but of no use; the message says why and what to do."""
+
+
+def _parsed(read: Callable[[str], object], text: str, where: str, line: int | None) -> object:
+    here = where if line is None else f"{where}, line {line}"
+    try:
+        data = read(text)
+        _check(data)
+    except _BrokenError as error:
+        if error.line is None:
+            place = f"{where}, at its end"
+        else:
+            place = f"{where}, line {error.line + (line or 1) - 1}, column {error.column}"
+        raise FileError(f"{place}: the syntax is broken ({error}); mend it there.") from None
+    except RecursionError:
+        raise FileError(f"{here}: {_TOO_DEEP}") from None
+    except _RefusedError as error:
+        raise FileError(f"{here}: {error}") from None
+    except ValueError:  # Python converts no whole numbers of more than 4300 digits
+        raise FileError(f"{here}: {_TOO_LONG}") from None
+    return data
+
+
+def _toml(text: str) -> object:
+    try:
+        return tomllib.loads(text, parse_float=_number)
+    except tomllib.TOMLDecodeError as error:
+        message = str(error)
+        place = _TOML_PLACE.search(message)
+        line, column = (int(place[1]), int(place[2])) if place and place[1] else (None, None)
+        raise _BrokenError(_begun_small(_TOML_PLACE.sub("", message)), line, column) from None
+
+
+def _json(text: str) -> object:
+    try:
+        return json.loads(text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_distinct)
+    except json.JSONDecodeError as error:
+        raise _BrokenError(_begun_small(error.msg), error.lineno, error.colno) from None
+
+
+def _number(literal: str) -> str:
+    if _NO_NUMBER.fullmatch(literal):
+        _no_number(literal)
+    return literal.replace("_", "")
+
+
+def _no_number(literal: str) -> NoReturn:
+    raise _RefusedError(f"{literal} is not a number to calculate with; write a finite one.")
+
+
+def _distinct(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    result: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in result:
+            raise _RefusedError(f"the key {_brief(key)} stands twice in one object; keep one of them.")
+        result[key] = value
+    return result
+
+
+def _check(data: object) -> None:
+    """Refuse what no later step could handle: deep nesting, endless numbers, halves of characters."""
+    level, layer = 0, [data]
+    while layer:
+        for item in layer:
+            _check_item(item)
+        layer = [child for item in layer for child in _children(item)]
+        level += 1
+        if level > _DEEPEST:
+            raise _RefusedError(_TOO_DEEP)
+
+
+def _check_item(item: object) -> None:
+    if isinstance(item, int) and abs(item) >= 10**_DIGITS:
+        raise _RefusedError(_TOO_LONG)
+    if isinstance(item, str) and not item.isascii():
+        try:
+            item.encode()
+        except UnicodeEncodeError:
+            raise _RefusedError(f"{_brief(item)} holds half a character; type it anew.") from None
+
+
+def _children(item: object) -> Iterator[object]:
+    if isinstance(item, dict):
+        yield from item
+        yield from item.values()
+    elif isinstance(item, list):
+        yield from item
+
+
+def _begun_small(message: str) -> str:
+    return message[:1].lower() + message[1:]
+
+
+def shown(path: str | Path) -> str:
+    """A path as it is written in sentences and tables: what a terminal cannot print is escaped."""
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in str(path))
+
+
+def _brief(value: object) -> str:
+    """A scalar as it is quoted in a sentence."""
+    text = repr(value) if isinstance(value, str | int | float) else _kind(value)
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _kind(value: object) -> str:
+    return {dict: "a table", list: "a list", str: "a text", type(None): "nothing"}.get(
+        type(value), "a single value"
+    )

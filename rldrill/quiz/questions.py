@@ -1,0 +1,33 @@
+"""Which exercises a quiz asks: the problems named, or draws from what is selected."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+from pathlib import Path
+
+from rldrill.exercise import Exercise, draw, load
+from rldrill.problems.catalogue import selection
+from rldrill.problems.identity import looks_like_id
+from rldrill.selection import sequence
+
+
+def questions(
+    names: Sequence[str], number: int, level: int | None, seed: Callable[[], int]
+) -> tuple[Iterator[Exercise], int]:
+    """The exercises of a quiz, drawn one by one as they are asked for, and how many there will be.
+
+    Raises:
+        UsageError: a name is neither a topic, a family, an ID nor a file.
+    """
+    named = [name for name in names if looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")]
+    if named and len(named) == len(names):
+        return iter([load(name) for name in named]), len(named)
+    rest = [name for name in names if name not in named]
+    selection(tuple(rest))  # a wrong name is told before a seed is announced
+    drawn = (draw(family.name, wanted, own) for family, wanted, own in sequence(rest, level, seed()))
+    first = [load(name) for name in named]
+    return _both(first, islice(drawn, max(0, number - len(first)))), max(number, len(first))
+
+
+def _both(first: list[Exercise], drawn: Iterator[Exercise]) -> Iterator[Exercise]:
+    yield from first
+    yield from drawn

@@ -1,0 +1,232 @@
+"""The quiz in the terminal: one problem after the other, part by part."""
+
+from collections.abc import Iterable
+from enum import Enum
+
+from rich.console import Console, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from rldrill.exercise import Exercise, draw
+from rldrill.problems.identity import MAX_SEED
+from rldrill.quiz.prompt import Ask
+from rldrill.quiz.session import PartRecord, Record, Session, State
+from rldrill.render.terminal import asked, render, renderable
+from rldrill.solutions.answers.judging import Outcome, Verdict
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.rule import RULE
+
+KEYS = "h hint · w working · s skip · r restart · v variant · q quit · ? help"
+HELP = (
+    ("h", "hint: the formula that is needed, then what it means"),
+    ("w", "working: show how this part is solved, and go on"),
+    ("s", "skip this part"),
+    ("r", "restart: begin this problem again from its first part"),
+    ("v", "variant: another problem of the same kind"),
+    ("q", "quit, with a summary (Ctrl-C and Ctrl-D do the same)"),
+    ("?", "this help"),
+)
+_STYLES = {
+    Outcome.RIGHT: "green",
+    Outcome.FOLLOW_THROUGH: "green",
+    Outcome.CLOSE: "yellow",
+    Outcome.MISCONCEPTION: "red",
+    Outcome.WRONG: "red",
+    Outcome.UNREADABLE: "yellow",
+}
+_WORDS = {
+    Outcome.RIGHT: "✓",
+    Outcome.FOLLOW_THROUGH: "✓",
+    Outcome.CLOSE: "≈",
+    Outcome.MISCONCEPTION: "✗ A typical mistake:",
+    Outcome.WRONG: "✗",
+    Outcome.UNREADABLE: "? Not understood, and not counted:",
+}
+
+
+class Then(Enum):
+    """Where to go on."""
+
+    NEXT = "next"
+    RESTART = "restart"
+    VARIANT = "variant"
+    QUIT = "quit"
+
+
+class Screen:
+    """Runs a quiz on a console, asking through ``ask``."""
+
+    def __init__(self, console: Console, ask: Ask) -> None:
+        self._console = console
+        self._ask = ask
+
+    def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
+        """Ask one exercise after the other; every verdict is in the session as soon as it is given.
+
+        Returns:
+            False when the person pressed Ctrl-C.
+        """
+        try:
+            for number, exercise in enumerate(exercises, 1):
+                if self._problem(exercise, number, session) is Then.QUIT:
+                    break
+        except EOFError:
+            self._print()
+        except KeyboardInterrupt:
+            self._print()
+            self.summary(session)
+            return False
+        self.summary(session)
+        return True
+
+    def _problem(self, exercise: Exercise, number: int, session: Session) -> Then:
+        while True:
+            record = Record.of(exercise)
+            session.records.append(record)
+            self._header(exercise, number, session.total)
+            self._print(render(exercise.question()))
+            then = self._parts(record)
+            if then is Then.NEXT:
+                then = self._after(record)
+            if then in (Then.NEXT, Then.QUIT):
+                return then
+            if not record.begun:
+                session.records.remove(record)
+            if then is Then.VARIANT:
+                exercise = variant(exercise)
+
+    def _header(self, exercise: Exercise, number: int, total: int) -> None:
+        family = exercise.problem.family
+        done = "━" * number + "─" * (total - number) if total <= 40 else ""
+        level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
+        self._print()
+        line = Text(f"Problem {number} of {total}", style="bold")
+        line.append(f"  {done}  ", style="cyan").append(f"{family.title}{level}")
+        self._print(line)
+        self._print(Text(f"{exercise.id or 'your own problem'} · answers: {RULE}", style="dim"))
+        self._print()
+
+    def _parts(self, record: Record) -> Then:
+        only = len(record.parts) == 1
+        for part in record.parts:
+            self._print(asked(part.part, only=only))
+            self._print(Text(f"  {answer_kind(part.part.kind).how_to_type()}", style="dim"))
+            self._print(Text(f"  {KEYS}", style="dim"))
+            then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
+            if then is not Then.NEXT:
+                return then
+        return Then.NEXT
+
+    def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
+        while part.state is State.OPEN:
+            text = self._ask(prompt).strip()
+            match text.lower():
+                case "":
+                    self._print(Text("  Type an answer, or ? for help.", style="dim"))
+                case "q" | ":q":
+                    return Then.QUIT
+                case "r" | ":r":
+                    return Then.RESTART
+                case "v" | ":v":
+                    return Then.VARIANT
+                case "?" | ":?" | "help":
+                    self._help()
+                case "h" | ":h":
+                    self._hint(record, part)
+                case "s" | ":s":
+                    part.state = State.SKIPPED
+                case "w" | ":w":
+                    part.state = State.SHOWN
+                    self._working(record, part)
+                case _:
+                    self._verdict(record.answer(part, text), part)
+        self._print()
+        return Then.NEXT
+
+    def _after(self, record: Record) -> Then:
+        text = self._ask("Enter next · w working · v variant · r again · q quit > ").strip().lower()
+        if text == "w":
+            self._print(render(record.exercise.working()))
+            return self._after(record)
+        return {"v": Then.VARIANT, "r": Then.RESTART, "q": Then.QUIT}.get(text, Then.NEXT)
+
+    def _verdict(self, verdict: Verdict, part: PartRecord) -> None:
+        style = _STYLES[verdict.outcome]
+        line = Text("  ").append(_WORDS[verdict.outcome], style=f"bold {style}").append(f" {verdict.says}")
+        if verdict.read:
+            line.append(f"  (read as {verdict.read})", style="dim")
+        self._print(line)
+        for misconception in verdict.misconceptions:
+            if misconception.formula is not None and misconception.reads is not None:
+                self._print(Text("  Your answer comes from this:", style="dim"))
+                self._indented(renderable(misconception.formula.equation(misconception.reads)))
+                self._print(Text("  The formula is:", style="dim"))
+                self._indented(renderable(misconception.formula.equation(misconception.formula.right)))
+        if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
+            self._print(Text("  Try again, or h for a hint, w for the working, s to go on.", style="dim"))
+
+    def _hint(self, record: Record, part: PartRecord) -> None:
+        blocks = record.exercise.hint(part.part.label)
+        equations, sentences = blocks[::2], blocks[1::2]
+        # The first hint is the formula; asked again, the hint says what to do with it.
+        self._indented(render(sentences if part.hinted else equations))
+        part.hinted = True
+
+    def _working(self, record: Record, part: PartRecord) -> None:
+        self._indented(render(record.exercise.working(part.part.label)))
+        self._print(Text("  The answer:", style="dim"))
+        self._indented(renderable(record.exercise.answer(part.part)))
+
+    def _help(self) -> None:
+        grid = Table.grid(padding=(0, 2))
+        for key, meaning in HELP:
+            grid.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+        self._print(grid)
+        self._print(Text(f"  Right is {RULE}.", style="dim"))
+
+    def summary(self, session: Session) -> None:
+        """Print what was answered, and how."""
+        parts = session.parts
+        if not parts:
+            self._print("Nothing was answered. Come back soon.")
+            return
+        table = Table(box=None, pad_edge=False)
+        for title in ("Problem", "Part", "Tries", "Result", "Points"):
+            table.add_column(title, justify="right" if title in ("Tries", "Points") else "left")
+        for record in session.records:
+            if record.begun:
+                for part in record.parts:
+                    table.add_row(
+                        Text(record.exercise.id or record.exercise.problem.family.name),
+                        Text(part.part.label),
+                        Text(str(part.tries)),
+                        Text(_result(part)),
+                        Text(f"{float(part.points):g} of {part.part.points}"),
+                    )
+        self._print(table)
+        right = sum(part.state is State.DONE for part in parts)
+        first = sum(part.first_time for part in parts)
+        self._print(
+            Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold")
+        )
+
+    def _indented(self, content: RenderableType) -> None:
+        self._print(Padding(content, (0, 0, 0, 2), expand=False))
+
+    def _print(self, content: RenderableType = "") -> None:
+        self._console.print(content)
+
+
+def _result(part: PartRecord) -> str:
+    if part.state is State.OPEN:
+        return part.verdicts[-1].outcome.value if part.verdicts else "not answered"
+    return part.state.value + (", with a hint" if part.hinted else "")
+
+
+def variant(exercise: Exercise) -> Exercise:
+    """Another problem of the same family and level; a problem from outside gets one of level 2."""
+    identity = exercise.problem.identity
+    if identity is None:
+        return draw(exercise.problem.family.name, 2, 0)
+    return draw(identity.family, identity.level, (identity.seed + 1) % MAX_SEED)

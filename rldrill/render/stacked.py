@@ -1,0 +1,111 @@
+"""Mathematics on several lines of text: matrices as matrices, everything else on the middle line."""
+
+from dataclasses import dataclass
+
+from rldrill.problems.mathematics import Fence, Grid, Math, Row, Script
+from rldrill.render.unicode import scripts, unicode
+
+_BRACKETS = {
+    "[": ("⎡", "⎢", "⎣"),
+    "]": ("⎤", "⎥", "⎦"),
+    "(": ("⎛", "⎜", "⎝"),
+    ")": ("⎞", "⎟", "⎠"),
+}
+
+
+@dataclass(frozen=True)
+class Box:
+    """Lines of the same width; the one at ``base`` is in line with what stands beside it."""
+
+    lines: tuple[str, ...]
+    base: int = 0
+
+    @property
+    def width(self) -> int:
+        """How wide the lines are."""
+        return len(self.lines[0])
+
+
+def stacked(math: Math) -> tuple[str, ...]:
+    """Mathematics as lines of text, one line where there is no matrix in it."""
+    return tuple(line.rstrip() for line in _box(math).lines) if _has_grid(math) else (unicode(math),)
+
+
+def _has_grid(math: Math) -> bool:
+    match math:
+        case Grid(rows):
+            return len(rows) > 1
+        case Row(items):
+            return any(map(_has_grid, items))
+        case Fence(body) | Script(body):
+            return _has_grid(body)
+        case _:
+            return False
+
+
+def _box(math: Math) -> Box:
+    match math:
+        case Grid(rows, left, right):
+            return _fenced(_cells(rows), left, right)
+        case Row(items) if _has_grid(math):
+            return _beside(items)
+        case Fence(body, left, right) if _has_grid(math):
+            return _fenced(_box(body), left, right)
+        case Script(body, below, above) if _has_grid(math):
+            box = _box(body)
+            raised = scripts(below, above)
+            top = [
+                line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)
+            ]
+            return Box(tuple(top), box.base)
+        case _:
+            return Box((unicode(math),))
+
+
+def _cells(rows: tuple[tuple[Math, ...], ...]) -> Box:
+    texts = [[unicode(cell) for cell in line] for line in rows]
+    widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
+    lines = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in texts]
+    return Box(tuple(lines), len(lines) // 2)
+
+
+def _fenced(box: Box, left: str, right: str) -> Box:
+    height = len(box.lines)
+    lines = [
+        f"{_bracket(left, index, height)}{line}{_bracket(right, index, height)}"
+        for index, line in enumerate(box.lines)
+    ]
+    return Box(tuple(lines), box.base)
+
+
+def _bracket(sign: str, index: int, height: int) -> str:
+    if height == 1 or sign not in _BRACKETS:
+        return sign
+    top, middle, bottom = _BRACKETS[sign]
+    return top if index == 0 else bottom if index == height - 1 else middle
+
+
+def _beside(items: tuple[Math, ...]) -> Box:
+    # What stands between two matrices is written as one piece, so that its signs get their spaces.
+    boxes: list[Box] = []
+    plain: list[Math] = []
+    for item in (*items, None):
+        if item is not None and not _has_grid(item):
+            plain.append(item)
+            continue
+        if plain:
+            text = unicode(Row(tuple(plain)))
+            sign = text[0] in "+−" and bool(boxes)
+            tail = item is not None and text[-1] in "+−"
+            boxes.append(Box((f" {text[0]} {text[1:].lstrip()}" if sign else text + " " * tail,)))
+            plain = []
+        if item is not None:
+            boxes.append(_box(item))
+    above = max(box.base for box in boxes)
+    below = max(len(box.lines) - box.base for box in boxes)
+    lines = [""] * (above + below)
+    for box in boxes:
+        for index in range(above + below):
+            inside = index - above + box.base
+            lines[index] += box.lines[inside] if 0 <= inside < len(box.lines) else " " * box.width
+    return Box(tuple(lines), above)

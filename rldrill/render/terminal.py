@@ -1,0 +1,83 @@
+"""Documents for the terminal, as rich's renderables."""
+
+import os
+import sys
+from collections.abc import Iterable
+
+from rich import box
+from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table as RichTable
+from rich.text import Text
+
+from rldrill.problems.document import Block, Equation, Heading, Paragraph, Table
+from rldrill.problems.parts import Part
+from rldrill.render.stacked import stacked
+from rldrill.render.unicode import inline
+
+#: How wide output is when nobody's terminal says: wide enough that nothing is cut.
+PIPED = 140
+
+
+def console(*, stderr: bool = False) -> Console:
+    """A console that leaves texts as they are, and is wide enough when its output is a file or a pipe."""
+    stream = sys.stderr if stderr else sys.stdout
+    width = None if stream.isatty() or "COLUMNS" in os.environ else PIPED
+    return Console(stderr=stderr, highlight=False, markup=False, emoji=False, width=width)
+
+
+def render(blocks: Iterable[Block]) -> Group:
+    """A document, its blocks one under the other with a line between them."""
+    return Group(*(item for block in blocks for item in (renderable(block), Text(""))))
+
+
+def renderable(block: Block) -> RenderableType:
+    """One block."""
+    match block:
+        case Paragraph(text):
+            return Text(inline(text))
+        case Heading(text):
+            return Text(inline(text), style="bold")
+        case Table(header, rows):
+            return _table(header, rows)
+        case Equation():
+            return _equation(block)
+        case _:
+            raise TypeError(f"{type(block).__name__} cannot be shown in a terminal")
+
+
+def _table(header: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> RenderableType:
+    table = RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=True)
+    for title, column in zip(header, zip(*rows, strict=True), strict=True):
+        numbers = all(cell.startswith("$") or cell == "–" for cell in column)
+        table.add_column(Text(inline(title)), justify="right" if numbers else "left", overflow="fold")
+    for line in rows:
+        table.add_row(*(Text(inline(cell)) for cell in line))
+    return _indented(table)
+
+
+def _equation(equation: Equation) -> RenderableType:
+    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    grid.add_column(no_wrap=True)
+    grid.add_column(no_wrap=True)
+    grid.add_column(overflow="fold")
+    left = "\n".join(stacked(equation.left))
+    for index, (sign, right) in enumerate(zip(equation.signs, equation.rights, strict=True)):
+        lines = stacked(right)
+        middle = len(lines) // 2
+        shift = "\n" * middle
+        grid.add_row(Text(shift + left if index == 0 else ""), Text(shift + sign), Text("\n".join(lines)))
+    return _indented(grid)
+
+
+def _indented(content: RenderableType) -> RenderableType:
+    return Padding(content, (0, 0, 0, 2), expand=False)
+
+
+def asked(part: Part, *, only: bool = False) -> Text:
+    """The sentence that asks for a part, with its letter unless it is the only one."""
+    text = Text() if only else Text(f"({part.label}) ", style="bold")
+    text.append(inline(part.ask))
+    if part.points != 1:
+        text.append(f"  [{part.points} points]", style="dim")
+    return text

@@ -1,0 +1,45 @@
+"""Which problems a run asks: a deterministic sequence from a selection, a level and a seed."""
+
+import secrets
+import sys
+from collections.abc import Iterator, Sequence
+from itertools import count
+
+from rldrill.problems.catalogue import selection
+from rldrill.problems.draws import Draws
+from rldrill.problems.family import Family
+
+#: The levels that are mixed when none is asked for, as often as they stand here.
+MIXED = (1, 2, 2, 3)
+#: The seeds of drawn problems stay below this, so that their IDs can be typed from paper.
+MAX_DRAWN = 10**6
+
+
+def fresh_seed() -> int:
+    """A seed for a run that was not given one; small enough to type again."""
+    return secrets.randbelow(10**6)
+
+
+def sequence(
+    names: Sequence[str], level: int | None, seed: int, version: int = 0
+) -> Iterator[tuple[Family, int, int]]:
+    """Family, level and seed of one problem after the other, without end.
+
+    Families come round in an order that the seed shuffles, so that each is asked before one comes again.
+    Versions of a worksheet share families and levels, and differ in the problems.
+    """
+    chosen = selection(tuple(names))
+    order = Draws(f"order {seed}")
+    problems = Draws(f"problems {seed} version {version}")
+    for _ in count():
+        for family in order.shuffled(chosen):
+            wanted = level if level is not None else order.choice(MIXED)
+            fitting = wanted if wanted in family.levels else family.levels[-1]
+            yield family, fitting, problems.below(MAX_DRAWN)
+
+
+def announced_seed(seed: int | None) -> int:
+    """The seed asked for, or a fresh one; said on stderr, so that the run can be repeated."""
+    chosen = fresh_seed() if seed is None else seed
+    print(f"seed {chosen}", file=sys.stderr)
+    return chosen

@@ -1,0 +1,271 @@
+"""Judges files of answers: the library under ``rldrill verify``."""
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from rldrill.answers_file import Entry, read_answers
+from rldrill.exercise import Exercise, load
+from rldrill.files import shown
+from rldrill.problems.errors import FileError, NothingToGrade, UserError
+from rldrill.problems.identity import looks_like_id
+from rldrill.solutions.answers.judging import Outcome, judge
+from rldrill.solutions.answers.kinds import answer_kind
+
+#: The version of the JSON that ``Report.to_json`` gives.
+FORMAT = 1
+#: The verdict on a part that was not answered; all others are values of ``Outcome``.
+MISSING = "missing"
+_RIGHT = frozenset({Outcome.RIGHT.value, Outcome.FOLLOW_THROUGH.value})
+
+
+@dataclass(frozen=True, slots=True)
+class Score:
+    """Points earned, of how many."""
+
+    points: Fraction
+    of: int
+
+    def to_json(self) -> dict[str, Any]:
+        """The score as JSON has it: the points exactly and as a decimal."""
+        return {"exact": str(self.points), "decimal": f"{float(self.points):.6g}", "of": self.of}
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """The judgement of one part of one problem.
+
+    Args:
+        problem: the problem's ID with its revision, or its file as the answers name it.
+        part: the label of the part.
+        typed: what was typed.
+        read: how that was read; empty if it was not.
+        verdict: a value of ``Outcome``, or ``missing``.
+        reason: one or two sentences to the person.
+        score: what the answer earns, and what a right one would.
+        key: the right answer, as it would be typed.
+        line: the line of the file, where its format has one for every answer.
+    """
+
+    problem: str
+    part: str
+    typed: str
+    read: str
+    verdict: str
+    reason: str
+    score: Score
+    key: str
+    line: int | None
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the part is right, be it only in going on from an earlier answer."""
+        return self.verdict in _RIGHT
+
+    def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
+        """The row as JSON has it."""
+        data: dict[str, Any] = {"problem": self.problem, "part": self.part, "line": self.line}
+        data |= {"typed": self.typed, "read": self.read, "verdict": self.verdict, "accepted": self.accepted}
+        data |= {"reason": self.reason, "points": self.score.to_json()}
+        return data | ({"key": self.key} if show_key else {})
+
+
+@dataclass(frozen=True, slots=True)
+class StudentReport:
+    """The answers of one student in one file; the name is empty where the file gives none."""
+
+    student: str
+    rows: tuple[Row, ...]
+
+    @property
+    def score(self) -> Score:
+        """The points of all rows."""
+        return _total(row.score for row in self.rows)
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """One file of answers."""
+
+    path: str
+    students: tuple[StudentReport, ...]
+
+    @property
+    def score(self) -> Score:
+        """The points of all students."""
+        return _total(student.score for student in self.students)
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """A file that could not be judged, the sentence that says why, and the exit code of that."""
+
+    path: str
+    says: str
+    exit_code: int
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The judgement of some files."""
+
+    files: tuple[FileReport, ...]
+    failures: tuple[Failure, ...] = ()
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """The rows of all files."""
+        return tuple(row for file in self.files for student in file.students for row in student.rows)
+
+    @property
+    def score(self) -> Score:
+        """The points of all files."""
+        return _total(file.score for file in self.files)
+
+    @property
+    def exit_code(self) -> int:
+        """0 all right, 1 not all right, 3 a file was unreadable, 4 no file held an answer."""
+        codes = {failure.exit_code for failure in self.failures}
+        if FileError.exit_code in codes:
+            return FileError.exit_code
+        if not self.files:
+            return NothingToGrade.exit_code
+        return int(bool(codes) or not all(row.accepted for row in self.rows))
+
+    def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
+        """The report as versioned JSON; the right answers are in it only if they are asked for."""
+        return {
+            "format": FORMAT,
+            "files": [
+                {
+                    "file": file.path,
+                    "students": [
+                        {
+                            "student": student.student,
+                            "points": student.score.to_json(),
+                            "answers": [row.to_json(show_key=show_key) for row in student.rows],
+                        }
+                        for student in file.students
+                    ],
+                    "points": file.score.to_json(),
+                }
+                for file in self.files
+            ],
+            "failures": [
+                {"file": failure.path, "says": failure.says, "exit_code": failure.exit_code}
+                for failure in self.failures
+            ],
+            "points": self.score.to_json(),
+            "exit_code": self.exit_code,
+        }
+
+
+def verify(paths: Iterable[str | Path]) -> Report:
+    """Judge files of answers; a file that cannot be judged becomes a failure and does not stop the others."""
+    problems = _Problems()
+    files: list[FileReport] = []
+    failures: list[Failure] = []
+    for path in paths:
+        try:
+            files.append(FileReport(shown(path), tuple(_students(read_answers(path), problems))))
+        except (FileError, NothingToGrade) as error:
+            failures.append(Failure(shown(path), str(error), error.exit_code))
+    return Report(tuple(files), tuple(failures))
+
+
+class _Problems:
+    """The problems that answers name, each loaded once."""
+
+    def __init__(self) -> None:
+        self._loaded: dict[str, Exercise] = {}
+
+    def of(self, entry: Entry) -> Exercise:
+        """The problem that an answer is for.
+
+        Raises:
+            FileError: it does not exist or is broken.
+        """
+        name = entry.problem if looks_like_id(entry.problem) else str(entry.path.parent / entry.problem)
+        if name not in self._loaded:
+            try:
+                self._loaded[name] = load(name)
+            except UserError as error:
+                raise FileError(f"{entry.where}: {error}") from None
+        return self._loaded[name]
+
+
+@dataclass(slots=True)
+class _Sheet:
+    """What one student answered to one problem."""
+
+    exercise: Exercise
+    name: str
+    entries: dict[str, Entry] = field(default_factory=dict)
+
+    def put(self, entry: Entry) -> None:
+        """Take an answer in.
+
+        Raises:
+            FileError: the problem has no such part, or the part has been answered already.
+        """
+        label = self._label(entry)
+        before = self.entries.setdefault(label, entry)
+        if before is not entry:
+            lines = "" if entry.line is None else f" (first in line {before.line})"
+            whose = f" by {entry.student}" if entry.student else ""
+            raise FileError(
+                f"{entry.where}: {self.name} ({label}) is answered twice{whose}{lines}; keep one answer."
+            )
+
+    def _label(self, entry: Entry) -> str:
+        labels = [part.label for part in self.exercise.parts]
+        wanted = entry.part.strip(" ().").lower()
+        if wanted in labels:
+            return wanted
+        if not wanted and len(labels) == 1:
+            return labels[0]
+        fault = f"there is no part {entry.part[:20]!r}" if wanted else "the part is missing"
+        raise FileError(f"{entry.where}: {fault}; {self.name} has {', '.join(labels)}.")
+
+    def rows(self) -> Iterator[Row]:
+        """Every part, answered or not; later ones are judged with the answers to earlier ones too."""
+        earlier: dict[str, Any] = {}
+        for part in self.exercise.parts:
+            entry = self.entries.get(part.label)
+            text = "" if entry is None else entry.text
+            if text.strip():
+                verdict = judge(self.exercise.solution, part.label, text, earlier)
+                if verdict.value is not None:
+                    earlier[part.label] = verdict.value
+            else:
+                verdict = None
+            yield Row(
+                problem=self.name,
+                part=part.label,
+                typed=text,
+                read="" if verdict is None else verdict.read,
+                verdict=MISSING if verdict is None else verdict.outcome.value,
+                reason="Not answered." if verdict is None else verdict.says,
+                score=Score(Fraction(0) if verdict is None else part.points * verdict.credit, part.points),
+                key=answer_kind(part.kind).write(self.exercise.solution.answers[part.label]),
+                line=None if entry is None else entry.line,
+            )
+
+
+def _students(entries: Sequence[Entry], problems: _Problems) -> Iterator[StudentReport]:
+    students: dict[str, dict[str, _Sheet]] = {}
+    for entry in entries:
+        exercise = problems.of(entry)
+        name = exercise.id or os.path.normpath(entry.problem)
+        sheets = students.setdefault(entry.student, {})
+        sheets.setdefault(name, _Sheet(exercise, name)).put(entry)
+    for student, answered in students.items():
+        yield StudentReport(student, tuple(row for sheet in answered.values() for row in sheet.rows()))
+
+
+def _total(scores: Iterable[Score]) -> Score:
+    every = tuple(scores)
+    return Score(sum((score.points for score in every), Fraction(0)), sum(score.of for score in every))

@@ -1,0 +1,162 @@
+"""The rule for answers, and the verdicts that come of it."""
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+from rldrill.problems.catalogue import families, family
+from rldrill.problems.family import Problem
+from rldrill.solutions.answers.judging import Outcome, Verdict, judge
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.rule import is_right, tolerance
+from rldrill.solutions.answers.text import read_number
+from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import generator
+from rldrill.solutions.solution import Solution, solve
+
+RACING_CAR = {
+    "gamma": 1,
+    "sweeps": 2,
+    "mdp": {
+        "transitions": [
+            ["cool", "slow", "cool", 1, 1], ["cool", "fast", "cool", 0.5, 2], ["cool", "fast", "warm", 0.5, 2],
+            ["warm", "slow", "cool", 0.5, 1], ["warm", "slow", "warm", 0.5, 1], ["warm", "fast", "overheated", 1, -10],
+        ],
+        "terminal": ["overheated"],
+    },
+}  # fmt: skip
+
+
+def problem(name: str, **given_: object) -> Solution:
+    found = family(name)
+    return solve(Problem(found, found.read(given_)))
+
+
+@pytest.mark.parametrize(
+    ("value", "half_a_unit"),
+    [
+        # 7/2 = 3.50: the third digit counts hundredths. 1234: tens. 0.00456: hundred-thousandths.
+        (fmpq(7, 2), fmpq(1, 200)), (fmpq(1234), fmpq(5)), (fmpq(456, 100000), fmpq(1, 200000)),
+        (fmpq(0), fmpq(1, 2000)), (fmpq(1), fmpq(1, 200)), (fmpq(999, 1000), fmpq(1, 2000)),
+        (fmpq(-10), fmpq(1, 20)), (sympy.exp(3), fmpq(1, 20)), (sympy.sqrt(2), fmpq(1, 200)),
+    ],
+)  # fmt: skip
+def test_the_tolerance_is_half_a_unit_of_the_third_digit(value: object, half_a_unit: fmpq) -> None:
+    assert tolerance(value) == half_a_unit
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "right"),
+    [
+        ("3.495", fmpq(7, 2), True), ("3.505", fmpq(7, 2), True),  # the bounds are included
+        ("3.4949", fmpq(7, 2), False), ("3.5051", fmpq(7, 2), False),
+        ("0.333", fmpq(1, 3), True), ("0.33", fmpq(1, 3), False), ("0.33333", fmpq(1, 3), True), ("1/3", fmpq(1, 3), True),
+        ("0.0005", fmpq(0), True), ("0.00051", fmpq(0), False), ("-0.0005", fmpq(0), True),
+        ("20.1", sympy.exp(3), True), ("20", sympy.exp(3), False), ("e^3", sympy.exp(3), True),
+        ("2 + 1/2*(-1 + 0.9*4 - 2)", fmpq(23, 10), True),
+    ],
+)  # fmt: skip
+def test_the_rule_at_its_bounds(text: str, key: object, right: bool) -> None:
+    reading = read_number(text)
+    assert is_right(reading.value, key, rounded=reading.decimal) is right
+
+
+@pytest.mark.parametrize(
+    ("text", "right"),
+    [
+        ("1/(1-gamma)", True), ("-1/(gamma - 1)", True), ("(1+γ)/(1-γ^2)", True), ("1 + gamma", False),
+        ("1.0/(1-gamma)", True), ("1.0002/(1-gamma)", True), ("1.001/(1-gamma)", False), ("1", False),
+    ],
+)  # fmt: skip
+def test_expressions_are_judged_by_equivalence(text: str, right: bool) -> None:
+    reading = read_number(text, ["gamma"])
+    assert is_right(reading.value, 1 / (1 - generator("gamma")), rounded=reading.decimal) is right
+
+
+@given(st.fractions(-1000, 1000, max_denominator=500).filter(bool))
+def test_rounding_to_three_digits_is_always_right(value: Fraction) -> None:
+    key = fmpq(value.numerator, value.denominator)
+    assert is_right(read_number(f"{float(value):.3g}").value, key)
+    assert is_right(read_number(str(value)).value, key)
+    assert not is_right(key + 3 * tolerance(key), key)
+
+
+@pytest.mark.parametrize("name", families())
+def test_every_kind_judges_its_own_samples(name: str) -> None:
+    for level in family(name).levels:
+        for seed in range(4):
+            solution = draw(name, level, seed)
+            for part in solution.problem.parts:
+                samples = answer_kind(part.kind).samples(solution.answers[part.label])
+                for text in samples.right:
+                    assert judge(solution, part.label, text).outcome is Outcome.RIGHT, text
+                for text in samples.wrong:
+                    assert not judge(solution, part.label, text).accepted, text
+                for text in samples.unreadable:
+                    verdict = judge(solution, part.label, text)
+                    assert verdict.outcome is Outcome.UNREADABLE, text
+                    assert verdict.says
+
+
+def verdicts(*typed: str) -> list[Verdict]:
+    """The verdicts of answers to (a), (b), … of the racing car, each going on from the ones before."""
+    solution = problem("value-iteration", **RACING_CAR)
+    earlier: dict[str, object] = {}
+    found = []
+    for part, text in zip(solution.problem.parts, typed, strict=False):
+        found.append(judge(solution, part.label, text, earlier))
+        earlier[part.label] = found[-1].value
+    return found
+
+
+def test_right_in_all_ways_of_typing() -> None:
+    for text in ("cool: 7/2, warm: 5/2", "3.5 2.5".replace(" ", ", "), "warm = 2.50; cool = 3 1/2", "V(cool)=3.5, V(warm)=2.5"):
+        assert verdicts(text)[0].outcome is Outcome.RIGHT, text
+
+
+def test_a_typical_mistake_is_named() -> None:
+    # One sweep more in place: V1(cool) = 2, V1(warm) = max(1/2·(1+2) + 1/2·(1+0), −10) = 2, then
+    # V2(cool) = max(1+2, 1/2·(2+2) + 1/2·(2+2)) = 4, V2(warm) = 1/2·(1+4) + 1/2·(1+2) = 4.
+    verdict = verdicts("cool: 4, warm: 4")[0]
+    assert verdict.outcome is Outcome.MISCONCEPTION
+    assert [m.name for m in verdict.misconceptions] == ["in-place"]
+
+
+def test_part_of_a_table_earns_part_of_the_points() -> None:
+    verdict = verdicts("cool: 3.5, warm: 9")[0]
+    assert verdict.outcome is Outcome.WRONG
+    assert verdict.credit == Fraction(1, 2)
+    assert verdict.wrong_cells == ("warm",)
+
+
+def test_a_slip_costs_once() -> None:
+    # With V2 = (0, 50) the greedy action in cool is fast (2 + 25 > 1) and in warm slow (1 + 25 > −10);
+    # with V2 = (50, 0) it is slow in cool (51 > 27).
+    wrong, follows = verdicts("cool: 50, warm: 0", "cool: slow, warm: slow")
+    assert wrong.outcome is Outcome.WRONG
+    assert follows.outcome is Outcome.FOLLOW_THROUGH
+    assert follows.credit == 1
+
+
+def test_close_says_so_and_earns_nothing() -> None:
+    solution = problem("return", rewards=[1, 1, 1], gamma="1/3", time=0)  # 13/9 = 1.444…
+    verdict = judge(solution, "a", "1.46")
+    assert verdict.outcome is Outcome.CLOSE
+    assert verdict.credit == 0
+
+
+def test_unreadable_says_what_and_keeps_nothing() -> None:
+    verdict = verdicts("cool: 3,5; warm: 2,5")[0]
+    assert verdict.outcome is Outcome.UNREADABLE
+    assert "3.5" in verdict.says
+    assert verdict.value is None
+
+
+def test_any_of_tied_actions_is_right() -> None:
+    # Both actions of "a" end the episode with reward 1.
+    tied = {"transitions": [["a", "left", "end", 1, 1], ["a", "right", "end", 1, 1]], "terminal": ["end"]}
+    solution = problem("value-iteration", gamma=1, sweeps=1, mdp=tied)
+    assert {judge(solution, "b", f"a: {action}").outcome for action in ("left", "right")} == {Outcome.RIGHT}

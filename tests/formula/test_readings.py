@@ -1,0 +1,101 @@
+"""One formula, two independent evaluations: the compiled one (flint) and that of the written-out step (sympy)."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+import sympy
+from flint import fmpq, fmpq_mat
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rldrill.problems.catalogue import families, family
+from rldrill.solutions.exact import NoSolution, to_sympy
+from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.notation import ArgMaxOver
+from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
+from rldrill.solutions.sheet import formulas
+from rldrill.solutions.solution import solver
+
+STATES = ("cool", "warm", "hot")
+ACTIONS = ("slow", "fast")
+fractions = st.fractions(-9, 9, max_denominator=12)
+
+
+class Anything(Mapping[Any, Any]):
+    """A quantity that has a random value for whatever it is asked."""
+
+    def __init__(self, draw: Any) -> None:
+        self._draw = draw
+        self._known: dict[Any, Any] = {}
+
+    def __getitem__(self, key: Any) -> Any:
+        if key not in self._known:
+            self._known[key] = self._draw(key)
+        return self._known[key]
+
+    def __iter__(self) -> Any:
+        return iter(self._known)
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+
+def known(data: st.DataObject) -> dict[str, Any]:
+    """Values for all letters and quantities of the sheet."""
+
+    def number(_: Any = None) -> fmpq:
+        value = data.draw(fractions)
+        return fmpq(value.numerator, value.denominator)
+
+    def matrix(_: Any) -> fmpq_mat:
+        return fmpq_mat(2, 2, [number() for _ in range(4)])
+
+    fixed: dict[str, Any] = {
+        "s": "cool", "a": "slow", "s1": "warm", "b": "fast", "h": "warm", "z": "door", "i": 1,
+        "t": 1, "n": data.draw(st.integers(1, 4)), "T": data.draw(st.integers(2, 6)),
+        "states": STATES, "choices": ACTIONS, "features": (1, 2), "hypotheses": STATES, "measurements": ("door",),
+        "S": Anything(lambda t: STATES[t % 3]), "A": Anything(lambda t: ACTIONS[t % 2]),
+        "actions": Anything(lambda _: ACTIONS), "successors": Anything(lambda _: STATES[:2]),
+        "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
+    }  # fmt: skip
+    return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
+
+
+def _number_or_quantity(code: str, number: Any) -> Any:
+    letters = ("alpha", "gamma", "lam", "epsilon")
+    return number() if code in letters else Anything(number)
+
+
+READINGS = {key: formula.right for key, formula in formulas().items()} | {
+    f"{name}: {misconception.name}": misconception.reads
+    for name in families()
+    for misconception in solver(family(name)).misconceptions
+    if misconception.reads is not None
+}
+
+
+@pytest.mark.parametrize("name", READINGS)
+@given(data=st.data())
+@settings(max_examples=12, deadline=None)
+def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObject) -> None:
+    expression = READINGS[name]
+    values = known(data)
+    try:
+        value = evaluate(expression, values)
+    except NoSolution:  # a singular matrix, or a sum that is zero: nothing to compare
+        return
+    step = put_in(expression, values)
+    if isinstance(expression, ArgMaxOver):
+        worth = [evaluated(argument) for argument in step.body.args]
+        best = tuple(a for a, w in zip(ACTIONS, worth, strict=True) if w == max(worth))
+        assert value == best
+        return
+    assert_same(value, evaluated(step))
+    assert_same(value, evaluated(reduced(step)))
+
+
+def assert_same(value: Any, written_out: Any) -> None:
+    if isinstance(value, fmpq_mat):
+        assert sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out
+    else:
+        assert sympy.simplify(to_sympy(value) - written_out) == 0

@@ -1,0 +1,100 @@
+"""How formulas and steps are written: literal lines, as the sheet prints them."""
+
+import pytest
+from flint import fmpq
+from rldrill.problems.document import Equation
+from rldrill.problems.mathematics import mathematics
+from rldrill.render.latex import latex
+from rldrill.render.unicode import unicode, unicode_text
+from rldrill.solutions.exact import generator
+from rldrill.solutions.formula.putting_in import put_in
+from rldrill.solutions.formula.typesetting import typeset, typeset_value
+from rldrill.solutions.sheet import formulas
+from rldrill.solutions.sheet.bellman import BELLMAN_V
+from rldrill.solutions.sheet.temporal_difference import TD_ZERO
+
+UNICODE = {
+    "return": "Rₜ = rₜ₊₁ + γrₜ₊₂ + γ²rₜ₊₃ + … = Σᵢ₌₀^∞ γⁱrₜ₊₁₊ᵢ",
+    "return-recursive": "Rₜ = rₜ₊₁ + γRₜ₊₁",
+    "bellman-v": "V^π(s) = Σₐ π(a|s) Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
+    "bellman-q": "Q^π(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
+    "bellman-optimality-v": "V*(s) = maxₐ Q*(s, a) = maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV*(s′))",
+    "bellman-optimality-q": "Q*(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γ maxₐ′ Q*(s′, a′))",
+    "value-iteration": "V(s) ← maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
+    "greedy-from-v": "π(s) = arg maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
+    "n-step-return": "Rₜ⁽ⁿ⁾ = rₜ₊₁ + … + γⁿ⁻¹rₜ₊ₙ + γⁿV(sₜ₊ₙ) = Σᵢ₌₀ⁿ⁻¹ γⁱrₜ₊₁₊ᵢ + γⁿV(sₜ₊ₙ)",
+    "td-zero": "V(sₜ) ← V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))",
+    "q-learning": "Q(sₜ, aₜ) ← Q(sₜ, aₜ) + α(rₜ₊₁ + γ maxₐ Q(sₜ₊₁, a) − Q(sₜ, aₜ))",
+    "lqr-gain": "Lₜ = (BₜᵀPₜ₊₁Bₜ − Rₜ)⁻¹BₜᵀPₜ₊₁Aₜ",
+    "bayes": "p(h|z) = (p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′))",
+    "softmax-policy": "π(a|s) = exp(h(s, a))/(Σ_b exp(h(s, b)))",
+}
+
+
+@pytest.mark.parametrize("key", UNICODE)
+def test_formulas_are_written_as_the_sheet_prints_them(key: str) -> None:
+    written = unicode_text(formulas()[key].equation())
+    assert " ".join(written.split()) == UNICODE[key]
+
+
+def test_a_formula_in_latex() -> None:
+    assert latex(typeset(TD_ZERO.right)).replace(" ", "") == (
+        r"V\left(s_{t}\right)+\alpha\left(r_{t+1}+\gammaV\left(s_{t+1}\right)-V\left(s_{t}\right)\right)"
+    )
+
+
+def test_the_step_of_the_design_document() -> None:
+    known = {
+        "S": {0: "cool", 1: "warm"}, "V": {"cool": fmpq(2), "warm": fmpq(4)}, "r": {1: fmpq(-1)},
+        "t": 0, "alpha": fmpq(1, 2), "gamma": fmpq(9, 10),
+    }  # fmt: skip
+    assert unicode(typeset(put_in(TD_ZERO.right, known))) == "2 + 1/2·((−1) + 9/10·4 − 2)"
+
+
+def test_zero_terms_are_dropped_and_unknowns_stay() -> None:
+    known = {
+        "s": "cool", "gamma": fmpq(1, 2), "actions": {"cool": ("slow", "fast")},
+        "successors": {("cool", "slow"): ("cool",), ("cool", "fast"): ("warm",)},
+        "pi": {("slow", "cool"): fmpq(1), ("fast", "cool"): fmpq(0)},
+        "P": {("cool", "slow", "cool"): fmpq(1), ("cool", "fast", "warm"): fmpq(1)},
+        "R": {("cool", "slow", "cool"): fmpq(3), ("cool", "fast", "warm"): fmpq(5)},
+    }  # fmt: skip
+    assert unicode(typeset(put_in(BELLMAN_V.right, known))) == "3 + 1/2·V^π(cool)"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (fmpq(-3, 4), "−3/4"),
+        (fmpq(7), "7"),
+        (2 - 3 * generator("gamma") + generator("gamma") ** 2 * fmpq(1, 2), "2 − 3γ + 1/2·γ²"),
+        ((3 * generator("p") - 9) / (generator("p") - 1), "(9 − 3p)/(1 − p)"),
+        (1 / (1 - generator("gamma")), "1/(1 − γ)"),
+    ],
+)
+def test_values_are_written_as_by_hand(value: object, text: str) -> None:
+    assert unicode(typeset_value(value)) == text
+
+
+@pytest.mark.parametrize(
+    ("source", "text"),
+    [
+        ("V(s_{t+1}) = 3/4", "V(sₜ₊₁) = 3/4"),
+        ("P_{s s'}^a", "Pₛₛ′ᵃ"),
+        ('V^π("smoking hot")', "V^π(smoking hot)"),
+        ("a_t = −L_t s_t", "aₜ = −Lₜsₜ"),
+        ("R_{0}^{(2)}", "R₀⁽²⁾"),
+    ],
+)
+def test_the_notation_of_questions(source: str, text: str) -> None:
+    assert unicode(mathematics(source)) == text
+
+
+def test_mathematics_left_open_is_refused() -> None:
+    with pytest.raises(ValueError, match="missing"):
+        mathematics("V_{t+1")
+
+
+def test_signs_of_an_equation_stand_between_its_sides() -> None:
+    equation = Equation(mathematics("x"), (mathematics("1"), mathematics("2")), ("←", "="))
+    assert unicode_text(equation) == "x ← 1 = 2"

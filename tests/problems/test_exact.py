@@ -1,0 +1,39 @@
+"""Exact numbers in files: every way to write one reads as the same fraction."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rldrill.problems.exact import Parameter, read_fraction, read_scalar, shown
+
+
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [
+        ("9/10", Fraction(9, 10)), (0.9, Fraction(9, 10)), ("0.9", Fraction(9, 10)), (" 9 / 10 ", Fraction(9, 10)),
+        ("1e-3", Fraction(1, 1000)), (3, Fraction(3)), ("−1/2", Fraction(-1, 2)), (0.1, Fraction(1, 10)), ("-0", 0),
+    ],
+)  # fmt: skip
+def test_numbers(written: object, value: Fraction) -> None:
+    assert read_fraction(written) == value
+
+
+@pytest.mark.parametrize(
+    "written", ["", "1/0", "abc", "nan", "inf", float("nan"), True, None, [], "9" * 41, "1e99999", "1/2/3", "0x10"]
+)
+def test_what_is_not_a_number_is_refused(written: object) -> None:
+    with pytest.raises(ValueError, match=r"number|zero"):
+        read_fraction(written)
+
+
+@given(st.fractions(max_denominator=10**6, min_value=-(10**9), max_value=10**9))
+def test_a_fraction_survives_being_written(value: Fraction) -> None:
+    assert read_fraction(str(value)) == value
+
+
+@pytest.mark.parametrize(("written", "name", "text"), [("gamma", "gamma", "γ"), ("γ", "gamma", "γ"), ("1 - p", "p", "1 − p")])
+def test_parameters(written: str, name: str, text: str) -> None:
+    parameter = read_scalar(written)
+    assert isinstance(parameter, Parameter)
+    assert (parameter.symbol, shown(parameter)) == (name, text)

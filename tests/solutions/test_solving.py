@@ -1,0 +1,99 @@
+"""Identities that hold between solutions, and what happens where there is none."""
+
+from typing import Any
+
+import pytest
+import rldrill
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rldrill.audit import audit
+from rldrill.problems.catalogue import families
+from rldrill.problems.errors import FileError
+from rldrill.solutions.drawing import draw
+
+numbers = st.fractions(-5, 5, max_denominator=4).map(str)
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+@pytest.mark.parametrize("name", families())
+def test_the_audit_finds_nothing(name: str) -> None:
+    for finding in audit([name], number=6, seed=1):
+        assert finding.clean, finding.data()
+        assert finding.made > 0
+
+
+@given(st.lists(numbers, min_size=2, max_size=6), st.sampled_from(["0", "1/2", "1"]))
+@settings(deadline=None, max_examples=30)
+def test_the_n_step_return_over_a_whole_episode_is_the_return(rewards: list[str], gamma: str) -> None:
+    states = [*"abcdef"[: len(rewards)], "end"]
+    n_step = solved(
+        "n-step-return",
+        trajectory={"states": states, "rewards": rewards, "terminal": ["end"]},
+        values=dict.fromkeys(states[:-1], "7"), gamma=gamma, asked=[[0, len(rewards)]],
+    )["a"]  # fmt: skip
+    assert n_step == solved("return", rewards=rewards, gamma=gamma, time=0)["a"]
+
+
+@given(numbers, numbers, numbers, st.sampled_from(["1/2", "9/10"]))
+@settings(deadline=None, max_examples=30)
+def test_a_td_step_with_alpha_1_is_the_one_step_return(reward: str, here: str, there: str, gamma: str) -> None:
+    run = {"states": ["a", "b"], "rewards": [reward]}
+    values = {"a": here, "b": there}
+    after = solved("td-zero", trajectory=run, values=values, alpha=1, gamma=gamma)["a"]["a"]
+    assert after == solved("n-step-return", trajectory=run, values=values, gamma=gamma, asked=[[0, 1]])["a"]
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=20)
+def test_a_policys_values_solve_its_equations(seed: int) -> None:
+    solution = draw("policy-value", 2, seed)
+    given_ = solution.problem.given
+    values = solution.answers["a"] | {"": fmpq(0)} | dict.fromkeys(given_.mdp.terminal, fmpq(0))
+    for state, value in solution.answers["a"].items():
+        total = sum(
+            given_.chances[state].get(row.action, 0) * row.probability
+            * (row.reward + given_.gamma * _fraction(values[row.next]))
+            for row in given_.mdp.transitions if row.state == state
+        )  # fmt: skip
+        assert total == _fraction(value)
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=20)
+def test_posteriors_sum_to_one(seed: int) -> None:
+    for belief in draw("bayes-rule", 3, seed).answers.values():
+        assert sum(belief.values()) == 1
+
+
+def _fraction(value: Any) -> Any:
+    from fractions import Fraction
+
+    return Fraction(int(value.numerator), int(value.denominator))
+
+
+def test_a_value_that_does_not_exist_is_one_sentence() -> None:
+    forever = {"transitions": [["a", "stay", "a", 1, 1]]}
+    with pytest.raises(FileError, match="no answer: the equations have no unique solution"):
+        solved("policy-value", mdp=forever, gamma=1)
+
+
+def test_a_measurement_that_cannot_happen_is_one_sentence() -> None:
+    with pytest.raises(FileError, match="no answer"):
+        solved(
+            "bayes-rule", prior={"a": 1, "b": 0}, likelihood={"z": {"a": 0, "b": 1}}, measurements=["z"]
+        )
+
+
+def test_a_hundred_states_are_solved_exactly() -> None:
+    rows = []
+    for index in range(100):
+        right = str(index + 1) if index < 99 else "end"
+        rows += [[str(index), "go", right, "1/2", 1], [str(index), "go", str(max(0, index - 1)), "1/2", 0]]
+    values = solved("policy-value", gamma="9/10", mdp={"transitions": rows, "terminal": ["end"]})["a"]
+    for index in range(1, 99):
+        expected = fmpq(1, 2) * (1 + fmpq(9, 10) * (values[str(index + 1)] + values[str(index - 1)]))
+        assert values[str(index)] == expected
