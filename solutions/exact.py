@@ -69,22 +69,14 @@ def _rank(term: sympy.Expr) -> tuple[int, object]:
 
 
 def from_sympy(expression: sympy.Expr) -> Value:
-    """A sympy expression as the simplest kind of exact value that holds it."""
-    if expression.is_Rational:
-        return fmpq(int(expression.p), int(expression.q))
-    free = expression.free_symbols
-    if len(free) == 1:
-        (only,) = free
-        if only.name in PARAMETERS and expression.is_rational_function(only):
-            return QQ.frac_field(only).from_expr(expression)
-    return expression
+    """A sympy expression as an exact value: rationals become flint's."""
+    return fmpq(int(expression.p), int(expression.q)) if expression.is_Rational else expression
 
 
 def simplest(value: Value) -> Value:
     """The same value, as a plain rational where no parameter is left in it."""
     if isinstance(value, FracElement):
-        expression = value.as_expr()
-        return fmpq(int(expression.p), int(expression.q)) if expression.is_Rational else value
+        return from_sympy(value.as_expr()) if value.numer.is_ground and value.denom.is_ground else value
     if isinstance(value, int):
         return fmpq(value)
     if isinstance(value, Fraction):

@@ -218,13 +218,19 @@ def _untransposed(source: Source) -> Source:
 
 
 def _vector(source: Source, length: int | None) -> list[Source]:
-    body, wrapped = source, False
-    while inner := body.unwrapped():
-        body, wrapped = inner, True
+    body, wrapped = _unwrapped(source)
     entries = _list(body, wrapped and length != 1)
     columns = [entry.unwrapped("[") for entry in entries]  # [[1], [2]]
     whole = [column for column in columns if column]
     return whole if len(whole) == len(entries) else entries
+
+
+def _unwrapped(source: Source) -> tuple[Source, bool]:
+    """What stands in up to three pairs of brackets around it all, and whether there are any."""
+    body = source
+    for _ in range(3):
+        body = body.unwrapped() or body
+    return body, body is not source
 
 
 def _list(source: Source, spaced: bool) -> list[Source]:
@@ -287,9 +293,7 @@ def _nested_rows(source: Source) -> list[list[Source]] | None:
 
 def _plain_rows(source: Source) -> list[list[Source]]:
     """The entries of rows that end with a semicolon or a line."""
-    body, wrapped = source, False
-    while inner := body.unwrapped():
-        body, wrapped = inner, True
+    body, wrapped = _unwrapped(source)
     rows = _filled(body.split(";\n"))
     return [_list(row, wrapped or len(rows) > 1) for row in rows]
 

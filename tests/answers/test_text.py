@@ -1,0 +1,773 @@
+"""What is read from typed answers, what is refused and how, and that neither takes long."""
+
+import time
+from fractions import Fraction
+
+import pytest
+import sympy
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sympy.polys.fields import FracElement
+
+from rldrill.solutions.answers.text import (
+    Reading,
+    Unreadable,
+    read_choice,
+    read_matrix,
+    read_number,
+    read_table,
+    read_vector,
+    read_words,
+    read_yes_no,
+)
+from rldrill.solutions.exact import generator
+
+GAMMA = generator("gamma")
+gamma = sympy.Symbol("gamma", positive=True)
+sqrt, exp, log, pi, E = sympy.sqrt, sympy.exp, sympy.log, sympy.pi, sympy.E
+PAIRS = [("cool", "fast"), ("cool", "slow"), ("warm", "slow")]
+
+
+def rational(value: int | str | Fraction) -> fmpq:
+    fraction = Fraction(value)
+    return fmpq(fraction.numerator, fraction.denominator)
+
+
+def values(readings) -> list:
+    return [reading.value for reading in readings]
+
+
+def refusal(read, *arguments) -> Unreadable:
+    with pytest.raises(Unreadable) as caught:
+        read(*arguments)
+    assert caught.value.message == str(caught.value)
+    return caught.value
+
+
+def complaint(read, text) -> Unreadable | None:
+    try:
+        read(text)
+    except Unreadable as unreadable:
+        return unreadable
+    return None
+
+
+RATIONALS = {
+    "3": "3",
+    "-3": "-3",
+    "+3": "3",
+    ".5": "1/2",
+    "3.": "3",
+    "3.5.": "7/2",
+    "0.1": "1/10",
+    "1e-3": "1/1000",
+    "2.5E2": "250",
+    "3/4": "3/4",
+    " 3 / 4 ": "3/4",
+    "1 3/4": "7/4",
+    "-1 3/4": "-7/4",
+    "2 + 1 3/4": "15/4",
+    "½": "1/2",
+    "1½": "3/2",
+    "75%": "3/4",
+    "12.5 %": "1/8",
+    "−3": "-3",
+    "–3": "-3",
+    "2×3": "6",
+    "2·3": "6",
+    "3÷4": "3/4",
+    "３/４": "3/4",
+    "2²": "4",
+    "2⁻¹": "1/2",
+    "2^3^2": "512",
+    "2**-2": "1/4",
+    "-2^2": "-4",
+    "(-2)^2": "4",
+    "2*-3": "-6",
+    "1/2/2": "1/4",
+    "1-2-3": "-4",
+    "2(1 + 2)(3)": "18",
+    "8^(1/3)": "2",
+    "4^0.5": "2",
+    "sqrt(9/4)": "3/2",
+    "√9": "3",
+    "sqrt(2)^2": "2",
+    "ln(e)": "1",
+    "exp(0)": "1",
+    "sin(pi/6)": "1/2",
+    "cos π": "-1",
+    "abs(-3)": "3",
+    "max(1, 2, 3/2)": "2",
+    "min(2, sqrt(2), 1)": "1",
+    "x = 3": "3",
+    "V(s) = 3": "3",
+    "R_0=3": "3",
+    "V_{k+1}(s) = 3": "3",
+    "Q*(s, a) = 3": "3",
+    "L = -1/2": "-1/2",
+}
+
+IRRATIONALS = {
+    "sqrt(2)": sqrt(2),
+    "sqrt 2": sqrt(2),
+    "√2": sqrt(2),
+    "√2/2": sqrt(2) / 2,
+    "2 sqrt(3)": 2 * sqrt(3),
+    "2^(-1/2)": sqrt(2) / 2,
+    "(1+sqrt(5))/2": (1 + sqrt(5)) / 2,
+    "e": E,
+    "e^2": exp(2),
+    "e²": exp(2),
+    "exp(-1/8)": exp(-sympy.Rational(1, 8)),
+    "e^(-1/8)": exp(-sympy.Rational(1, 8)),
+    "1/(1+exp(-2))": 1 / (1 + exp(-2)),
+    "ln 2": log(2),
+    "3 ln(2)": 3 * log(2),
+    "log(2)": log(2),
+    "pi": pi,
+    "2π": 2 * pi,
+}
+
+IN_GAMMA = {
+    "gamma": GAMMA,
+    "γ": GAMMA,
+    "Gamma": GAMMA,
+    "γ²": GAMMA**2,
+    "2γ": 2 * GAMMA,
+    "γγ": GAMMA**2,
+    "2(1+gamma)": 2 + 2 * GAMMA,
+    "gamma(1-gamma)": GAMMA - GAMMA**2,
+    "(1/2)γ": GAMMA / 2,
+    "2γ/3": 2 * GAMMA / 3,
+    "1/(1 - 0.9γ)": 1 / (1 - GAMMA * 9 / 10),
+    "(1-γ²)/(1-γ)": 1 + GAMMA,
+    "γ^-1": 1 / GAMMA,
+    "sqrt(γ)^2": GAMMA,
+    "sqrt(4γ²)": 2 * GAMMA,
+}
+
+
+@pytest.mark.parametrize("text", RATIONALS)
+def test_rational_numbers_stay_rational(text):
+    value = read_number(text).value
+    assert isinstance(value, fmpq)
+    assert value == rational(RATIONALS[text])
+
+
+@pytest.mark.parametrize("text", IRRATIONALS)
+def test_irrational_numbers_stay_exact(text):
+    value = read_number(text).value
+    assert isinstance(value, sympy.Expr)
+    assert sympy.simplify(value - IRRATIONALS[text]) == 0
+
+
+@pytest.mark.parametrize("text", IN_GAMMA)
+def test_expressions_in_a_parameter_are_rational_functions_of_it(text):
+    value = read_number(text, ["gamma"]).value
+    assert isinstance(value, FracElement)
+    assert value == IN_GAMMA[text]
+
+
+def test_a_parameter_that_cancels_leaves_a_rational_number():
+    for text in ("γ - γ + 1/2", "γ/(2γ)", "(1+γ)/(2+2γ)"):
+        value = read_number(text, ["gamma"]).value
+        assert isinstance(value, fmpq)
+        assert value == fmpq(1, 2)
+
+
+def test_a_parameter_may_stand_beside_irrational_numbers_and_other_parameters():
+    assert read_number("e^(-γ)", ["gamma"]).value == exp(-gamma)
+    assert read_number("sqrt(2)γ", ["gamma"]).value == sqrt(2) * gamma
+    alpha = sympy.Symbol("alpha", positive=True)
+    assert read_number("α γ + 1", ["gamma", "alpha"]).value == alpha * gamma + 1
+
+
+@pytest.mark.parametrize(
+    ("text", "echo", "decimal"),
+    [
+        ("3/4", "3/4", False),
+        (".5", "0.5", True),
+        ("3.", "3", True),
+        ("1E3", "1e3", True),
+        ("75%", "75%", True),
+        ("1+2γ", "1 + 2*gamma", False),
+        ("exp(−1/8)", "exp(-1/8)", False),
+        ("1 3/4", "7/4", False),
+        ("√2", "sqrt(2)", False),
+        ("e⁻²", "e^(-2)", False),
+        ("((1+γ))/(2(3))", "(1 + gamma)/(2*3)", False),
+    ],
+)
+def test_a_reading_shows_how_it_was_read(text, echo, decimal):
+    reading = read_number(text, ["gamma"])
+    assert (reading.echo, reading.decimal) == (echo, decimal)
+
+
+def test_a_long_echo_is_cut():
+    echo = read_number("+".join(["1/7"] * 50)).echo
+    assert len(echo) == 60
+    assert echo.endswith("…")
+
+
+REFUSED = {
+    "": "Nothing was typed.",
+    " \n ": "Nothing was typed.",
+    "x =": "Nothing was typed.",
+    "foo": "'foo' is not something this answer may contain",
+    "beta": "it may contain gamma.",
+    "α": "it may contain gamma.",
+    "__import__('os')": "'_' is not understood here",
+    "3,5": "3,5 has a decimal comma; write 3.5.",
+    "-0,500": "0,500 has a decimal comma; write 0.500.",
+    "exp(0,5)": "0,5 has a decimal comma; write 0.5.",
+    "1,000": "ambiguous; leave out the thousands separator",
+    "1,000,000.5": "write '1000000.5'",
+    "1, 2": "One number is needed",
+    "1; 2": "One number is needed",
+    "nan": "'nan' is not a number",
+    "-inf": "'inf' is not a number",
+    "Infinity": "'Infinity' is not a number",
+    "∞": "'∞' is not a number",
+    "1/0": "divides by zero",
+    "0^-1": "divides by zero",
+    "1/(γ-γ)": "divides by zero",
+    "1/(sqrt(2)sqrt(3)-sqrt(6))": "divides by zero",
+    "1/((1+√2)^2-3-2sqrt(2))": "cannot be told from zero",
+    "1/2γ": "two ways; write brackets",
+    "1/2 sqrt(3)": "two ways; write brackets",
+    "1/2(3)": "two ways; write brackets",
+    "e^2γ": "two ways; write brackets",
+    "ln 2/3": "two ways; put it in brackets",
+    "√2^2": "two ways; put it in brackets",
+    "2/1 3/4": "two ways here; put brackets",
+    "1 3/4γ": "two ways here; put brackets",
+    "1 7/4": "must be below one",
+    "1 2": "'1 2' are two numbers",
+    "γ 2": "'2' follows without a sign",
+    "5 % 3": "'3' follows without a sign",
+    "exp -1": "Put what exp is taken of in brackets",
+    "sin^2(1)": "Put what sin is taken of in brackets",
+    "1 +": "A number is missing after '+'",
+    "* 3": "A number is missing before '*'",
+    "(1 + 2": "close the bracket",
+    "1 + 2)": "was not opened",
+    "()": "A number is missing before ')'",
+    "[1]": "use round brackets",
+    "1 = 2": "'=' is not understood",
+    "x = 1/2 = 0.5": "'=' is not understood",
+    "$3$": "'$' is not understood",
+    "sqrt(-2)": "root of a negative number",
+    "ln(0)": "above zero has a logarithm",
+    "log(1 - e)": "above zero has a logarithm",
+    "tan(pi/2)": "not a real number",
+    "2^γ": "Only e is raised",
+    "2^65": "64 is the largest",
+    "9**9**9": "64 is the largest",
+    "e^101": "100 is the largest",
+    "exp(10^30 ln 2)": "100 is the largest",
+    "2^(1/13)": "whole numbers or fractions down to",
+    "sqrt(1234567890123)": "at most 12 digits",
+    "1" * 41: "40 digits are the most",
+    "1e41": "40 digits are the most",
+    "3\u200b": "invisible character (U+200B)",
+    "\u202e3": "invisible character (U+202E)",
+    "3\x00": "invisible character (U+0000)",
+    "3" * 2001: "longer than 2000 characters",
+    "(" * 41 + "1" + ")" * 41: "nests deeper",
+}
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_no_number_is_refused_with_a_sentence(text):
+    assert REFUSED[text] in refusal(read_number, text, ["gamma"]).message
+
+
+@pytest.mark.parametrize(
+    ("text", "position"),
+    [("1 + foo", 4), ("  1 + foo", 6), ("½ + foo", 4), ("3\u200b", 1), ("x = 1 + @", 8), ("", None)],
+)
+def test_a_refusal_names_the_column(text, position):
+    assert refusal(read_number, text).position == position
+
+
+VECTORS = [
+    "1, -2",
+    "[1 -2]",
+    "(1; -2)",
+    "[1, -2]",
+    "1; -2",
+    "(1, -2)^T",
+    "[1 -2]'",
+    "⟨1, −2⟩",
+    "1\n-2",
+    "x = (1, -2)",
+    "[[1], [-2]]",
+    "[[1, -2]]",
+    "[2/2 2-4]",
+    "[ 1 , -2 ]",
+    "(1, -2)ᵀ",
+    "1,\n-2",
+    "{1, -2}",
+    "1, -2.",
+]
+
+
+@pytest.mark.parametrize("text", VECTORS)
+def test_vectors(text):
+    assert values(read_vector(text, 2)) == [1, -2]
+
+
+def test_entries_of_vectors_may_be_expressions():
+    assert values(read_vector("[1/2, sqrt(2)]", 2)) == [fmpq(1, 2), sqrt(2)]
+    assert values(read_vector("[1 - 2 3]")) == [-1, 3]
+    assert values(read_vector("[sqrt 4 3]")) == [2, 3]
+    assert values(read_vector("[2γ (1+γ)]", 2, ["gamma"])) == [2 * GAMMA, 1 + GAMMA]
+    assert values(read_vector("1 3/4, 2")) == [fmpq(7, 4), 2]
+    assert values(read_vector("[1 3/4]")) == [1, fmpq(3, 4)]
+    assert values(read_vector("(1+γ)(1-γ), 2", 2, ["gamma"])) == [1 - GAMMA**2, 2]
+    assert values(read_vector("[3]", 1)) == values(read_vector("3", 1)) == [3]
+
+
+@pytest.mark.parametrize(
+    ("text", "length", "fragment"),
+    [
+        ("1, 2", 3, "2 numbers were read, 3 are needed."),
+        ("[1]", 2, "1 number was read, 2 are needed."),
+        ("3,5", 1, "2 numbers were read, 1 is needed. Decimals are written with a point"),
+        ("1,5; 2,5", 2, "1,5 has a decimal comma; write 1.5."),
+        ("1, 2; 3", 3, "Commas and semicolons are mixed"),
+        ("1, foo", 2, "entry 2: 'foo' is not"),
+        ("1,,2", 3, "entry 2: Nothing was typed."),
+        ("1 2", 2, "a comma there"),
+        ("[1, 2", 2, "The bracket '[' is not closed"),
+        ("[]", 2, "Nothing was typed."),
+    ],
+)
+def test_vectors_refused(text, length, fragment):
+    assert fragment in refusal(read_vector, text, length).message
+
+
+MATRICES = [
+    "[[1,2],[3,4]]",
+    "[1 2; 3 4]",
+    "1 2; 3 4",
+    "[1, 2; 3, 4]",
+    "((1,2),(3,4))",
+    "1 2\n3 4",
+    "1, 2\n3, 4",
+    "K = [1 2\n3 4]",
+    "[[1 2]\n [3 4]]",
+    "[1 2] [3 4]",
+    "[1, 2], [3, 4]",
+    "{{1,2},{3,4}}",
+    "[[1,3],[2,4]]^T",
+    "[1 3; 2 4]'",
+    "1, 2;\n3, 4;",
+]
+
+
+@pytest.mark.parametrize("text", MATRICES)
+def test_matrices(text):
+    assert [values(row) for row in read_matrix(text, (2, 2))] == [[1, 2], [3, 4]]
+    assert [values(row) for row in read_matrix(text)] == [[1, 2], [3, 4]]
+
+
+@pytest.mark.parametrize("text", ["1, 2", "[1 2]", "[1; 2]", "1\n2", "[(1), (2)]"])
+def test_a_single_row_or_column_may_be_typed_as_a_vector(text):
+    assert [values(row) for row in read_matrix(text, (1, 2))] == [[1, 2]]
+    assert [values(row) for row in read_matrix(text, (2, 1))] == [[1], [2]]
+
+
+@pytest.mark.parametrize("text", ["7/4", "1 3/4", "[7/4]", "[[7/4]]", "L = 7/4"])
+def test_a_single_entry_may_be_typed_as_a_number(text):
+    assert [values(row) for row in read_matrix(text, (1, 1))] == [[fmpq(7, 4)]]
+
+
+@pytest.mark.parametrize(
+    ("text", "shape", "fragment"),
+    [
+        ("[1 2 3; 4 5 6]", (2, 2), "A 2×3 matrix was read, 2×2 is needed."),
+        ("[[1, 2]]", (2, 1), "A 1×2 matrix was read, 2×1 is needed."),
+        ("[1 2; 3]", (2, 2), "Row 2 has length 1, row 1 has 2"),
+        ("[1, 2; 3, x]", (2, 2), "row 2, entry 2: 'x' is not"),
+        ("[[1, 2], [3, 1/0]]", (2, 2), "row 2, entry 2: It divides by zero."),
+        ("1,5; 2,5", (2, 1), "Decimals are written with a point"),
+    ],
+)
+def test_matrices_refused(text, shape, fragment):
+    assert fragment in refusal(read_matrix, text, shape).message
+
+
+TABLES = [
+    "cool: 3.5, warm: 2.5",
+    "cool=3.5; warm=2.5",
+    "cool: 3.5\nwarm: 2.5",
+    "V(cool) = 3.5, V(warm) = 2.5",
+    "warm: 5/2, cool: 7/2",
+    "V(cool): 3.5; V(warm): 2.5",
+    "V_cool = 3.5, V_{warm} = 2.5",
+    "3.5, 2.5",
+    "[3.5 2.5]",
+    "{cool: 3.5, warm: 2.5}",
+    "{'cool': 3.5, \"warm\": 2.5}",
+    "COOL: 3.5, Warm: 2.5",
+    "cool → 3.5, warm -> 2.5",
+    "V = 3.5, 2.5",
+    "V = (3.5, 2.5)",
+]
+
+
+@pytest.mark.parametrize("text", TABLES)
+def test_tables(text):
+    table = read_table(text, ["cool", "warm"])
+    assert list(table) == ["cool", "warm"]
+    assert values(table.values()) == [fmpq(7, 2), fmpq(5, 2)]
+
+
+PAIRED = [
+    "(cool, fast): 1, (cool, slow): 2, (warm, slow): 3",
+    "Q(cool,fast)=1; Q(cool,slow)=2; Q(warm,slow)=3",
+    "1, 2, 3",
+    "cool fast: 1, cool slow: 2, warm slow: 3",
+    "cool/fast: 1, cool/slow: 2, warm/slow: 3",
+    "cool, fast: 1, cool, slow: 2, warm, slow: 3",
+    "{('cool', 'fast'): 1, ('cool', 'slow'): 2, ('warm', 'slow'): 3}",
+]
+
+
+@pytest.mark.parametrize("text", PAIRED)
+def test_tables_over_pairs(text):
+    assert {key: reading.value for key, reading in read_table(text, PAIRS).items()} == dict(
+        zip(PAIRS, [1, 2, 3], strict=True)
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "keys"),
+    [
+        ("s₁: 1, s_2: 2, S3: 3", ["s1", "s2", "s_3"]),
+        ("s: 1, s': 2, s′′: 3", ["s", "s'", "s''"]),
+        ("a: 2, A: 1, b: 3", ["A", "a", "b"]),
+        ("e.g. x-y: 1, very  cool: 2, 3: 3", ["e.g. x-y", "very cool", "3"]),
+    ],
+)
+def test_names_of_keys(text, keys):
+    assert values(read_table(text, keys).values()) == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("text", "fragment"),
+    [
+        ("cool: 1", "warm is missing"),
+        ("cool: 1, cool: 2", "cool is given twice"),
+        ("cool: 1, hot: 2", "'hot' is not a key here; the keys are cool, warm."),
+        ("cool: 3,5, warm: 2,5", "may have a decimal comma; write '3.5'."),
+        ("cool: 1 warm: 2", "holds two keys; put a comma between them"),
+        ("cool: foo, warm: 2", "cool: 'foo' is not"),
+        ("cool: , warm: 2", "cool: Nothing was typed."),
+        ("1, 2, 3", "3 numbers were read, 2 are needed: cool, warm."),
+        ("cool, warm: 3", "'cool' is not understood; write it as cool:"),
+        ("a=" * 900, "holds two keys"),
+    ],
+)
+def test_tables_refused(text, fragment):
+    assert fragment in refusal(read_table, text, ["cool", "warm"]).message
+
+
+def test_a_key_that_may_be_two_is_refused():
+    assert "'AB' may be any of aB, Ab" in refusal(read_table, "AB: 1, ab: 2", ["aB", "Ab"]).message
+    assert "(warm, slow) is missing" in refusal(read_table, "cool fast: 1, cool slow: 2", PAIRS).message
+
+
+ACTIONS = {"cool": ["slow", "fast"], "warm": ["slow", "fast"]}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "cool: fast, warm: slow",
+        "warm = slow; cool = FAST",
+        "π(cool) = fast\nπ(warm) = slow.",
+        "fast, slow",
+        "fast slow",
+        "(fast, slow)",
+        "cool -> fast, warm → slow",
+        "pi = fast, slow",
+        "{'cool': 'fast', 'warm': 'slow'}",
+    ],
+)
+def test_policies(text):
+    assert read_words(text, ["cool", "warm"], ACTIONS) == {"cool": "fast", "warm": "slow"}
+
+
+@pytest.mark.parametrize(
+    ("text", "fragment"),
+    [
+        ("cool: run, warm: slow", "cool: 'run' is not one of slow, fast"),
+        ("cool: fast", "warm is missing"),
+        ("fast", "1 word was read, 2 are needed: cool, warm."),
+        ("hot: fast, warm: slow", "'hot' is not a key here"),
+    ],
+)
+def test_policies_refused(text, fragment):
+    assert fragment in refusal(read_words, text, ["cool", "warm"], ACTIONS).message
+
+
+@pytest.mark.parametrize(
+    ("text", "option"),
+    [
+        ("b", "Q-learning"),
+        ("(b)", "Q-learning"),
+        ("B.", "Q-learning"),
+        ("b)", "Q-learning"),
+        ("q-learn", "Q-learning"),
+        ("SARSA", "Sarsa"),
+        ("Expected Sarsa", "Expected Sarsa"),
+        ("exp", "Expected Sarsa"),
+        ("Q(λ)", "Q(λ)"),
+    ],
+)
+def test_choices(text, option):
+    assert read_choice(text, ["Sarsa", "Q-learning", "Q(λ)", "Expected Sarsa"]) == option
+
+
+def test_choices_refused():
+    options = ["Sarsa", "Q-learning", "Q(λ)"]
+    assert (
+        "'Q' fits more than one option; type a letter from a to c."
+        in refusal(read_choice, "Q", options).message
+    )
+    assert "'z' is not one of the options" in refusal(read_choice, "z", options).message
+    assert "fits more than one" in refusal(read_choice, "a", ["b", "a"]).message
+
+
+def test_yes_and_no():
+    assert all(map(read_yes_no, ["yes", "Y", "True", "ja.", " YES! "]))
+    assert not any(map(read_yes_no, ["no", "N", "false", "Nein"]))
+    assert "'maybe' is neither yes nor no" in refusal(read_yes_no, "maybe").message
+
+
+READERS = [
+    lambda text: read_number(text, ["gamma"]),
+    lambda text: read_vector(text, 2, ["gamma"]),
+    lambda text: read_matrix(text, (2, 2), ["gamma"]),
+    lambda text: read_matrix(text, None, ["gamma"]),
+    lambda text: read_table(text, ["cool", "warm"], ["gamma"]),
+    lambda text: read_table(text, PAIRS, ["gamma"]),
+    lambda text: read_words(text, ["cool", "warm"], ACTIONS),
+    lambda text: read_choice(text, ["Sarsa", "Q-learning"]),
+    read_yes_no,
+]
+
+HOSTILE = [
+    "9" * 10**6,
+    "(" * 10**5,
+    "(" * 1999,
+    "[" * 1999,
+    "[(" * 999,
+    "9**9**9**9",
+    "9^9^9^9^9",
+    "1e999999999",
+    "e^e^e^e^e^e",
+    "2^" * 900 + "2",
+    "sqrt(" * 30 + "2" + ")" * 30,
+    "sqrt(1+" * 30 + "2" + ")" * 30,
+    "exp(-" * 39 + "1" + ")" * 39,
+    "√" * 1999,
+    "-" * 1999,
+    "- " * 999 + "1",
+    "(1+gamma)^64^64",
+    "((gamma+1)^64)^64",
+    "((1+sqrt(2))^64)^64",
+    "(sqrt(γ)(1+γ)^12)^64",
+    "exp(100)^64",
+    "exp(exp(exp(exp(1))))",
+    "__import__('os').system('true')",
+    "().__class__.__bases__",
+    "lambda: 0",
+    "x = " * 500,
+    "x(" * 900,
+    "x(a)" * 490,
+    "a b " * 490,
+    "{" * 999 + "}" * 999,
+    "1%" + "%" * 1990,
+    "1" + "²" * 1990,
+    "2²" * 990,
+    "1+" * 990 + "1",
+    "γ+" * 990 + "1",
+    "γ*" * 990 + "1",
+    "[" + "γ " * 990 + "]",
+    "[" + "√2," * 600 + "1]",
+    "+".join(f"sqrt({n})" for n in range(2, 220)),
+    "*".join(f"sqrt({10**11 + n})" for n in range(2, 100)),
+    "+".join(f"1/({n}+γ)" for n in range(2, 220)),
+    "*".join(f"(1+exp(1/{n}))" for n in range(2, 120)),
+    "((γ+1)^12/(γ+2)^12)+" * 90 + "1",
+    "exp(ln(10)*10^30)",
+    "(γ+1/9999999999)^24",
+    "999999999989^(63/12)",
+    "sin(10^40)",
+    "tan(pi/240)",
+    "exp(2 sin((tan(10)-7)^64))",
+    "exp((1+√2)^2-3-2*√2)",
+    "1;" * 990,
+    "a:1," * 490,
+    "\n" * 1990 + "1",
+    "1\n" * 990,
+]
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+def test_hostile_texts_take_no_time(text):
+    read_number("sqrt(2) + exp(γ) + sin(1)", ["gamma"])
+    for read in READERS:
+        start = time.perf_counter()
+        unreadable = complaint(read, text)
+        assert unreadable is None or len(unreadable.message) < 300
+        assert time.perf_counter() - start < 0.5  # 0.05 s is meant; the rest is for a busy machine
+
+
+@given(st.text(max_size=60))
+def test_no_text_raises_anything_else(text):
+    for read in READERS:
+        if unreadable := complaint(read, text):
+            assert unreadable.message.isprintable()
+            assert unreadable.position is None or 0 <= unreadable.position <= len(text)
+
+
+PIECES = [
+    "1",
+    "0",
+    "2.5",
+    "γ",
+    "e",
+    "pi",
+    "sqrt",
+    "exp",
+    "ln",
+    "max",
+    "(",
+    ")",
+    "[",
+    "]",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "%",
+    "²",
+    ",",
+    ";",
+    " ",
+    "\n",
+    ":",
+    "=",
+    "cool",
+    "warm",
+    "fast",
+    "'",
+    "√",
+    "½",
+]
+
+
+@given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join))
+def test_no_jumble_of_known_pieces_raises_anything_else(text):
+    for read in READERS:
+        if unreadable := complaint(read, text):
+            assert unreadable.message.isprintable()
+
+
+def written(number: Fraction) -> list[str]:
+    """Some ways in which a person writes a rational number."""
+    sign, size = ("-" if number < 0 else ""), abs(number)
+    ways = [str(number), str(number).replace("-", "−"), f" {number.numerator} / {number.denominator} "]
+    ways += [f"({number})", f"({number * 100})%"]
+    if size > 1 and size.denominator > 1:
+        ways.append(f"{sign}{size // 1} {size % 1}")
+    scaled, places = size, 0
+    while scaled.denominator > 1 and places < 12:
+        scaled, places = scaled * 10, places + 1
+    if scaled.denominator == 1:
+        ways.append(f"{sign}{scaled}e-{places}")
+        digits = str(scaled).rjust(places + 1, "0")
+        ways.append(f"{sign}{digits[: len(digits) - places]}.{digits[len(digits) - places :]}")
+    return ways
+
+
+@given(
+    st.fractions(max_denominator=10**6).filter(lambda number: abs(number) < 10**9)
+    | st.decimals(min_value=-1000, max_value=1000, places=4).map(Fraction)
+)
+def test_every_rational_is_read_however_it_is_written(number):
+    for text in written(number):
+        value = read_number(text).value
+        assert isinstance(value, fmpq)
+        assert value == rational(number), text
+
+
+def combined(parts: st.SearchStrategy) -> st.SearchStrategy:
+    return st.one_of(
+        st.tuples(st.sampled_from("+-*/"), parts, parts),
+        st.tuples(st.just("neg"), parts),
+        st.tuples(st.just("^"), parts, st.integers(-2, 3)),
+    )
+
+
+TREES = st.recursive(st.fractions(0, 20, max_denominator=12), combined, max_leaves=10)
+
+
+def computed(tree) -> Fraction:
+    """The tree's value, by Python's own fractions."""
+    if isinstance(tree, Fraction):
+        return tree
+    operator, left, *right = tree
+    value = computed(left)
+    if operator == "neg":
+        return -value
+    if operator == "^":
+        return value ** right[0]
+    other = computed(right[0])
+    return {"+": value.__add__, "-": value.__sub__, "*": value.__mul__, "/": value.__truediv__}[operator](
+        other
+    )
+
+
+def typed(tree, above: int = 0) -> str:
+    """The tree as text with the fewest brackets; ``above`` is how strongly its surroundings bind."""
+    if isinstance(tree, Fraction):
+        text, rank = str(tree), 4 if tree.denominator == 1 else 2
+    elif tree[0] == "neg":
+        text, rank = f"-{typed(tree[1], 2)}", 0
+    elif tree[0] == "^":
+        text, rank = f"{typed(tree[1], 4)}^{tree[2]}", 3
+    else:
+        rank = 1 if tree[0] in "+-" else 2
+        text = f"{typed(tree[1], rank)} {tree[0]} {typed(tree[2], rank + 1)}"
+    return text if rank >= above else f"({text})"
+
+
+@settings(max_examples=300)
+@given(TREES)
+def test_expressions_read_back_to_the_same_value(tree):
+    text = typed(tree)
+    try:
+        value = computed(tree)
+    except ZeroDivisionError:
+        assert "divides by zero" in refusal(read_number, text).message
+        return
+    if len(str(value)) > 300:
+        return
+    reading = read_number(text)
+    assert reading.value == rational(value)
+    if not reading.echo.endswith("…"):
+        assert read_number(reading.echo).value == reading.value
+
+
+def test_a_reading_cannot_be_changed():
+    reading = read_number("1")
+    assert isinstance(reading, Reading)
+    with pytest.raises(AttributeError):
+        reading.value = 2

@@ -1,0 +1,151 @@
+"""The quiz: with somebody's typing simulated, and in a real pseudo-terminal."""
+
+import os
+import sys
+from collections.abc import Iterator
+from io import StringIO
+from pathlib import Path
+
+import pexpect
+import pytest
+import rldrill
+from rich.console import Console
+from rldrill.quiz.questions import questions
+from rldrill.quiz.screen import HELP, Screen
+from rldrill.quiz.session import Session, State
+
+RACING_CAR = Path(__file__).parent.parent.parent / "examples" / "racing-car.toml"
+
+
+class Typist:
+    """Types the given lines; then input ends, or Ctrl-C is pressed."""
+
+    def __init__(self, *lines: str | type[BaseException]) -> None:
+        self.lines: Iterator[str | type[BaseException]] = iter(lines)
+        self.screen = Console(file=StringIO(), width=100, highlight=False, markup=False)
+
+    def __call__(self, prompt: str) -> str:
+        line = next(self.lines, EOFError)
+        if not isinstance(line, str):
+            raise line
+        self.screen.print(f"{prompt}{line}")
+        return line
+
+    @property
+    def seen(self) -> str:
+        """All that was on the screen."""
+        file = self.screen.file
+        assert isinstance(file, StringIO)
+        return file.getvalue()
+
+
+def quiz(*lines: str | type[BaseException], names: tuple[str, ...] = (str(RACING_CAR),)) -> tuple[Typist, Session, bool]:
+    typist = Typist(*lines)
+    exercises, total = questions(names, 1, None, lambda: 0)
+    session = Session(total)
+    finished = Screen(typist.screen, typist).run(exercises, session)
+    return typist, session, finished
+
+
+def test_a_whole_problem() -> None:
+    # V2 = 7/2 and 5/2 as the lecture has them; greedy in cool: fast (2 + 3 > 1 + 3.5), in warm: slow.
+    typist, session, finished = quiz("cool: 7/2, warm: 2.5", "cool: fast, warm: slow", "")
+    assert finished
+    assert [part.state for part in session.parts] == [State.DONE, State.DONE]
+    assert "2 of 2 parts right, 2 of them at the first try." in typist.seen
+
+
+def test_a_mistake_is_named_with_its_formula_and_may_be_mended() -> None:
+    # Averages over two actions: V1 = (3/2, −9/2), V2(cool) = (1 + 3/2 + 2 + 1/2·3/2 − 1/2·9/2)/2 = 3/2 …
+    solution = rldrill.load(RACING_CAR).solution
+    mean = next(answers for m, answers in solution.mistakes if m.name == "mean-for-max")
+    typist, session, _ = quiz(", ".join(f"{s}: {v}" for s, v in mean["a"].items()), "3.5, 2.5", "s", "")
+    assert "A typical mistake: Value iteration keeps the best action's value" in typist.seen
+    assert "meanₐ" in typist.seen
+    assert [part.state for part in session.parts] == [State.DONE, State.SKIPPED]
+    assert session.parts[0].tries == 2
+
+
+def test_what_cannot_be_read_costs_nothing() -> None:
+    typist, session, _ = quiz("3,5; 2,5", "", "?", "[s0] [bold]x[/bold]", "3.5 2.5", "3.5, 2.5")
+    assert typist.seen.count("Not understood, and not counted") >= 2
+    assert "write 3.5" in typist.seen
+    for key, meaning in HELP:
+        assert f"{key}" in typist.seen
+        assert meaning in typist.seen
+    assert session.parts[0].tries == 1
+    assert session.parts[0].state is State.DONE
+
+
+def test_hint_first_the_formula_then_the_sentence() -> None:
+    typist, session, _ = quiz("h", "h", "w")
+    formula = typist.seen.index("maxₐ Σₛ′")
+    assert formula < typist.seen.index("keep the greatest")
+    assert session.parts[0].hinted
+    assert session.parts[0].state is State.SHOWN
+
+
+def test_restart_and_variant_leave_no_trace_of_what_was_not_begun() -> None:
+    _, session, _ = quiz("r", "v", "s", names=("td-zero/1/7",))
+    assert [record.exercise.id for record in session.records] == ["td-zero/1/8@1"]
+
+
+def test_the_end_of_input_ends_with_the_summary() -> None:
+    typist, _, finished = quiz("1, 2")
+    assert finished
+    assert "0 of 2 parts right" in typist.seen
+
+
+def test_ctrl_c_ends_with_the_summary() -> None:
+    typist, _, finished = quiz("1, 2", KeyboardInterrupt)
+    assert not finished
+    assert "0 of 2 parts right" in typist.seen
+
+
+def test_nothing_answered() -> None:
+    typist, session, _ = quiz("q")
+    assert "Nothing was answered" in typist.seen
+    assert session.parts == []
+
+
+@pytest.fixture
+def terminal() -> Iterator[pexpect.spawn]:
+    environment = {**os.environ, "TERM": "xterm", "NO_COLOR": "1", "COLUMNS": "100"}
+    child = pexpect.spawn(
+        sys.executable, ["-m", "rldrill", "quiz", str(RACING_CAR)], encoding="utf-8", timeout=30, env=environment
+    )
+    yield child
+    child.close(force=True)
+
+
+def test_in_a_real_terminal(terminal: pexpect.spawn) -> None:
+    terminal.expect(r"\(a\) > ")
+    terminal.sendline("cool: 3.5, warm: 5/2")
+    terminal.expect("✓ Right")
+    terminal.expect(r"\(b\) > ")
+    terminal.send("cool: slow\x1b[D\x1b[D\x1b[D\x1b[D\x0bfast, warm: slow\r")  # left, left …, delete to the end
+    terminal.expect("✓ Right")
+    terminal.expect("Enter next")
+    terminal.sendline("")
+    terminal.expect("2 of 2 parts right")
+    terminal.expect(pexpect.EOF)
+    terminal.close()
+    assert terminal.exitstatus == 0
+
+
+def test_ctrl_c_in_a_real_terminal(terminal: pexpect.spawn) -> None:
+    terminal.expect(r"\(a\) > ")
+    terminal.sendintr()
+    terminal.expect("Nothing was answered")
+    terminal.expect(pexpect.EOF)
+    terminal.close()
+    assert terminal.exitstatus == 130
+
+
+def test_ctrl_d_in_a_real_terminal(terminal: pexpect.spawn) -> None:
+    terminal.expect(r"\(a\) > ")
+    terminal.sendeof()
+    terminal.expect("Nothing was answered")
+    terminal.expect(pexpect.EOF)
+    terminal.close()
+    assert terminal.exitstatus == 0
