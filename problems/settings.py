@@ -70,16 +70,17 @@ def draw_outcomes(
 
 
 def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
-    """A random model of a world; from every state some action can lead to the next and so to the end."""
+    """A random model of a world: first actions can lead on, and so to the end; second ones can lead back."""
     states = setting.states[: shape.states]
     ends = (setting.terminal,) if shape.ends else ()
     everything = (*states, *ends)
     rows = []
     for index, state in enumerate(states):
         onward = everything[index + 1] if index + 1 < len(everything) else states[0]
+        wanted = (onward, states[0])
         for number, action in enumerate(setting.actions[: shape.actions]):
             targets = rng.sample(everything, 1 + rng.below(min(shape.branches, len(everything))))
-            if number == 0 and onward not in targets:
-                targets = tuple(target for target in everything if target in (onward, *targets[1:]))
+            if number < len(wanted) and wanted[number] not in targets:
+                targets = tuple(target for target in everything if target in (wanted[number], *targets[1:]))
             rows += draw_outcomes(rng, state, action, targets, shape)
     return Model(transitions=tuple(rows), terminal=ends)

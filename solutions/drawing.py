@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from flint import fmpq
-from sympy.polys.fields import FracElement
 
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
@@ -15,6 +14,7 @@ from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, is_zero, parameters
+from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.solution import Solution, solve
 
 ATTEMPTS = 2000
@@ -110,9 +110,8 @@ def digits(value: Any) -> int:
     if isinstance(value, fmpq):
         below = int(value.denominator)
         return len(str(abs(int(value.numerator)))) + (len(str(below)) if below != 1 else 0)
-    if isinstance(value, FracElement):
-        coefficients = [*value.numer.coeffs(), *value.denom.coeffs()]
-        return max(digits(fmpq(coefficient)) for coefficient in coefficients) + len(coefficients)
+    if isinstance(value, RationalFunction):
+        return max(map(digits, value.coefficients)) + len(value.coefficients)
     return max(
         (digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0
     )

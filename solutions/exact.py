@@ -6,13 +6,12 @@ from functools import cache
 from typing import Any, TypeAlias
 
 import sympy
-from flint import arb, ctx, fmpq
-from sympy import QQ
-from sympy.polys.fields import FracElement
+from flint import arb, ctx, fmpq, fmpq_poly
 
-from rldrill.problems.exact import PARAMETERS, Parameter, Scalar
+from rldrill.problems.exact import Parameter, Scalar
+from rldrill.solutions.rational import RationalFunction
 
-#: ``fmpq`` where it is rational, ``FracElement`` where a parameter is open, else a sympy expression.
+#: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
 Value: TypeAlias = Any
 
 
@@ -25,15 +24,9 @@ ONE = fmpq(1)
 
 
 @cache
-def symbol(parameter: str) -> sympy.Symbol:
-    """The sympy symbol of an open parameter, by its name in files (``gamma``)."""
-    return sympy.Symbol(parameter, positive=True)
-
-
-@cache
-def generator(parameter: str) -> FracElement:
-    """The open parameter as an element of the field of rational functions in it."""
-    return QQ.frac_field(symbol(parameter)).gens[0]
+def generator(parameter: str) -> RationalFunction:
+    """The open parameter itself, as a rational function."""
+    return RationalFunction(parameter, fmpq_poly([0, 1]), fmpq_poly([1]))
 
 
 def exact(number: Scalar | int) -> Value:
@@ -50,9 +43,7 @@ def to_sympy(value: Value) -> sympy.Expr:
     """Any exact value as a sympy expression."""
     if isinstance(value, fmpq):
         return sympy.Rational(int(value.numerator), int(value.denominator))
-    if isinstance(value, FracElement):
-        return value.as_expr()
-    return sympy.sympify(value) if isinstance(value, int) else value
+    return value if isinstance(value, sympy.Expr) else sympy.sympify(value)
 
 
 def ordered(expression: sympy.Expr) -> sympy.Expr:
@@ -75,8 +66,6 @@ def from_sympy(expression: sympy.Expr) -> Value:
 
 def simplest(value: Value) -> Value:
     """The same value, as a plain rational where no parameter is left in it."""
-    if isinstance(value, FracElement):
-        return from_sympy(value.as_expr()) if value.numer.is_ground and value.denom.is_ground else value
     if isinstance(value, int):
         return fmpq(value)
     if isinstance(value, Fraction):
@@ -90,6 +79,8 @@ def parameters(value: Value) -> frozenset[str]:
     """The names of the parameters that are left open in a value."""
     if isinstance(value, fmpq):
         return frozenset()
+    if isinstance(value, RationalFunction):
+        return frozenset((value.parameter,))
     return frozenset(free.name for free in to_sympy(value).free_symbols)
 
 
@@ -114,6 +105,8 @@ def enclosure(value: Value, at: fmpq | None = None) -> arb:
     """
     if isinstance(value, fmpq):
         return arb(value)
+    if isinstance(value, RationalFunction) and at is not None:
+        return arb(value(at))
     return _ball(to_sympy(value), at)
 
 

@@ -1,17 +1,16 @@
 """Exact arithmetic that refuses, before it begins, whatever would take long."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import sympy
 from flint import arb, fmpq, fmpq_poly
-from sympy import QQ
 
 from rldrill.solutions.answers.source import Unreadable
-from rldrill.solutions.exact import Value, enclosure, generator, simplest, symbol
+from rldrill.solutions.exact import Value, enclosure, generator, simplest, to_sympy
+from rldrill.solutions.rational import RationalFunction, quotient
 
-#: ``fmpq`` where it is rational, ``Ratio`` where it is rational in a parameter, else a sympy expression.
+#: ``fmpq`` where it is rational, ``RationalFunction`` where it is rational in a parameter, else a sympy expression.
 Number: TypeAlias = Any
 
 #: The names of functions, with the least and the most arguments they take.
@@ -33,15 +32,6 @@ _LARGE = "A number in it grows too large; write it in a simpler form."
 _ZERO = "It divides by zero."
 
 
-@dataclass(frozen=True, slots=True)
-class Ratio:
-    """A rational function of one parameter; it costs a hundredth of what sympy's own does."""
-
-    parameter: str
-    top: fmpq_poly
-    bottom: fmpq_poly
-
-
 class Arithmetic:
     """Sums, products, powers and functions of exact numbers, until a fixed effort is used up."""
 
@@ -50,7 +40,7 @@ class Arithmetic:
 
     def parameter(self, name: str) -> Number:
         """An open parameter, by its name in files."""
-        return Ratio(name, fmpq_poly([0, 1]), fmpq_poly([1]))
+        return generator(name)
 
     def add(self, a: Number, b: Number) -> Number:
         """The sum of two numbers."""
@@ -82,7 +72,7 @@ class Arithmetic:
             if b == 0:
                 raise Unreadable(_ZERO)
             return self.multiply(a, 1 / b)
-        if isinstance(b, Ratio):
+        if isinstance(b, RationalFunction):
             return self.multiply(a, self._ratio(b.parameter, b.bottom, b.top))
         if not b.free_symbols and _ball(b).contains(0):
             raise Unreadable("It divides by what cannot be told from zero; write it in a simpler form.")
@@ -131,17 +121,7 @@ class Arithmetic:
             number = self._lift(number)
         if isinstance(number, sympy.Expr) and not number.free_symbols:
             _ball(number)
-        if not isinstance(number, Ratio):
-            return number
-        self._spend(20)
-        field = generator(number.parameter).field
-        top, bottom = (
-            field.ring.from_dict(
-                {(i,): QQ(int(c.p), int(c.q)) for i, c in enumerate(poly.coeffs()) if c != 0}
-            )
-            for poly in (number.top, number.bottom)
-        )
-        return simplest(field.new(top, bottom))
+        return number
 
     def _spend(self, effort: int) -> None:
         self._left -= effort
@@ -152,12 +132,10 @@ class Arithmetic:
         if not bottom:
             raise Unreadable(_ZERO)
         self._spend(3 + 2 * (int(top.degree()) + int(bottom.degree())))
-        common = top.gcd(bottom)
-        top, bottom = top // common, bottom // common
-        if top.degree() <= 0 and bottom.degree() <= 0:
-            return _small(top[0] / bottom[0])
-        ratio = Ratio(parameter, top, bottom)
-        if max(top.degree(), bottom.degree()) > _DEGREE or _size(ratio) > _BITS:
+        ratio = quotient(parameter, top, bottom)
+        if isinstance(ratio, fmpq):
+            return _small(ratio)
+        if _degree(ratio) > _DEGREE or _size(ratio) > _BITS:
             raise Unreadable(_LARGE)
         return ratio
 
@@ -174,10 +152,9 @@ class Arithmetic:
     def _sympy(self, number: Number) -> Any:
         if isinstance(number, fmpq):
             return sympy.Rational(int(number.p), int(number.q))
-        if isinstance(number, Ratio):
+        if isinstance(number, RationalFunction):
             self._spend(30)
-            top, bottom = (_polynomial(number.parameter, poly) for poly in (number.top, number.bottom))
-            return top / bottom
+            return to_sympy(number)
         return number
 
     def _whole_power(self, base: Number, exponent: int) -> Number:
@@ -187,7 +164,7 @@ class Arithmetic:
             return self.divide(fmpq(1), self._whole_power(base, -exponent))
         if isinstance(base, fmpq):
             return base**exponent
-        if isinstance(base, Ratio):
+        if isinstance(base, RationalFunction):
             return self._ratio(base.parameter, base.top**exponent, base.bottom**exponent)
         return self._expression(base**exponent)
 
@@ -245,7 +222,7 @@ class Arithmetic:
         """The sign of a number; ``unknown`` where it depends on a parameter or is too close to zero."""
         if isinstance(number, fmpq):
             return int(number > 0) - int(number < 0)
-        if isinstance(number, Ratio) or number.free_symbols:
+        if isinstance(number, RationalFunction) or number.free_symbols:
             return unknown
         ball = _ball(number)
         return 1 if ball > 0 else -1 if ball < 0 else 0
@@ -278,14 +255,14 @@ def _rational(a: Number, b: Number) -> bool:
     return isinstance(a, fmpq) and isinstance(b, fmpq)
 
 
-def _ratios(a: Number, b: Number) -> tuple[Ratio, Ratio] | None:
+def _ratios(a: Number, b: Number) -> tuple[RationalFunction, RationalFunction] | None:
     """Both as rational functions of the same parameter, if they are."""
-    names = {number.parameter for number in (a, b) if isinstance(number, Ratio)}
+    names = {number.parameter for number in (a, b) if isinstance(number, RationalFunction)}
     if len(names) != 1 or isinstance(a, sympy.Expr) or isinstance(b, sympy.Expr):
         return None
     (name,) = names
     first, second = (
-        number if isinstance(number, Ratio) else Ratio(name, fmpq_poly([number]), fmpq_poly([1]))
+        number if isinstance(number, RationalFunction) else RationalFunction(name, fmpq_poly([number]), fmpq_poly([1]))
         for number in (a, b)
     )
     return first, second
@@ -298,7 +275,7 @@ def _small(number: fmpq) -> fmpq:
 
 
 def _degree(number: Number) -> int:
-    if not isinstance(number, Ratio):
+    if not isinstance(number, RationalFunction):
         return 0
     return int(max(number.top.degree(), number.bottom.degree()))
 
@@ -307,7 +284,7 @@ def _size(number: Number) -> int:
     """How many bits it takes to write the number out, or would with its powers multiplied out."""
     if isinstance(number, fmpq):
         return int(number.p).bit_length() + int(number.q).bit_length() - 1
-    if isinstance(number, Ratio):
+    if isinstance(number, RationalFunction):
         return sum(_size(c) for poly in (number.top, number.bottom) for c in poly.coeffs())
     if number.is_Rational:
         return int(number.p).bit_length() + int(number.q).bit_length() - 1
@@ -338,12 +315,6 @@ def _is_plain(argument: Any) -> bool:
     factors = sympy.Mul.make_args(argument)
     return not argument.free_symbols or all(
         factor.is_Rational or factor.is_Function or factor.as_base_exp()[0].is_Symbol for factor in factors
-    )
-
-
-def _polynomial(parameter: str, poly: fmpq_poly) -> Any:
-    return sympy.Add(
-        *(sympy.Rational(int(c.p), int(c.q)) * symbol(parameter) ** i for i, c in enumerate(poly.coeffs()))
     )
 
 

@@ -3,9 +3,9 @@
 import math
 
 from flint import fmpq
-from sympy.polys.fields import FracElement
 
 from rldrill.solutions.exact import Value, enclosure, from_sympy, is_zero, parameters, sign, to_sympy
+from rldrill.solutions.rational import RationalFunction
 
 #: The rule in words, printed beside every question.
 RULE = "an exact value, or a decimal that is right to 3 significant digits"
@@ -67,9 +67,7 @@ def apart(key: Value, other: Value) -> bool:
 
 def equivalent(value: Value, key: Value) -> bool:
     """Whether two expressions are the same function of the parameter: points first, then a proof."""
-    if isinstance(value, FracElement) and isinstance(key, FracElement):
-        return bool(value.numer * key.denom == key.numer * value.denom)
-    if isinstance(value, fmpq | FracElement) and isinstance(key, fmpq | FracElement):
+    if isinstance(value, fmpq | RationalFunction) and isinstance(key, fmpq | RationalFunction):
         return bool(value == key)
     difference = value - key
     for point in _POINTS:
@@ -91,5 +89,7 @@ def _right_at(value: Value, key: Value, point: fmpq) -> bool:
 
 def at(value: Value, point: fmpq) -> Value:
     """The value with a number in place of the open parameter."""
+    if isinstance(value, RationalFunction):
+        return value(point)
     expression = to_sympy(value)
     return from_sympy(expression.subs(dict.fromkeys(expression.free_symbols, to_sympy(point))))

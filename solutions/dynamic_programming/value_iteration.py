@@ -30,7 +30,7 @@ TERMINAL_TWICE = slip(
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
     when=_pays_at_the_end,
 )
-MISCONCEPTIONS = (MEAN_FOR_MAX, FORGOT_GAMMA, IN_PLACE, TERMINAL_TWICE)
+MISCONCEPTIONS = (IN_PLACE, TERMINAL_TWICE, MEAN_FOR_MAX, FORGOT_GAMMA)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -3,12 +3,15 @@
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
+from flint import fmpq
 from sympy import QQ
-from sympy.polys.fields import FracElement
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
 from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest
+
+
+_NO_UNIQUE = "the equations have no unique solution"
 
 
 class Affine:
@@ -56,25 +59,38 @@ def solve_linear(equations: Mapping[Hashable, Any]) -> dict[Any, Value]:
         for unknown, factor in side.factors.items():
             column = place[unknown]
             lines[index][column] = lines[index].get(column, QQ.zero) - factor
-    constants = {index: {0: side.constant} for index, side in enumerate(sides) if side.constant}
-    domain = _domain([*(value for line in lines.values() for value in line.values()),
-                      *(side.constant for side in sides)])  # fmt: skip
-    left = _matrix(lines, (size, size), domain)
-    right = _matrix(constants, (size, 1), domain)
+    constants = {index: side.constant for index, side in enumerate(sides)}
+    values = [*(value for line in lines.values() for value in line.values()), *constants.values()]
+    if all(isinstance(value, fmpq) for value in values):
+        solution = _solve_rational(lines, constants)
+    else:
+        solution = _eliminate(lines, constants)
+    return dict(zip(unknowns, solution, strict=True))
+
+
+def _solve_rational(lines: Mapping[int, Mapping[int, Value]], constants: Mapping[int, Value]) -> Sequence[Value]:
+    size = len(lines)
+    left = {row: {column: value for column, value in line.items() if value} for row, line in lines.items()}
+    right = {row: {0: value} for row, value in constants.items() if value}
+    matrix = DomainMatrix({row: line for row, line in left.items() if line}, (size, size), QQ)
     try:
-        solution = left.to_dense().lu_solve(right.to_dense()).to_list_flat()
+        solution = matrix.to_dense().lu_solve(DomainMatrix(right, (size, 1), QQ).to_dense())
     except DMNonInvertibleMatrixError:
-        raise NoSolution("the equations have no unique solution") from None
-    return {unknown: simplest(value) for unknown, value in zip(unknowns, solution, strict=True)}
+        raise NoSolution(_NO_UNIQUE) from None
+    return solution.to_list_flat()
 
 
-def _domain(values: Sequence[Value]) -> Any:
-    return next((value.field.to_domain() for value in values if isinstance(value, FracElement)), QQ)
-
-
-def _matrix(lines: Mapping[int, Mapping[int, Value]], shape: tuple[int, int], domain: Any) -> DomainMatrix:
-    cast = {
-        row: {column: domain.convert(value) for column, value in line.items() if value}
-        for row, line in lines.items()
-    }
-    return DomainMatrix({row: line for row, line in cast.items() if line}, shape, domain)
+def _eliminate(lines: Mapping[int, Mapping[int, Value]], constants: Mapping[int, Value]) -> Sequence[Value]:
+    """Gauss and Jordan, for systems with an open parameter: they are small, but their numbers are functions."""
+    size = len(lines)
+    table = [[lines[row].get(column, ZERO) for column in range(size)] + [constants[row]] for row in range(size)]
+    for pivot in range(size):
+        found = next((row for row in range(pivot, size) if table[row][pivot] != 0), None)
+        if found is None:
+            raise NoSolution(_NO_UNIQUE)
+        table[pivot], table[found] = table[found], table[pivot]
+        table[pivot] = [value / table[pivot][pivot] for value in table[pivot]]
+        for row in range(size):
+            if row != pivot and (factor := table[row][pivot]) != 0:
+                table[row] = [a - factor * b for a, b in zip(table[row], table[pivot], strict=True)]
+    return [simplest(line[-1]) for line in table]

@@ -1,0 +1,489 @@
+"""Files of answers: how they are read, judged, reported and refused."""
+
+import contextlib
+import json
+import subprocess
+import sys
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+import typer
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from rldrill.answers_file import read_answers
+from rldrill.commands import verify as verify_command
+from rldrill.problems.errors import FileError, NothingToGrade
+from rldrill.verification import Report, Row, Score, verify
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+# R₁ = −2 + 1/2 · 4 + 1/4 · 1 = 1/4, then R₀ = 3 + 1/2 · 1/4 = 25/8.
+RETURN = 'family = "return"\n[given]\nrewards = [3, -2, 4, 1]\ngamma = "1/2"\ntime = 1\n'
+# V(rim) = 7 + 1/10 · (1 + 4/5 · 5 − 7) = 34/5; with γ forgotten 7 + 1/10 · (1 + 5 − 7) = 69/10.
+TD_ZERO = """family = "td-zero"
+[given]
+trajectory = { states = ["rim", "cave"], actions = [], rewards = [1] }
+values = { rim = 7, cave = 5 }
+alpha = 0.1
+gamma = 0.8
+"""
+# V₁(rim) = max(5 + 1/2 · (−2), −3 + 1/2 · (−1)) = 4; V₁(slope) = max(0, 2 + 1/2 · (−1)) = 3/2.
+# Greedy for V₁: rim: drill, 5 + 1/2 · 3/2 against −3 + 1/2 · 4; slope: drive, 2 + 1/2 · 4 against 0.
+SWEEP = """family = "value-iteration"
+[given]
+gamma = "1/2"
+sweeps = 1
+start = { rim = -1, slope = -2 }
+[given.mdp]
+transitions = [
+  ["rim", "drill", "slope", 1, 5],
+  ["rim", "drive", "rim", 1, -3],
+  ["slope", "drill", "lander", 1, 0],
+  ["slope", "drive", "rim", 1, 2],
+]
+terminal = ["lander"]
+"""
+# BᵀPB = 4 · (−4) = −16, so R − BᵀPB = 17; BᵀPA = 2 · (−4) · [2 −1] = [−16 8];
+# L = −[−16 8]/17 = [16/17 −8/17].
+GAIN = """family = "lqr-gain"
+[given]
+A = [[-1, 0], [2, -1]]
+B = [[0], [2]]
+R = [[1]]
+P = [[-3, 0], [0, -4]]
+"""
+PROBLEMS = {"return.toml": RETURN, "td.toml": TD_ZERO, "sweep.toml": SWEEP, "gain.toml": GAIN}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name, content in PROBLEMS.items():
+        (tmp_path / name).write_text(content)
+    return tmp_path
+
+
+def write(folder: Path, name: str, content: str | bytes) -> Path:
+    path = folder / name
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return path
+
+
+def rows(report: Report) -> list[Row]:
+    assert not report.failures, report.failures
+    return list(report.rows)
+
+
+def judged(folder: Path, content: str) -> list[Row]:
+    return rows(verify([write(folder, "answers.toml", content)]))
+
+
+def says(folder: Path, name: str, content: str | bytes) -> tuple[str, int]:
+    report = verify([write(folder, name, content)])
+    assert not report.files
+    (failure,) = report.failures
+    assert report.exit_code == failure.exit_code
+    assert "\n" not in failure.says
+    return failure.says, failure.exit_code
+
+
+# --- verdicts ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("answers", "part", "verdict", "points"),
+    [
+        ('"return.toml" = {a = "1/4"}', "a", "right", 1),
+        ('"return.toml" = {a = 0.25}', "a", "right", 1),
+        ('"return.toml" = {a = "1/4", b = "3.125"}', "b", "right", 1),
+        ('"return.toml" = {a = "1/4", b = 3.13}', "b", "right", 1),  # 3.125 rounded
+        ('"return.toml" = {a = "1/4", b = 3.12}', "b", "right", 1),  # half a unit away, the bound included
+        ('"return.toml" = {a = "1/4", b = 3.1}', "b", "close", 0),
+        ('"return.toml" = {a = "1/4", b = 7}', "b", "wrong", 0),
+        ('"return.toml" = {a = "1/8"}', "a", "misconception", 0),  # 1/2 · 1/4: the first reward discounted
+        ('"return.toml" = {a = 10, b = 8}', "a", "wrong", 0),
+        ('"return.toml" = {a = 10, b = 8}', "b", "follow-through", 1),  # 3 + 1/2 · 10
+        ('"return.toml" = {b = 8}', "b", "wrong", 0),  # with nothing to go on from
+        ('"return.toml" = {a = "1,5", b = 8}', "b", "wrong", 0),  # nor from what is unreadable
+        ('"return.toml" = {a = "1,5", b = "25/8"}', "b", "right", 1),
+        ('"return.toml" = {a = "1,5"}', "a", "unreadable", 0),
+        ('"return.toml" = {a = "", b = "25/8"}', "a", "missing", 0),
+        ('"return.toml" = {b = "25/8"}', "a", "missing", 0),
+        ('"td.toml" = "34/5"', "a", "right", 1),
+        ('"td.toml" = 6.80', "a", "right", 1),
+        ('"td.toml" = {a = {rim = "34/5"}}', "a", "right", 1),
+        ('"td.toml" = {a = "rim: 6.9"}', "a", "misconception", 0),
+        ('"sweep.toml" = {a = {rim = 4, slope = "3/2"}}', "a", "right", 1),
+        ('"sweep.toml" = {a = {slope = 1.5, rim = 4}}', "a", "right", 1),
+        ('"sweep.toml" = {a = [4, 1.5]}', "a", "right", 1),
+        ('"sweep.toml" = {a = [4, 2]}', "a", "wrong", Fraction(1, 2)),
+        ('"sweep.toml" = {a = [4]}', "a", "unreadable", 0),
+        ('"sweep.toml" = {a = {rim = 4}}', "a", "unreadable", 0),
+        ('"sweep.toml" = {a = {rim = 4, slope = "1,5"}}', "a", "unreadable", 0),
+        ('"sweep.toml" = {a = "4, 1.5", b = "drill, drive"}', "b", "right", 1),
+        ('"sweep.toml" = {a = "4, 1.5", b = ["drill", "drive"]}', "b", "right", 1),
+        ('"sweep.toml" = {a = "4, 1.5", b = {rim = "drill", slope = "drive"}}', "b", "right", 1),
+        # With V(rim) = −10: at rim 5 + 1/2 · 3/2 beats −3 − 5, and at slope 0 beats 2 + 1/2 · (−10).
+        ('"sweep.toml" = {a = "-10, 1.5", b = "drill, drill"}', "b", "follow-through", 1),
+        ('"sweep.toml" = {a = "4, 1.5", b = "drive, drill"}', "b", "wrong", 0),
+        ('"gain.toml" = "[16/17, -8/17]"', "a", "right", 1),
+        ('"gain.toml" = ["16/17", "-8/17"]', "a", "right", 1),
+        ('"gain.toml" = {a = [["16/17", "-8/17"]]}', "a", "right", 1),
+        ('"gain.toml" = [[0.941, -0.471]]', "a", "right", 1),
+        ('"gain.toml" = [["16/17", "8/17"]]', "a", "wrong", Fraction(1, 2)),
+        ('"gain.toml" = [["16/17, -8/17"]]', "a", "unreadable", 0),  # one entry is not read as two
+    ],
+)
+def test_verdicts(folder: Path, answers: str, part: str, verdict: str, points: Fraction | int) -> None:
+    (row,) = [row for row in judged(folder, answers) if row.part == part]
+    assert (row.verdict, row.score.points, row.score.of) == (verdict, points, 1)
+    assert row.accepted == (verdict in ("right", "follow-through"))
+
+
+def test_every_verdict_has_its_reason(folder: Path) -> None:
+    wrong, unreadable = judged(folder, '"sweep.toml" = {a = "4, 2", b = "dril, drive"}')
+    assert "slope" in wrong.reason
+    assert wrong.read == "rim: 4, slope: 2"
+    assert "'dril' is not one of drill, drive" in unreadable.reason
+    assert unreadable.read == ""
+    assert unreadable.typed == "dril, drive"
+    misconception, missing = judged(folder, '"return.toml" = {a = "1/8"}')
+    assert "first reward" in misconception.reason
+    assert missing.reason == "Not answered."
+
+
+def test_a_later_student_does_not_go_on_from_an_earlier_ones_answer(folder: Path) -> None:
+    path = write(folder, "a.csv", "student,problem,part,answer\nAnn,return.toml,a,10\nBen,return.toml,b,8\n")
+    assert [(row.part, row.verdict) for row in rows(verify([path]))] == [
+        ("a", "wrong"),
+        ("b", "missing"),
+        ("a", "missing"),
+        ("b", "wrong"),
+    ]
+
+
+def test_parts_are_judged_in_their_order_not_in_the_files(folder: Path) -> None:
+    path = write(folder, "a.csv", "problem,part,answer\nreturn.toml,b,8\nreturn.toml,a,10\n")
+    assert [(row.part, row.verdict) for row in rows(verify([path]))] == [
+        ("a", "wrong"),
+        ("b", "follow-through"),
+    ]
+
+
+# --- formats ----------------------------------------------------------------------------------------------
+
+SAME: dict[str, str | bytes] = {
+    "a.toml": """student = "Ann"
+["return.toml"]
+a = "10"
+b = 8
+["td.toml"]
+a = {rim = 6.8}
+["sweep.toml"]
+a = [4, 1.5]
+""",
+    "nested.toml": """student = "Ann"
+answers."return.toml" = {a = "10", b = 8}
+answers."td.toml" = {a = {rim = 6.8}}
+[answers."sweep.toml"]
+a = [4, 1.5]
+""",
+    "a.json": """{"student": "Ann", "return.toml": {"a": "10", "b": 8}, "td.toml": {"a": {"rim": 6.8}},
+    "sweep.toml": {"a": [4, 1.5], "b": null}}""",
+    "nested.json": """{"answers": {"return.toml": {"a": "10", "b": 8}, "td.toml": {"a": {"rim": 6.8}},
+    "sweep.toml": {"a": [4, 1.5]}}, "student": "Ann"}""",
+    "a.csv": """student,problem,part,answer
+Ann,return.toml,a,10
+Ann,return.toml,b,8
+Ann,td.toml,a,rim: 6.8
+Ann,sweep.toml,a,"[4, 1.5]"
+Ann,sweep.toml,b,
+""",
+    "semicolons.csv": b"\xef\xbb\xbf"
+    b'Answer;Part;Problem;Student;Time\r\n10;(a);return.toml;Ann;9:00\r\n"8";B;return.toml;Ann;\r\n'
+    b";;;;\r\nrim: 6.8;;td.toml;Ann;\r\n[4, 1.5];a;sweep.toml;Ann;",
+    "tabs.csv": "problem\tpart\tstudent\tanswer\nreturn.toml\ta\tAnn\t10\nreturn.toml\tb\tAnn\t8\n"
+    "td.toml\t\tAnn\trim: 6.8\nsweep.toml\ta\tAnn\t[4, 1.5]\n",
+    "a.jsonl": """{"student": "Ann", "problem": "return.toml", "part": "a", "answer": "10"}
+
+{"student": "Ann", "problem": "return.toml", "part": "b", "answer": 8}
+{"student": "Ann", "problem": "td.toml", "answer": {"rim": 6.8}}
+{"student": "Ann", "problem": "sweep.toml", "part": "a", "answer": [4, 1.5]}""",
+    "a.NDJSON": '{"student":"Ann","problem":"return.toml","part":"a","answer":10}\r\n'
+    '{"student":"Ann","problem":"./return.toml","part":"b","answer":"8"}\r\n'
+    '{"student":"Ann","problem":"td.toml","part":"a","answer":"rim: 6.8"}\r\n'
+    '{"student":"Ann","problem":"sweep.toml","part":"a","answer":["4","1.5"]}\r\n',
+}
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_every_format_gives_the_same_report(folder: Path, name: str) -> None:
+    report = verify([write(folder, name, SAME[name])])
+    assert [(row.problem, row.part, row.read, row.verdict) for row in rows(report)] == [
+        ("return.toml", "a", "10", "wrong"),
+        ("return.toml", "b", "8", "follow-through"),
+        ("td.toml", "a", "rim: 6.8", "right"),
+        ("sweep.toml", "a", "rim: 4, slope: 1.5", "right"),
+        ("sweep.toml", "b", "", "missing"),
+    ]
+    ((student,),) = [file.students for file in report.files]
+    assert student.student == "Ann"
+    assert (report.score, report.exit_code) == (Score(Fraction(3), 5), 1)
+
+
+def test_lines_are_kept(folder: Path) -> None:
+    csv = write(folder, "a.csv", 'problem,part,answer\nreturn.toml,a,"1/4\n"\n\nreturn.toml,b,3\n')
+    assert [entry.line for entry in read_answers(csv)] == [2, 5]
+    lines = write(folder, "a.jsonl", '\n{"problem": "td.toml", "answer": 1}\n')
+    assert [entry.line for entry in read_answers(lines)] == [2]
+
+
+def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> None:
+    path = write(folder, "a.json", '{"student": 123, "x.toml": [true, false]}')
+    assert [(entry.student, entry.text) for entry in read_answers(path)] == [("123", "[yes, no]")]
+    path = write(
+        folder, "b.json", '{"x.toml": {"a": {"cool": {"fast": 1, "slow": 0.50}, "warm": -1}, "b": []}}'
+    )
+    assert [entry.text for entry in read_answers(path)] == [
+        "(cool, fast): 1, (cool, slow): 0.50, warm: -1",
+        "",
+    ]
+
+
+def test_an_id_may_be_typed_with_or_without_its_revision(folder: Path) -> None:
+    (row,) = judged(folder, '"td-zero/1/7@1" = {a = "1"}')
+    assert row.problem == "td-zero/1/7@1"
+    assert judged(folder, '"td-zero/1/7" = {a = "1"}')[0].problem == "td-zero/1/7@1"
+
+
+# --- faults -----------------------------------------------------------------------------------------------
+
+HEAD = "student,problem,part,answer\n"
+FAULTY = [
+    ("a.toml", 'td-zero/1/7 = "1"', "Problem IDs stand in quotes"),
+    ("a.toml", '[td-zero/1/7]\na = "1"', "Problem IDs stand in quotes"),
+    ("a.toml", 'colour = "red"', "'colour' is neither a problem ID nor a problem file"),
+    ("a.toml", 'colour = "red"\n[answers]\n"td.toml" = 1', "'colour' stands outside 'answers'"),
+    ("a.toml", 'answers = 3', "'answers' must be a table"),
+    ("a.toml", 'student = ["Ann"]\n"td.toml" = 1', "'student' must be a text"),
+    ("a.toml", '"td.toml" = 2024-01-01', "is neither a text nor a number"),
+    ("a.toml", '"td.toml" = {a = [[["1"]]]}', "nests too deeply"),
+    ("a.toml", '"td.toml" = {b = 1}', "there is no part 'b'; td.toml has a."),
+    ("a.toml", '"return.toml" = 1', "the part is missing; return.toml has a, b."),
+    ("a.toml", '"return.toml" = {a = 1, A = 2}', "return.toml (a) is answered twice"),
+    ("a.toml", '"td-zero/1/7" = "1"\n"td-zero/1/7@1" = "2"', "td-zero/1/7@1 (a) is answered twice"),
+    ("a.toml", '"td-zero/1/7@99" = "1"', "is of revision 99"),
+    ("a.toml", '"td-zeri/1/7" = "1"', "There is no family 'td-zeri'"),
+    ("a.toml", '"none.toml" = "1"', "none.toml: there is no such file"),
+    ("a.toml", '"broken.toml" = "1"', "broken.toml, line 1"),
+    ("a.toml", '"inconsistent.toml" = "1"', "inconsistent.toml: given.gamma"),
+    ("a.json", "[1]", "a file of answers is a table"),
+    ("a.json", '{"td.toml": 1, "td.toml": 2}', "stands twice"),
+    ("a.json", '{"td\\u0000.toml": 1}', "cannot be printed"),
+    ("a.csv", "student,problem,part\nAnn,td.toml,a\n", "line 1: the column 'answer' is missing"),
+    ("a.csv", "Ann,td.toml,a,1\n", "line 1: the column 'problem' is missing"),
+    ("a.csv", "problem,answer,answer\ntd.toml,1,2\n", "the column 'answer' stands twice"),
+    ("a.csv", HEAD + "Ann,td.toml,a,1\nAnn,sweep.toml,a,4, 1.5\n", "line 3: 5 fields where"),
+    ("a.csv", HEAD + "Ann,td.toml,1\n", "line 2: 3 fields where"),
+    ("a.csv", HEAD + 'Ann,td.toml,a,"1\n\n', "line 2: its quotes are broken"),
+    ("a.csv", HEAD + "A,td.toml,a,1\nB,td.toml,a,1\nA,td.toml,,2\n", "line 4: td.toml (a) is answered twice"),
+    ("a.csv", HEAD + "A,td.toml,a,1\nB,td.toml,a,1\nA,td.toml,,2\n", "twice by A (first in line 2)"),
+    ("a.csv", HEAD + "Ann,td.toml,a,1\nAnn,td.toml,c,1\n", "line 3: there is no part 'c'"),
+    ("a.csv", HEAD + "Ann,return.toml,,1\n", "line 2: the part is missing"),
+    ("a.csv", HEAD + "Ann,,a,1\n", "line 2: '' is neither a problem ID"),
+    ("a.csv", HEAD + "Ann,td-zero/4/7,a,1\n", "line 2: 'td-zero/4/7' is neither a problem ID"),
+    ("a.csv", HEAD + "Ann,td-zero/1/7@2,a,1\n", "line 2: td-zero/1/7@2 is of revision 2"),
+    ("a.csv", HEAD + "Ann,none.json,a,1\n", "line 2: "),
+    ("a.csv", HEAD + "\x1b[31mAnn,td.toml,a,1\n", "'student' holds a character that cannot be printed"),
+    ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
+    ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n[]\n', "line 2: a line is an object"),
+    ("a.jsonl", '{"problem": "td.toml"}', "line 1: the field 'answer' is missing"),
+    ("a.jsonl", '{"problem": 1.5, "answer": 1}', "'1.5' is neither a problem ID"),
+    ("a.jsonl", '{"problem": "td.toml", "answer": 1, "answer": 2}', "line 1: the key 'answer' stands twice"),
+    ("a.txt", "1", "must end in .toml, .json, .csv, .jsonl or .ndjson"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "content", "fragment"), FAULTY)
+def test_a_faulty_file_is_one_sentence(folder: Path, name: str, content: str, fragment: str) -> None:
+    write(folder, "broken.toml", "family = \n")
+    write(folder, "inconsistent.toml", RETURN.replace('"1/2"', "2"))
+    sentence, code = says(folder, name, content)
+    assert sentence.startswith(str(folder / name))
+    assert fragment in sentence
+    assert code == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.toml", ""),
+        ("a.toml", "# nothing yet\n"),
+        ("a.toml", 'student = "Ann"\n[answers]\n'),
+        ("a.toml", '"td.toml" = {a = " "}'),
+        ("a.json", "\n"),
+        ("a.json", '{"answers": {}}'),
+        ("a.json", '{"td.toml": null}'),
+        ("a.csv", b"\xef\xbb\xbf"),
+        ("a.csv", HEAD),
+        ("a.csv", HEAD + "Ann,td.toml,a,\n"),
+        ("a.jsonl", "\n\n"),
+    ],
+)
+def test_a_file_without_answers_has_nothing_to_grade(folder: Path, name: str, content: str | bytes) -> None:
+    sentence, code = says(folder, name, content)
+    assert "there are no answers in it" in sentence
+    assert code == 4
+    with pytest.raises(NothingToGrade):
+        read_answers(folder / name)
+
+
+def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:
+    right = write(folder, "right.toml", '"td.toml" = 6.8')
+    wrong = write(folder, "wrong.toml", '"td.toml" = 7')
+    empty = write(folder, "empty.toml", "")
+    none = folder / "none.toml"
+    assert verify([right]).exit_code == 0
+    assert verify([right, wrong]).exit_code == 1
+    assert verify([empty, none, right]).exit_code == 3
+    assert verify([right, empty]).exit_code == 1
+    assert verify([empty, empty]).exit_code == 4
+    assert verify([]).exit_code == 4
+    report = verify([none, right, wrong])
+    assert [Path(file.path).name for file in report.files] == ["right.toml", "wrong.toml"]
+    assert report.score == Score(Fraction(1), 2)
+
+
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(
+    content=st.binary(max_size=120)
+    | st.text(st.sampled_from('[]{}",:;=\n \t\\ua1td.oml/-zero#student'), max_size=80).map(str.encode),
+    head=st.sampled_from(
+        [b"", b'"td.toml" = ', b'{"td.toml": ', b"problem,answer\n", b'{"problem": "td.toml", "answer": ']
+    ),
+)
+@pytest.mark.parametrize("suffix", ["toml", "json", "csv", "jsonl", "ndjson", "txt"])
+def test_any_bytes_are_judged_or_refused(folder: Path, suffix: str, head: bytes, content: bytes) -> None:
+    path = write(folder, f"any.{suffix}", head + content)
+    with contextlib.suppress(FileError, NothingToGrade):
+        read_answers(path)
+    assert verify([path]).exit_code in (0, 1, 3, 4)
+
+
+# --- the command ------------------------------------------------------------------------------------------
+
+app = typer.Typer()
+app.command(verify_command.NAME)(verify_command.command)
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments], env={"COLUMNS": "140"})
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result.exit_code, result.stdout, result.stderr
+
+
+def test_the_table_says_what_is_wrong_in_words(folder: Path) -> None:
+    path = write(folder, "[red].toml", '["return.toml"]\na = "1/8"\nb = "1,5"\n["td.toml"]\na = 6.8\n')
+    code, out, err = run(path)
+    assert code == 1
+    assert err == ""
+    for word in (
+        "misconception",
+        "unreadable",
+        "right",
+        "decimal comma",
+        "[red].toml",
+        "Score: 1 of 3 (33.3 %)",
+    ):
+        assert word in out
+    assert "25/8" not in out
+    assert "25/8" in run(path, "--show-key")[1]
+
+
+@pytest.mark.parametrize("columns", ["40", "60", "80"])
+def test_narrow_terminals_fold_and_do_not_cut(folder: Path, columns: str) -> None:
+    path = write(folder, "a.toml", '"td.toml" = 6.9')  # γ forgotten
+    (row,) = rows(verify([path]))
+    result = CliRunner().invoke(app, [str(path)], env={"COLUMNS": columns})
+    table = result.stdout.partition("──")[2]
+    assert "…" not in table
+    for text in (row.problem, row.verdict, row.reason):
+        assert not Counter(text.replace(" ", "")) - Counter(table)
+
+
+def test_students_are_told_apart(folder: Path) -> None:
+    path = write(folder, "a.csv", HEAD + "Ann,td.toml,a,6.8\nBen [b],td.toml,a,7\n,td.toml,a,6.8\n")
+    code, out, _ = run(path)
+    assert code == 1
+    for words in ("a.csv: Ann", "a.csv: Ben [b]", "a.csv: no name", "All together: 2 of 3 (66.7 %)"):
+        assert words in out.replace("\n", "")
+
+
+def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
+    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 2"\n')
+    code, out, _ = run(path, "--json")
+    data = json.loads(out)
+    assert code == data["exit_code"] == 1
+    assert data["format"] == 1
+    assert data["points"] == {"exact": "1/2", "decimal": "0.5", "of": 2}
+    (student,) = data["files"][0]["students"]
+    assert student["student"] == "Ann"
+    first, second = student["answers"]
+    assert first == {
+        "problem": "sweep.toml",
+        "part": "a",
+        "line": 2,
+        "typed": "4, 2",
+        "read": "rim: 4, slope: 2",
+        "verdict": "wrong",
+        "accepted": False,
+        "reason": "Not right at slope; the rest is right.",
+        "points": {"exact": "1/2", "decimal": "0.5", "of": 1},
+    }
+    assert (second["verdict"], second["line"]) == ("missing", None)
+    assert json.loads(run(path, "--json", "--show-key")[1])["files"][0]["students"][0]["answers"][0][
+        "key"
+    ] == ("rim: 4, slope: 3/2")
+
+
+def test_sentences_go_to_stderr_and_data_to_stdout(folder: Path) -> None:
+    right = write(folder, "right.toml", '"td.toml" = 6.8')
+    code, out, err = run(folder / "none.toml", right, "--json")
+    assert code == 3
+    assert err == f"rldrill: {folder / 'none.toml'}: there is no such file; check its name and folder.\n"
+    data = json.loads(out)
+    assert [failure["exit_code"] for failure in data["failures"]] == [3]
+    assert data["points"]["of"] == 1
+    assert run(write(folder, "empty.csv", ""))[0] == 4
+
+
+def test_the_whole_program_in_a_pipe_has_no_colours(folder: Path) -> None:
+    path = write(folder, "right.toml", '"td.toml" = 6.8')
+    command = [sys.executable, "-m", "rldrill", "verify", str(path)]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Score: 1 of 1 (100 %)" in done.stdout
+    assert "\x1b" not in done.stdout
+
+
+# --- the examples -----------------------------------------------------------------------------------------
+
+
+def test_the_examples_say_what_their_comments_say() -> None:
+    assert [
+        (row.problem.split("@")[0], row.part, row.verdict)
+        for row in rows(verify([EXAMPLES / "answers.toml"]))
+    ] == [
+        ("td-zero/1/7", "a", "right"),
+        ("return/1/7", "a", "misconception"),
+        ("return/1/7", "b", "follow-through"),
+        ("n-step-return/2/7", "a", "unreadable"),
+        ("n-step-return/2/7", "b", "right"),
+        ("bayes-rule/1/7", "a", "right"),
+        ("return/2/7", "a", "wrong"),
+    ]
+    verdicts = [row.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
+    assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]
