@@ -4,6 +4,7 @@ from itertools import count
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
+
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.answers.kinds import answer_kind

@@ -20,5 +20,7 @@ console().print(render(draw("td-zero", 2, 1).question()))
 )
 def bench_start(benchmark: BenchmarkFixture, arguments: list[str]) -> None:
     benchmark.pedantic(
-        lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True), rounds=7, iterations=1
+        lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True),
+        rounds=7,
+        iterations=1,
     )

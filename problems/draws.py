@@ -4,6 +4,7 @@ import hashlib
 import random
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -67,4 +68,4 @@ class Draws:
         whole = self.choice([number for number in denominators if number >= parts])
         cuts = sorted(1 + index for index in self.shuffled(range(whole - 1))[: parts - 1])
         edges = (0, *cuts, whole)
-        return tuple(Fraction(right - left, whole) for left, right in zip(edges, edges[1:], strict=False))
+        return tuple(Fraction(right - left, whole) for left, right in pairwise(edges))

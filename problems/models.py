@@ -19,9 +19,7 @@ def _name(value: object) -> object:
 
 
 #: The name of a state, an action or a hypothesis. Dollar signs and backslashes would be read as mathematics.
-Name = Annotated[
-    str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)
-]
+Name = Annotated[str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)]
 
 
 class Transition(NamedTuple):
@@ -97,18 +95,14 @@ class Model(Dynamics):
         return self
 
 
-def check_keys(
-    values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]
-) -> None:
+def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
     """Demand that a mapping names the needed keys, and none that is not known."""
     for key in needed:
         if key not in values:
             raise ValueError(f"{what} of {key!r} is missing")
     for key in values:
         if key not in known:
-            raise ValueError(
-                f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}"
-            )
+            raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
 
 
 def _sums_to_one(probabilities: list[Scalar]) -> bool:
@@ -142,8 +136,7 @@ PolicyField = Annotated[
 def equiprobable(model: Dynamics) -> dict[str, dict[str, Scalar]]:
     """The policy that takes every action of a state with the same probability."""
     return {
-        state: {action: Fraction(1, len(actions)) for action in actions}
-        for state, actions in model.actions.items()
+        state: {action: Fraction(1, len(actions)) for action in actions} for state, actions in model.actions.items()
     }
 
 
@@ -172,8 +165,7 @@ class Trajectory(Givens):
     def _consistent(self) -> "Trajectory":
         if len(self.rewards) != len(self.states) - 1:
             raise ValueError(
-                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, "
-                f"not {len(self.rewards)}"
+                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}"
             )
         if self.actions and len(self.actions) not in (len(self.rewards), len(self.states)):
             raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}")
@@ -188,8 +180,7 @@ def transitions_table(model: Dynamics) -> Table:
     return Table(
         header=("$s$", "$a$", "$s'$", "$P_{s s'}^a$", "$R_{s s'}^a$"),
         rows=tuple(
-            (t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$")
-            for t in model.transitions
+            (t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$") for t in model.transitions
         ),
     )
 

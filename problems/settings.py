@@ -58,9 +58,7 @@ class Shape:
     denominators: tuple[int, ...] = (2, 4)
 
 
-def draw_outcomes(
-    rng: Draws, state: str, action: str, targets: tuple[str, ...], shape: Shape
-) -> list[Transition]:
+def draw_outcomes(rng: Draws, state: str, action: str, targets: tuple[str, ...], shape: Shape) -> list[Transition]:
     """The transitions of one action: to all the targets, with random probabilities and rewards."""
     chances = (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
     return [

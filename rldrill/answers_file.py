@@ -168,9 +168,7 @@ def _json_lines(text: str, path: Path) -> Iterator[Entry]:
         data = parse_line(line, path, number)
         here = f"{shown(path)}, line {number}"
         if not isinstance(data, dict):
-            raise FileError(
-                f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.'
-            )
+            raise FileError(f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.')
         for field in _NEEDED:
             if field not in data:
                 raise FileError(f"{here}: the field '{field}' is missing; give it.")

@@ -119,9 +119,7 @@ def agrees(part: Part, answer: Any, expected: Any) -> bool:
     if any(isinstance(content, tuple) for content in cells.values()):
         return bool(answer == expected)
     numbers = np.array([as_float(content) for content in cells.values()])
-    return bool(
-        np.allclose(numbers, np.asarray(expected, dtype=float).ravel(), rtol=TOLERANCE, atol=TOLERANCE)
-    )
+    return bool(np.allclose(numbers, np.asarray(expected, dtype=float).ravel(), rtol=TOLERANCE, atol=TOLERANCE))
 
 
 def as_float(value: Any) -> float:

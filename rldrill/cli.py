@@ -1,7 +1,9 @@
 """The command line: one module for every command, and one place where errors become sentences."""
 
 import os
+import signal
 import sys
+from io import TextIOWrapper
 
 import typer
 
@@ -37,13 +39,15 @@ def version(
 
 def main() -> None:
     """Run a command; whatever goes wrong ends in one sentence and the exit code that belongs to it."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal without Unicode gets question marks, not an error
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # when nobody reads on, end quietly as every Unix tool does
     try:
         app()
     except UserError as error:
         fail(str(error), error.exit_code)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads on: end quietly
-        sys.exit(0)
     except OSError as error:
         if error.filename is None and error.errno is None:
             raise

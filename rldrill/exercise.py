@@ -93,9 +93,7 @@ class Exercise:
     def hint(self, part: str | None = None) -> Document:
         """The formulas that are needed, and a sentence on each."""
         return tuple(
-            block
-            for formula in self.formulas(part)
-            for block in (formula.equation(), Paragraph(formula.hint))
+            block for formula in self.formulas(part) for block in (formula.equation(), Paragraph(formula.hint))
         )
 
     def data(self, *, answers: bool = True) -> dict[str, Any]:
@@ -146,6 +144,10 @@ def load(id_or_path: str | Path) -> Exercise:
     text = str(id_or_path)
     if looks_like_id(text):
         return Exercise(drawing.by_id(text))
+    if Path(text).suffix.lower() not in (".toml", ".json"):
+        raise UsageError(
+            f"{text[:60]!r} is neither a problem ID (such as value-iteration/2/7) nor a problem file (.toml or .json)."
+        )
     from rldrill.files import read_problem
 
     return read(read_problem(Path(id_or_path)), where=text)
@@ -158,9 +160,7 @@ def read(data: object, where: str = "the problem") -> Exercise:
         FileError: the data does not fit, or the problem has no answer.
     """
     if not isinstance(data, dict) or not isinstance(data.get("family"), str) or "given" not in data:
-        raise FileError(
-            f"{where}: a problem file needs 'family' and '[given]'; 'rldrill show ID --json' writes one."
-        )
+        raise FileError(f"{where}: a problem file needs 'family' and '[given]'; 'rldrill show ID --json' writes one.")
     family = family_of(data["family"])
     try:
         problem = Problem(family, family.read(data["given"]))

@@ -42,9 +42,7 @@ def read_problem(path: str | Path) -> dict[str, Any]:
         )
     unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
     if unknown:
-        raise FileError(
-            f"{where}: {_brief(unknown[0])} is not a field of a problem file; givens stand under 'given'."
-        )
+        raise FileError(f"{where}: {_brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
     return {key: data[key] for key in ("family", "given") if key in data}
 
 
@@ -97,9 +95,7 @@ def _decoded(content: bytes, where: str) -> str:
         raise FileError(f"{where}, line {line}: this is not UTF-8 text; save the file as UTF-8.") from None
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
-        raise FileError(
-            f"{where}, line {line}: there is a null byte, so this is not text; save the file as UTF-8."
-        )
+        raise FileError(f"{where}, line {line}: there is a null byte, so this is not text; save the file as UTF-8.")
     return text
 
 
@@ -236,6 +232,4 @@ def _brief(value: object) -> str:
 
 
 def _kind(value: object) -> str:
-    return {dict: "a table", list: "a list", str: "a text", type(None): "nothing"}.get(
-        type(value), "a single value"
-    )
+    return {dict: "a table", list: "a list", str: "a text", type(None): "nothing"}.get(type(value), "a single value")

@@ -1,4 +1,4 @@
-"""Paper: the page set-up that all PDFs share, their compilation, and files that are written whole or not at all."""
+"""Paper: the page set-up that all PDFs share, their compilation, and files written whole or not at all."""
 
 import os
 import tempfile
@@ -36,7 +36,14 @@ def paper_of(name: str) -> Paper:
 
 
 def page_setup(
-    paper: Paper, *, title: str, left: str, right: str, margin: str = "2cm", size: str = "10.5pt", columns: int = 1
+    paper: Paper,
+    *,
+    title: str,
+    left: str,
+    right: str,
+    margin: str = "2cm",
+    size: str = "10.5pt",
+    columns: int = 1,
 ) -> str:
     """What stands at the head of every Typst source.
 

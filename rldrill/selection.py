@@ -20,9 +20,7 @@ def fresh_seed() -> int:
     return secrets.randbelow(10**6)
 
 
-def sequence(
-    names: Sequence[str], level: int | None, seed: int, version: int = 0
-) -> Iterator[tuple[Family, int, int]]:
+def sequence(names: Sequence[str], level: int | None, seed: int, version: int = 0) -> Iterator[tuple[Family, int, int]]:
     """Family, level and seed of one problem after the other, without end.
 
     Families come round in an order that the seed shuffles, so that each is asked before one comes again.

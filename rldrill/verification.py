@@ -216,9 +216,7 @@ class _Sheet:
         if before is not entry:
             lines = "" if entry.line is None else f" (first in line {before.line})"
             whose = f" by {entry.student}" if entry.student else ""
-            raise FileError(
-                f"{entry.where}: {self.name} ({label}) is answered twice{whose}{lines}; keep one answer."
-            )
+            raise FileError(f"{entry.where}: {self.name} ({label}) is answered twice{whose}{lines}; keep one answer.")
 
     def _label(self, entry: Entry) -> str:
         labels = [part.label for part in self.exercise.parts]

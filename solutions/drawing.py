@@ -75,9 +75,7 @@ def flaws(solution: Solution) -> Iterator[str]:
             yield f"({part.label}) does not depend on what is left open"
         if numbers and not part.zero and all(map(is_zero, numbers)):
             yield f"({part.label}) is zero"
-        if not part.ties and any(
-            isinstance(content, tuple) and len(content) > 1 for content in cells.values()
-        ):
+        if not part.ties and any(isinstance(content, tuple) and len(content) > 1 for content in cells.values()):
             yield f"({part.label}) has tied best actions"
     for misconception in solution.applicable:
         answers = solution.answers_with(misconception)
@@ -112,6 +110,4 @@ def digits(value: Any) -> int:
         return len(str(abs(int(value.numerator)))) + (len(str(below)) if below != 1 else 0)
     if isinstance(value, RationalFunction):
         return max(map(digits, value.coefficients)) + len(value.coefficients)
-    return max(
-        (digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0
-    )
+    return max((digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0)

@@ -40,11 +40,7 @@ def _zero() -> Value:
 
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
     """A policy as π(a|s), with the action first."""
-    return {
-        (action, state): exact(chance)
-        for state, chances in given.items()
-        for action, chance in chances.items()
-    }
+    return {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:

@@ -23,12 +23,10 @@ class RationalFunction:
     def __add__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) + other
+            return sympy.sympify(self) + other if isinstance(other, sympy.Expr) else NotImplemented
         if self.bottom == other.bottom:
             return quotient(self.parameter, self.top + other.top, self.bottom)
-        return quotient(
-            self.parameter, self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom
-        )
+        return quotient(self.parameter, self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
 
     __radd__ = __add__
 
@@ -36,7 +34,7 @@ class RationalFunction:
         return RationalFunction(self.parameter, -self.top, self.bottom)
 
     def __sub__(self, other: Any) -> Any:
-        return self + (-other)
+        return self + -other
 
     def __rsub__(self, other: Any) -> Any:
         return -self + other
@@ -44,7 +42,7 @@ class RationalFunction:
     def __mul__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) * other
+            return sympy.sympify(self) * other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.top, self.bottom * other.bottom)
 
     __rmul__ = __mul__
@@ -52,7 +50,7 @@ class RationalFunction:
     def __truediv__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) / other
+            return sympy.sympify(self) / other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.bottom, self.bottom * other.top)
 
     def __rtruediv__(self, other: Any) -> Any:

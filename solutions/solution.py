@@ -85,9 +85,7 @@ class Solution:
 
     def mistaken(self, carried: Mapping[str, Any]) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
         """The same, going on from a person's own answers to earlier parts."""
-        made = (
-            (misconception, self.answers_with(misconception, carried)) for misconception in self.applicable
-        )
+        made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
         return tuple((misconception, answers) for misconception, answers in made if answers is not None)
 
     @property
@@ -113,9 +111,7 @@ class Solution:
             return {}  # nothing follows from what was typed
 
 
-def run(
-    problem: Problem, misconception: Misconception | None = None, carried: Mapping[str, Any] | None = None
-) -> Work:
+def run(problem: Problem, misconception: Misconception | None = None, carried: Mapping[str, Any] | None = None) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
 
     Raises:

@@ -144,17 +144,13 @@ class Work:
         """
         right = self.reading(formula)
         fixed = dict(known.get(unknown.code, {}))
-        keys = [
-            (tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases
-        ]
+        keys = [(tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases]
         lookup: dict[Hashable, Any] = {key: Affine({key: ZERO + 1}) for key, _ in keys}
         bound = {**known, unknown.code: _Unknowns({**lookup, **fixed}, ZERO)}
         equations = {}
         for key, case in keys:
             equations[key] = evaluate(right, {**bound, **case})
-            self.lines.append(
-                Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "=")
-            )
+            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
         solution = solve_linear(equations)
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
         self.lines.append(Note("Solving these equations:"))

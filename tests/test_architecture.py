@@ -4,6 +4,7 @@ import ast
 from pathlib import Path
 
 import pytest
+
 from rldrill.problems.catalogue import families, family, topics
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.sheet import SECTIONS, formulas

@@ -96,9 +96,7 @@ def test_what_a_terminal_cannot_print_is_escaped(tmp_path: Path) -> None:
 def test_numbers_stay_as_they_are_written(tmp_path: Path) -> None:
     toml = read_data(write(tmp_path, "a.TOML", "a = [0.9, 1_000.50, 1e-3, 3, -0.10]"))
     assert toml == {"a": ["0.9", "1000.50", "1e-3", 3, "-0.10"]}
-    assert read_data(write(tmp_path, "a.Json", '{"a": [0.9, 1E-3, 3, 1e400]}')) == {
-        "a": ["0.9", "1E-3", 3, "1e400"]
-    }
+    assert read_data(write(tmp_path, "a.Json", '{"a": [0.9, 1E-3, 3, 1e400]}')) == {"a": ["0.9", "1E-3", 3, "1e400"]}
 
 
 def test_a_byte_order_mark_is_passed_over(tmp_path: Path) -> None:
@@ -145,9 +143,7 @@ def test_a_problem_file_that_is_none(tmp_path: Path, content: str, fragment: str
 
 
 @settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
-@given(
-    content=st.binary(max_size=200) | st.text(max_size=200).map(lambda text: text.encode(errors="replace"))
-)
+@given(content=st.binary(max_size=200) | st.text(max_size=200).map(lambda text: text.encode(errors="replace")))
 @example(content=PROBLEM.encode())
 @example(content=b'family = "return"\n[given]\nrewards = [1]\ngamma = 1e999999999\n')
 @pytest.mark.parametrize("suffix", [".toml", ".json", ""])

@@ -244,9 +244,7 @@ def test_lines_are_kept(folder: Path) -> None:
 def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> None:
     path = write(folder, "a.json", '{"student": 123, "x.toml": [true, false]}')
     assert [(entry.student, entry.text) for entry in read_answers(path)] == [("123", "[yes, no]")]
-    path = write(
-        folder, "b.json", '{"x.toml": {"a": {"cool": {"fast": 1, "slow": 0.50}, "warm": -1}, "b": []}}'
-    )
+    path = write(folder, "b.json", '{"x.toml": {"a": {"cool": {"fast": 1, "slow": 0.50}, "warm": -1}, "b": []}}')
     assert [entry.text for entry in read_answers(path)] == [
         "(cool, fast): 1, (cool, slow): 0.50, warm: -1",
         "",
@@ -444,9 +442,9 @@ def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
         "points": {"exact": "1/2", "decimal": "0.5", "of": 1},
     }
     assert (second["verdict"], second["line"]) == ("missing", None)
-    assert json.loads(run(path, "--json", "--show-key")[1])["files"][0]["students"][0]["answers"][0][
-        "key"
-    ] == ("rim: 4, slope: 3/2")
+    assert json.loads(run(path, "--json", "--show-key")[1])["files"][0]["students"][0]["answers"][0]["key"] == (
+        "rim: 4, slope: 3/2"
+    )
 
 
 def test_sentences_go_to_stderr_and_data_to_stdout(folder: Path) -> None:
@@ -474,8 +472,7 @@ def test_the_whole_program_in_a_pipe_has_no_colours(folder: Path) -> None:
 
 def test_the_examples_say_what_their_comments_say() -> None:
     assert [
-        (row.problem.split("@")[0], row.part, row.verdict)
-        for row in rows(verify([EXAMPLES / "answers.toml"]))
+        (row.problem.split("@")[0], row.part, row.verdict) for row in rows(verify([EXAMPLES / "answers.toml"]))
     ] == [
         ("td-zero/1/7", "a", "right"),
         ("return/1/7", "a", "misconception"),

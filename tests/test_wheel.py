@@ -8,6 +8,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+
 from rldrill.problems.catalogue import topics
 
 ROOT = Path(__file__).parent.parent
@@ -19,7 +20,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     # From a copy without links' targets resolved, as a fresh clone has it; the checkout stays as it is.
     source = folder / "source"
     files = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, check=True
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        check=True,
     ).stdout.decode()
     for name in filter(None, files.split("\0")):
         if not (ROOT / name).exists():
@@ -31,7 +35,18 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
         else:
             target.write_bytes((ROOT / name).read_bytes())
     subprocess.run(
-        [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", str(folder), str(source)], check=True
+        [
+            sys.executable,
+            "-m",
+            "pip",
+            "wheel",
+            "--quiet",
+            "--no-deps",
+            "--wheel-dir",
+            str(folder),
+            str(source),
+        ],
+        check=True,
     )
     (built,) = folder.glob("*.whl")
     return built
@@ -39,7 +54,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_it_claims_one_name_and_holds_every_module(wheel: Path) -> None:
     names = zipfile.ZipFile(wheel).namelist()
-    assert {name.split("/")[0] for name in names} == {"rldrill", next(n for n in names if ".dist-info" in n).split("/")[0]}
+    assert {name.split("/")[0] for name in names} == {
+        "rldrill",
+        next(n for n in names if ".dist-info" in n).split("/")[0],
+    }
     for room in ("problems", "solutions"):
         modules = {str(path.relative_to(ROOT)) for path in (ROOT / room).rglob("*.py")}
         assert {f"rldrill/{module}" for module in modules} <= set(names)
@@ -54,7 +72,12 @@ def test_it_runs_away_from_the_checkout(wheel: Path, tmp_path: Path) -> None:
 
     def run(*arguments: str) -> str:
         return subprocess.run(
-            [binaries / "rldrill", *arguments], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
+            [binaries / "rldrill", *arguments],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
         ).stdout
 
     listed = run("list")

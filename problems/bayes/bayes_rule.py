@@ -1,5 +1,6 @@
 """The belief over some hypotheses after one or several measurements."""
 
+from dataclasses import dataclass
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -39,18 +40,26 @@ class Given(Givens):
         return self
 
 
+@dataclass(frozen=True, slots=True)
+class _Story:
+    told: str
+    hypotheses: tuple[str, ...]
+    readings: tuple[str, str]
+
+
 _STORIES = (
-    ("A robot stands before a door and looks at it with a camera.", ("open", "closed", "ajar"), ("looks open", "looks closed")),
-    ("A probe drills for water and reads its sensor.", ("water", "rock", "sand"), ("wet", "dry")),
-    ("A robot in a corridor does not know in which part it is; it senses a door or a wall.", ("west", "middle", "east"), ("door", "wall")),
-    ("A factory tests whether a motor is sound.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
-)  # fmt: skip
+    _Story("A robot stands before a door and looks at it.", ("open", "closed", "ajar"), ("looks open", "looks closed")),
+    _Story("A probe drills for water and reads its sensor.", ("water", "rock", "sand"), ("wet", "dry")),
+    _Story("A robot does not know where in a corridor it is.", ("west", "middle", "east"), ("door", "wall")),
+    _Story("A factory tests whether a motor is sound.", ("sound", "worn", "cracked"), ("quiet", "noisy")),
+)
 
 
 def draw(level: int, rng: Draws) -> Given:
     """Two hypotheses and one measurement; then three; then three and two measurements."""
-    story, every, readings = rng.choice(_STORIES)
-    hypotheses = every[: 2 if level == 1 else 3]
+    story = rng.choice(_STORIES)
+    readings = story.readings
+    hypotheses = story.hypotheses[: 2 if level == 1 else 3]
     tenths = ("1/10", "1/5", "3/10", "2/5", "3/5", "7/10", "4/5", "9/10")
     likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
     likelihood = {
@@ -61,7 +70,7 @@ def draw(level: int, rng: Draws) -> Given:
         prior=dict(zip(hypotheses, rng.split(len(hypotheses), (4, 5, 10)), strict=True)),
         likelihood=likelihood,
         measurements=tuple(rng.choice(readings) for _ in range(2 if level == 3 else 1)),
-        story=story,
+        story=story.told,
     )
 
 
@@ -86,11 +95,7 @@ def question(given: Given) -> Question:
     )
     parts = []
     for index, measurement in enumerate(given.measurements):
-        first = (
-            f"The measurement is “{measurement}”."
-            if index == 0
-            else f"The next measurement is “{measurement}”."
-        )
+        first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
         ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
         parts.append(Part(chr(ord("a") + index), ask, TableKind("p", hypotheses)))
     return Question(blocks, tuple(parts))

@@ -59,9 +59,7 @@ def draw(level: int, rng: Draws) -> Given:
     actions = setting.actions[:2]
     shape = Shape(states=3, actions=2, branches=level, denominators=(2, 4, 5))
     rows = [
-        row
-        for action in actions
-        for row in draw_outcomes(rng, state, action, rng.sample(everything, level), shape)
+        row for action in actions for row in draw_outcomes(rng, state, action, rng.sample(everything, level), shape)
     ]
     reached = [name for name in everything if any(row.next == name for row in rows)]
     chances = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))

@@ -96,18 +96,10 @@ def question(given: Given) -> Question:
         Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
         trajectory_table(given.trajectory),
         *terminal_note(given.trajectory.terminal),
-        Paragraph(
-            f"Before the run the action values are these. {step_size(given.alpha)} {discount(given.gamma)}"
-        ),
+        Paragraph(f"Before the run the action values are these. {step_size(given.alpha)} {discount(given.gamma)}"),
         values_table(given.values),
         Paragraph("Q-learning updates after every transition, with the values that are current then."),
     )
     pairs = given.updated
-    asked = (
-        f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$'
-        if len(pairs) == 1
-        else "the value of every pair that is updated"
-    )
-    return Question(
-        blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", TableKind("Q", pairs)),)
-    )
+    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
+    return Question(blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", TableKind("Q", pairs)),))

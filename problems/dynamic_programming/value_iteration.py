@@ -36,18 +36,14 @@ class Given(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if self.start is not None:
-            check_keys(
-                self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states
-            )
+            check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
     """One sweep from given values; then two from zero; then three over three states."""
     setting = draw_setting(rng)
-    shape = Shape(
-        states=3 if level == 3 else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,)
-    )
+    shape = Shape(states=3 if level == 3 else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,))
     mdp = draw_model(rng, setting, shape)
     start = {state: rng.nonzero(-4, 9) for state in mdp.states} if level == 1 else None
     return Given(mdp=mdp, gamma=rng.fraction("1/2", "4/5", "9/10"), sweeps=level, start=start)
@@ -66,9 +62,7 @@ def question(given: Given) -> Question:
         transitions_table(given.mdp),
         *terminal_note(given.mdp.terminal),
         *begin,
-        Paragraph(
-            f"{discount(given.gamma)} Sweeps are synchronous: each uses only the values of the sweep before."
-        ),
+        Paragraph(f"{discount(given.gamma)} Sweeps are synchronous: each uses only the values of the sweep before."),
     )
     k = given.sweeps
     return Question(

@@ -47,11 +47,7 @@ def question(given: Given) -> Question:
     """All returns as a vector, or one of them and then the return from the start."""
     end = len(given.rewards)
     rewards = ", ".join(f"r_{{{time + 1}}} = {shown(reward)}" for time, reward in enumerate(given.rewards))
-    blocks = (
-        Paragraph(
-            f"An episode earns the rewards ${rewards}$ and ends at $T = {end}$. {discount(given.gamma)}"
-        ),
-    )
+    blocks = (Paragraph(f"An episode earns the rewards ${rewards}$ and ends at $T = {end}$. {discount(given.gamma)}"),)
     if given.time is None:
         entries = tuple(f"R_{{{time}}}" for time in range(end))
         ask = f"What are the returns $R_0, …, R_{{{end - 1}}}$, in this order{in_open(given)}?"

@@ -36,9 +36,7 @@ class Given(Givens):
         ):  # fmt: skip
             if len(matrix) != rows or any(len(line) != columns for line in matrix):
                 shape = f"{len(matrix)}×{len(matrix[0])}"
-                raise ValueError(
-                    f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}"
-                )
+                raise ValueError(f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}")
         for name, matrix in (("R", self.R), ("P", self.P)):
             if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
                 raise ValueError(f"{name} must be symmetric")

@@ -28,9 +28,7 @@ class Given(Givens):
     def _fits(self) -> Self:
         for action, features in self.features.items():
             if len(features) != len(self.theta):
-                raise ValueError(
-                    f"features: {action!r} has {len(features)} features, but theta {len(self.theta)}"
-                )
+                raise ValueError(f"features: {action!r} has {len(features)} features, but theta {len(self.theta)}")
         return self
 
 
@@ -40,8 +38,7 @@ def draw(level: int, rng: Draws) -> Given:
     actions = setting.actions[: 2 if level == 1 else 3]
     size = 3 if level == 3 else 2
     theta = tuple(
-        rng.fraction("1/2", "-1/2", "1", "3/2", "1/4") if level == 3 else rng.nonzero(-1, 2)
-        for _ in range(size)
+        rng.fraction("1/2", "-1/2", "1", "3/2", "1/4") if level == 3 else rng.nonzero(-1, 2) for _ in range(size)
     )
     features = {action: tuple(rng.whole(0, 2) for _ in range(size)) for action in actions}
     return Given(theta=theta, features=features)
@@ -56,20 +53,14 @@ def question(given: Given) -> Question:
         Paragraph("In state $s$ the actions have these features:"),
         Table(
             header=("$a$", *columns),
-            rows=tuple(
-                (action, *(f"${shown(value)}$" for value in row)) for action, row in given.features.items()
-            ),
+            rows=tuple((action, *(f"${shown(value)}$" for value in row)) for action, row in given.features.items()),
         ),
-        Paragraph(
-            f"The weights are ${weights}$. The policy is softmax in the preferences $h(s, a) = θ^T f(s, a)$."
-        ),
+        Paragraph(f"The weights are ${weights}$. The policy is softmax in the preferences $h(s, a) = θ^T f(s, a)$."),
     )
     return Question(
         blocks,
         (
-            Part(
-                "a", "What is the preference $h(s, a)$ of every action?", TableKind("h", actions), zero=True
-            ),
+            Part("a", "What is the preference $h(s, a)$ of every action?", TableKind("h", actions), zero=True),
             Part(
                 "b",
                 "With which probability $π(a|s)$ is every action taken?",

@@ -42,9 +42,7 @@ class Given(Givens):
         last = len(self.trajectory.rewards)
         for time, steps in self.asked:
             if time < 0 or steps < 1 or time + steps > last:
-                raise ValueError(
-                    f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}"
-                )
+                raise ValueError(f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}")
         return self
 
 

@@ -80,6 +80,4 @@ def question(given: Given) -> Question:
     )
     visited = given.visited
     asked = f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
-    return Question(
-        blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", Table("V", visited)),)
-    )
+    return Question(blocks, (Part("a", f"What is {asked} after the run{in_open(given)}?", Table("V", visited)),))

@@ -26,16 +26,12 @@ def complete_ids(incomplete: str) -> list[str]:
 
 Names = Annotated[
     list[str] | None,
-    typer.Argument(
-        metavar="[TOPIC|FAMILY]…", autocompletion=complete_names, help="Topics or families; all, if none."
-    ),
+    typer.Argument(metavar="[TOPIC|FAMILY]…", autocompletion=complete_names, help="Topics or families; all, if none."),
 ]
 Level = Annotated[
     int | None,
     typer.Option("--level", "-l", min=1, max=3, help="1 warm-up, 2 exam, 3 hard; mixed, if not given."),
 ]
-Seed = Annotated[
-    int | None, typer.Option("--seed", "-s", min=0, help="Repeat the problems of an earlier run.")
-]
+Seed = Annotated[int | None, typer.Option("--seed", "-s", min=0, help="Repeat the problems of an earlier run.")]
 Json = Annotated[bool, typer.Option("--json", help="Print data for programs.")]
 Output = Annotated[Path | None, typer.Option("--output", "-o", help="Write to this file.")]

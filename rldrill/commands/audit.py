@@ -46,9 +46,7 @@ def command(
         for title in ("Family", "Level", "Drawn", "Disagreements", "Refused", "Ties", "Mistakes recognised"):
             table.add_column(title, justify="left" if title == "Family" else "right")
         for finding in findings:
-            share = (
-                f"{100 * finding.recognised / finding.made:.0f} % of {finding.made}" if finding.made else "–"
-            )
+            share = f"{100 * finding.recognised / finding.made:.0f} % of {finding.made}" if finding.made else "–"
             table.add_row(
                 finding.family.name, str(finding.level), str(finding.drawn), str(len(finding.disagreements)),
                 str(len(finding.refused)), str(finding.ties), share,

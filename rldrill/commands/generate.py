@@ -11,9 +11,7 @@ NAME = "generate"
 
 def command(
     names: Names = None,
-    number: Annotated[
-        int, typer.Option("--number", "-n", min=1, max=1_000_000, help="How many problems.")
-    ] = 10,
+    number: Annotated[int, typer.Option("--number", "-n", min=1, max=1_000_000, help="How many problems.")] = 10,
     level: Level = None,
     seed: Seed = None,
     answers: Annotated[bool, typer.Option("--answers", help="With exact answers and steps.")] = False,

@@ -12,9 +12,7 @@ NAME = "solve"
 def command(
     problem: Annotated[
         str,
-        typer.Argument(
-            metavar="ID|FILE", autocompletion=complete_ids, help="A problem's ID, or a problem file."
-        ),
+        typer.Argument(metavar="ID|FILE", autocompletion=complete_ids, help="A problem's ID, or a problem file."),
     ],
     json: Json = False,
 ) -> None:

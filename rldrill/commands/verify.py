@@ -69,7 +69,7 @@ def _print(report: "Report", *, show_key: bool) -> None:
         whose = student.student or ("no name" if len(file.students) > 1 else "")
         out.print(Text(f"{file.path}: {whose}" if whose else file.path, "bold"))
         out.print(_table(student, show_key=show_key))
-        out.print(Text(f"Score: {_points(student.score)}\n"))
+        out.print(Text(f"\nScore: {_points(student.score)}\n"))
     if len(students) > 1:
         out.print(Text(f"All together: {_points(report.score)}"))
 
@@ -79,9 +79,9 @@ def _table(student: "StudentReport", *, show_key: bool) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
     for title in ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else [])):
-        table.add_column(title, overflow="fold", no_wrap=title in ("Part", "Verdict", "Points"))
+        table.add_column(title, overflow="fold", no_wrap=title in ("Part", "Points"))
     for row in student.rows:
         why = "" if row.verdict == "right" else row.reason
         points = f"{row.score.points} of {row.score.of}"

@@ -207,9 +207,7 @@ class Screen:
         self._print(table)
         right = sum(part.state is State.DONE for part in parts)
         first = sum(part.first_time for part in parts)
-        self._print(
-            Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold")
-        )
+        self._print(Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold"))
 
     def _indented(self, content: RenderableType) -> None:
         self._print(Padding(content, (0, 0, 0, 2), expand=False))

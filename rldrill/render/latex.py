@@ -54,10 +54,7 @@ def _glyph(text: str, style: str) -> str:
     stem = text.rstrip("′")
     primes = "'" * (len(text) - len(stem))
     if style == "word" and stem not in _PLAIN_WORDS:
-        return (
-            rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}"
-            + primes
-        )
+        return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}" + primes
     return _COMMANDS.get(stem, stem) + primes
 
 

@@ -54,9 +54,7 @@ def _box(math: Math) -> Box:
         case Script(body, below, above) if _has_grid(math):
             box = _box(body)
             raised = scripts(below, above)
-            top = [
-                line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)
-            ]
+            top = [line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)]
             return Box(tuple(top), box.base)
         case _:
             return Box((unicode(math),))
@@ -72,8 +70,7 @@ def _cells(rows: tuple[tuple[Math, ...], ...]) -> Box:
 def _fenced(box: Box, left: str, right: str) -> Box:
     height = len(box.lines)
     lines = [
-        f"{_bracket(left, index, height)}{line}{_bracket(right, index, height)}"
-        for index, line in enumerate(box.lines)
+        f"{_bracket(left, index, height)}{line}{_bracket(right, index, height)}" for index, line in enumerate(box.lines)
     ]
     return Box(tuple(lines), box.base)
 

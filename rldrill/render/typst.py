@@ -72,12 +72,12 @@ PREAMBLE = r"""
 }))
 // Without leading, an equation within a line is as tall as it looks.
 #let inline-box(item) = box({ set par(leading: 0pt); math.equation(math.display(item.body)) })
-#let flow(..items) = block(par(justify: false, items.pos().map(inline-box).join([#h(1.8em, weak: true) ])))
-#let grid-table(columns, ..cells) = block(layout(size => fitted({ set par(leading: 0pt); table(
+#let flow(..items) = block(par(leading: 0.9em, items.pos().map(inline-box).join([#h(1.8em, weak: true) ])))
+#let grid-table(columns, ..cells) = block(layout(size => fitted({ set par(leading: 0.3em); table(
   columns: columns,
   align: (column, row) => if column == 0 { left + horizon } else { center + horizon },
   stroke: (_, row) => (top: if row == 0 { 0.7pt } else if row == 1 { 0.4pt } else { 0pt }),
-  inset: (x: 0.7em, y: 0.4em),
+  inset: (x: 0.7em, y: 0.38em),
   ..cells.pos(),
   table.hline(stroke: 0.7pt),
 ) }, size.width)))
@@ -85,7 +85,14 @@ PREAMBLE = r"""
 
 _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
 _BIGS = {"Σ": "sum", "Π": "product", "∏": "product", "∑": "sum", "∫": "integral"}
-_SIGNS = {";": r"\; space", "−": "minus", "-": "minus", "·": "dot.op", "*": "ast.op", "|": 'class("relation", bar.v)'}
+_SIGNS = {
+    ";": r"\; space",
+    "−": "minus",
+    "-": "minus",
+    "·": "dot.op",
+    "*": "ast.op",
+    "|": 'class("relation", bar.v)',
+}
 _FENCES = {
     "(": "paren.l", ")": "paren.r", "[": "bracket.l", "]": "bracket.r", "{": "brace.l", "}": "brace.r",
     "|": "bar.v", "‖": "bar.v.double", "": "",
@@ -137,12 +144,16 @@ def text(text: str) -> str:
 
 
 def _inline(math: Math) -> str:
-    """Mathematics within a line; a list of equations is taken apart, so that the line may break between them."""
+    """Mathematics within a line; the line may break between the equations of a list."""
     items = math.items if isinstance(math, Row) else (math,)
     groups = _grouped(items, lambda before, _: before == _COMMA)
     if len(groups) == 1 or not any(isinstance(item, Glyph) and item.style == "relation" for item in groups[-1]):
-        return f"${typst(math)}$"
-    return '#", ";'.join(f"${_row(group[:-1] if group[-1] == _COMMA else group)}$" for group in groups)
+        return _kept_together(math)
+    return '#", ";'.join(_kept_together(Row(group[:-1] if group[-1] == _COMMA else group)) for group in groups)
+
+
+def _kept_together(math: Math) -> str:
+    return f"#box[${typst(math)}$]" if len(unicode(math)) <= _SHORT else f"${typst(math)}$"
 
 
 def block(block: Block) -> str:
@@ -163,6 +174,8 @@ def block(block: Block) -> str:
                 f", (${_relation(sign)}$, {_node(_tree(right))})" for sign, right in zip(signs, rights, strict=True)
             )
             return f"#chain(${'' if left == EMPTY else typst(left)}${links})\n"
+        case _:
+            raise TypeError(f"{type(block).__name__} has no Typst")
 
 
 def _apart(items: tuple[Math, ...]) -> str:

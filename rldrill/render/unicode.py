@@ -14,9 +14,7 @@ from rldrill.problems.mathematics import (
     Script,
 )
 
-_BELOW = dict(
-    zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True)
-)
+_BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
 _ABOVE = dict(
     zip(
         "0123456789+−=()abcdefghijklmnoprstuvwxyzTABβγδφ",
@@ -90,16 +88,9 @@ def _row(items: tuple[Math, ...]) -> str:
             if isinstance(item, Glyph) and item.style == "word" and text and text[-1].isalnum():
                 text += " "
             text += unicode(item)
-            if (
-                _is_word(item)
-                and position + 1 < len(items)
-                and isinstance(items[position + 1], Glyph | Script)
-            ):
+            if _is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
                 following = items[position + 1]
-                if not (
-                    isinstance(following, Glyph)
-                    and following.style in ("punctuation", "relation", "operator")
-                ):
+                if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
                     text += " "
     return text
 
@@ -114,9 +105,7 @@ def _is_letter(item: Math) -> bool:
 
 
 def _opens(item: Math) -> bool:
-    return isinstance(item, Big) or (
-        isinstance(item, Glyph) and item.style in ("relation", "operator", "punctuation")
-    )
+    return isinstance(item, Big) or (isinstance(item, Glyph) and item.style in ("relation", "operator", "punctuation"))
 
 
 def _grouped(math: Math) -> str:
@@ -138,12 +127,7 @@ def scripts(below: Math | None, above: Math | None) -> str:
 
 def _script(body: Math, below: Math | None, above: Math | None) -> str:
     base = unicode(body)
-    if (
-        body == Glyph("e", "variable")
-        and below is None
-        and above is not None
-        and not _all_shift(above, _ABOVE)
-    ):
+    if body == Glyph("e", "variable") and below is None and above is not None and not _all_shift(above, _ABOVE):
         return f"exp({unicode(above)})"
     if isinstance(body, Fraction | Row):
         base = f"({base})"

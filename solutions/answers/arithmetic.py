@@ -83,13 +83,9 @@ class Arithmetic:
         if isinstance(base, sympy.Expr) and base is sympy.E:
             return self._exp(exponent)
         if not isinstance(exponent, fmpq):
-            raise Unreadable(
-                "Only e is raised to such an exponent; write a whole number or a fraction there."
-            )
+            raise Unreadable("Only e is raised to such an exponent; write a whole number or a fraction there.")
         if exponent.q > _ROOT:
-            raise Unreadable(
-                f"Exponents are whole numbers or fractions down to 1/{_ROOT}; use exp and ln for others."
-            )
+            raise Unreadable(f"Exponents are whole numbers or fractions down to 1/{_ROOT}; use exp and ln for others.")
         if abs(exponent.p) > _EXPONENT:
             raise Unreadable(f"The exponent is too large; {_EXPONENT} is the largest that is read.")
         if exponent.q == 1:
@@ -230,9 +226,7 @@ class Arithmetic:
     def _clear_sign(self, number: Number) -> int:
         sign = self._sign(number)
         if sign == 0 and number != 0:
-            raise Unreadable(
-                "abs, max and min are read of numbers that differ clearly; write out which it is."
-            )
+            raise Unreadable("abs, max and min are read of numbers that differ clearly; write out which it is.")
         return sign
 
     def _lift(self, expression: Any) -> Number:

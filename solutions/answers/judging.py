@@ -73,9 +73,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
-    read = ", ".join(
-        f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items())
-    )
+    read = ", ".join(f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items()))
     return _judge(solution, part, cells, value, read, dict(earlier or {}))
 
 
@@ -125,9 +123,7 @@ def _judge(
     return Verdict(Outcome.WRONG, says, credit, read, (), named, value)
 
 
-def _made(
-    solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]
-) -> tuple[Misconception, ...]:
+def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
     """The misconceptions that give this answer, from the start or from the person's earlier answers."""
     kind = answer_kind(part.kind)
     for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):

@@ -88,9 +88,7 @@ class Answer(ABC, Generic[KindT]):
 
     def block(self, value: Any) -> Equation:
         """The value as a block of a page, one line for every number."""
-        written = tuple(
-            right if left is None else row(left, relation("="), right) for left, right in self.lines(value)
-        )
+        written = tuple(right if left is None else row(left, relation("="), right) for left, right in self.lines(value))
         return Equation(EMPTY, written, ("",) * len(written))
 
     @abstractmethod
@@ -166,8 +164,7 @@ class VectorAnswer(Answer[parts.Vector]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         return [
-            (mathematics(entry), typeset_value(number))
-            for entry, number in zip(self.kind.entries, value, strict=True)
+            (mathematics(entry), typeset_value(number)) for entry, number in zip(self.kind.entries, value, strict=True)
         ]
 
     def how_to_type(self) -> str:
@@ -279,26 +276,20 @@ class PolicyAnswer(Answer[parts.Policy]):
         return dict(read_words(text, tuple(self.kind.actions), self.kind.actions))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
-        return {
-            state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()
-        }
+        return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}
 
     def write(self, value: Any) -> str:
         return ", ".join(f"{state}: {value[state][0]}" for state in self.kind.actions)
 
     def data(self, value: Any) -> Any:
-        return {
-            state: value[state][0] if len(value[state]) == 1 else list(value[state])
-            for state in self.kind.actions
-        }
+        return {state: value[state][0] if len(value[state]) == 1 else list(value[state]) for state in self.kind.actions}
 
     def decimals(self, value: Any) -> Any:  # noqa: ARG002
         return None
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         return [
-            (row(variable("π"), Fence(name(state))), name(" or ".join(value[state])))
-            for state in self.kind.actions
+            (row(variable("π"), Fence(name(state))), name(" or ".join(value[state]))) for state in self.kind.actions
         ]
 
     def how_to_type(self) -> str:

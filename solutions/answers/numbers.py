@@ -211,9 +211,7 @@ class _Parser:
             pair = quoted(f"{before.text} {token.text}")
             raise self._error(f"{pair} are two numbers with nothing between; write a sign or a comma there.")
         if token.kind == "number" or before.kind == "%":
-            raise self._error(
-                f"{quoted(token.text)} follows without a sign; write * before it if it is a factor."
-            )
+            raise self._error(f"{quoted(token.text)} follows without a sign; write * before it if it is a factor.")
         if divided:
             what = quoted(f"/{before.text}{token.text}")
             raise self._error(f"{what} may be read in two ways; write brackets, as in 1/(2γ) or (1/2)γ.")
@@ -305,9 +303,7 @@ class _Parser:
         self._operate()
         below_one = self._arithmetic.divide(self._literal(top), self._literal(bottom))
         if below_one >= 1:
-            message = (
-                "After a whole number the fraction must be below one, as in 1 3/4; write a sign between."
-            )
+            message = "After a whole number the fraction must be below one, as in 1 3/4; write a sign between."
             raise self._source.unreadable(message, top.at)
         value = self._arithmetic.add(self._literal(whole), below_one)
         return _Term(value, str(value), _PRODUCT)
@@ -325,13 +321,9 @@ class _Parser:
             message = f"{quoted(token.text)} is not a number; write a finite one."
         elif self._names:
             allowed = ", ".join(dict.fromkeys(self._names.values()))
-            message = (
-                f"{quoted(token.text)} is not something this answer may contain; it may contain {allowed}."
-            )
+            message = f"{quoted(token.text)} is not something this answer may contain; it may contain {allowed}."
         else:
-            message = (
-                f"{quoted(token.text)} is not something this answer may contain; write a number such as 3/4."
-            )
+            message = f"{quoted(token.text)} is not something this answer may contain; write a number such as 3/4."
         raise self._source.unreadable(message, token.at)
 
     def _call(self, name: str) -> _Term:
@@ -360,9 +352,7 @@ class _Parser:
         after = self._token.kind
         unclear = ("^", "raised", "%", "name", "number", "(", "√", *(() if name == "sqrt" else ("/",)))
         if loose and after in unclear:
-            raise self._error(
-                f"What {name} is taken of may be read in two ways; put it in brackets: {name}(…)."
-            )
+            raise self._error(f"What {name} is taken of may be read in two ways; put it in brackets: {name}(…).")
         return argument
 
 

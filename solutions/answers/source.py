@@ -15,7 +15,7 @@ _OPENING = {"(": ")", "[": "]", "{": "}", "⟨": "⟩"}
 _CLOSING = frozenset(_OPENING.values())
 
 
-class Unreadable(ValueError):  # noqa: N818
+class Unreadable(ValueError):
     """A typed answer, or a part of one, that cannot be read.
 
     Attributes:

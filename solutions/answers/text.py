@@ -63,8 +63,7 @@ def read_vector(text: str, length: int | None = None, parameters: Sequence[str] 
     readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None)
     if length is not None and len(readings) != length:
         raise source.unreadable(
-            f"{_count(len(readings))} read, {length} {_are(length)} needed."
-            f"{_comma(source, len(readings), length)}"
+            f"{_count(len(readings))} read, {length} {_are(length)} needed.{_comma(source, len(readings), length)}"
         )
     return readings
 
@@ -90,9 +89,7 @@ def read_matrix(
     if rows is None:
         rows = _plain_rows(body)
     if len(rows) > _ENTRIES:
-        raise source.unreadable(
-            f"More than {_ENTRIES} rows were typed; leave out those that were not asked for."
-        )
+        raise source.unreadable(f"More than {_ENTRIES} rows were typed; leave out those that were not asked for.")
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
     matrix = [
         _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic)
@@ -100,9 +97,7 @@ def read_matrix(
     ]
     for i, row in enumerate(matrix, 1):
         if len(row) != len(matrix[0]):
-            raise source.unreadable(
-                f"Row {i} has length {len(row)}, row 1 has {len(matrix[0])}; make them equal."
-            )
+            raise source.unreadable(f"Row {i} has length {len(row)}, row 1 has {len(matrix[0])}; make them equal.")
     if body is not source:
         matrix = list(zip(*matrix, strict=True))
     read = (len(matrix), len(matrix[0]))
@@ -131,9 +126,7 @@ def read_table(text: str, keys: Sequence[Key], parameters: Sequence[str] = ()) -
         readings = read_vector(text, None, parameters)
         if len(readings) != len(keys):
             needed = f"{len(keys)} {_are(len(keys))} needed: {_listed(map(_shown, keys))}."
-            raise source.unreadable(
-                f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}"
-            )
+            raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
         return dict(zip(keys, readings, strict=True))
     arithmetic = Arithmetic()
     found = {}
@@ -282,9 +275,7 @@ def _nested_rows(source: Source) -> list[list[Source]] | None:
         if len(rows) < fewest:
             continue
         found = [
-            row
-            for piece, row in zip(pieces, rows, strict=True)
-            if row and (piece.text[0] != "(" or row.has(",;"))
+            row for piece, row in zip(pieces, rows, strict=True) if row and (piece.text[0] != "(" or row.has(",;"))
         ]
         if len(found) == len(rows):
             return [_list(row, True) for row in found]
@@ -351,9 +342,7 @@ def _joined(pieces: list[Source], items: list[_Item | None], keys: Sequence[Key]
             if joined and re.fullmatch("[0-9]+", piece.text) and joined[-1].value.text[-1:].isdigit():
                 shown, point = (quoted(joined[-1].value.text + mark + piece.text) for mark in ",.")
                 raise piece.unreadable(f"{shown} may have a decimal comma; write {point}.")
-            raise piece.unreadable(
-                f"{quoted(piece.text)} is not understood; write it as {_shown(keys[0])}: … ."
-            )
+            raise piece.unreadable(f"{quoted(piece.text)} is not understood; write it as {_shown(keys[0])}: … .")
         else:
             half = piece.text
     if half:
@@ -384,9 +373,7 @@ def _by_key(items: list[_Item], keys: Sequence[Key]) -> dict[Key, Source]:
         hits = _keys(item.name, keys)
         if len(hits) != 1:
             fault = f"may be any of {_listed(map(_shown, hits))}" if hits else "is not a key here"
-            raise item.whole.unreadable(
-                f"{quoted(item.name)} {fault}; the keys are {_listed(map(_shown, keys))}."
-            )
+            raise item.whole.unreadable(f"{quoted(item.name)} {fault}; the keys are {_listed(map(_shown, keys))}.")
         (key,) = hits
         if key in found:
             raise item.whole.unreadable(f"{_shown(key)} is given twice; give it once.")

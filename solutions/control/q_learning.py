@@ -19,13 +19,10 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.trajectory(run) | {
         "alpha": exact(given.alpha),
         "gamma": exact(given.gamma),
-        "actions": {state: tuple(row) for state, row in given.values.items()}
-        | dict.fromkeys(run.terminal, (_NONE,)),
+        "actions": {state: tuple(row) for state, row in given.values.items()} | dict.fromkeys(run.terminal, (_NONE,)),
     }
     known["A"].setdefault(len(run.rewards), _NONE)
-    values = {
-        (state, action): exact(value) for state, row in given.values.items() for action, value in row.items()
-    }
+    values = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
     values |= {(state, _NONE): ZERO for state in run.terminal}
     for time in range(len(run.rewards)):
         pair = run.states[time], run.actions[time]
@@ -36,12 +33,8 @@ def solve(given: Given, work: Work) -> None:
 def oracle(given: Given) -> Answers:
     """The update as a weighted mean of old value and target, on nested dictionaries of floats."""
     run = given.trajectory
-    table = {
-        state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()
-    }
-    for state, action, reward, after in zip(
-        run.states, run.actions, run.rewards, run.states[1:], strict=False
-    ):
+    table = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
+    for state, action, reward, after in zip(run.states, run.actions, run.rewards, run.states[1:], strict=False):
         best = 0.0 if after in run.terminal else sorted(table[after].values())[-1]
         target = at(reward) + at(given.gamma) * best
         table[state][action] += at(given.alpha) * (target - table[state][action])

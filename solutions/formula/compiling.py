@@ -33,9 +33,7 @@ class _Code(StrPrinter):
         return " + ".join(self.parenthesize(term, PRECEDENCE["Add"]) for term in expression.args)
 
     def _print_Mul(self, expression: Any) -> str:
-        return "*".join(
-            self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args
-        )
+        return "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args)
 
     def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
         base, exponent = expression.args

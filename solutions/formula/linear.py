@@ -10,7 +10,6 @@ from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
 from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest
 
-
 _NO_UNIQUE = "the equations have no unique solution"
 
 

@@ -49,9 +49,7 @@ class Quantity(sympy.Function):
 
 def quantity(code: str, layout: Callable[..., Math], *, matrix: bool = False) -> type[Quantity]:
     """A new quantity; ``layout`` takes its typeset arguments."""
-    return type(
-        code, (Quantity,), {"code": code, "layout": staticmethod(layout), "is_commutative": not matrix}
-    )
+    return type(code, (Quantity,), {"code": code, "layout": staticmethod(layout), "is_commutative": not matrix})
 
 
 def called(head: str | Math) -> Callable[..., Math]:
@@ -104,7 +102,7 @@ def _numbered(of: type[Quantity], count: int) -> type[Quantity]:
 
 
 #: Built once, so that equal quantities are the same class.
-numbered: Callable[[type[Quantity], int], type[Quantity]] = cache(_numbered)
+numbered: Any = cache(_numbered)
 
 
 class Over(Expr):

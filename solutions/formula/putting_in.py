@@ -53,9 +53,7 @@ def put_in(expression: Expr, known: Known) -> Expr:
     if expression.is_Pow:
         # An exponent counts steps; it is not part of the working.
         return _power(arguments[0], evaluated(arguments[1]))
-    return (
-        expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
-    )
+    return expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
 
 
 def indexed(expression: Expr, known: Known) -> Expr:

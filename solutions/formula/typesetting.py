@@ -159,9 +159,7 @@ def _reciprocal(factor: Expr) -> bool:
 
 def _numeric(factor: Expr) -> bool:
     base = factor.args[0] if factor.is_Pow else factor
-    return bool(
-        base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar)
-    )
+    return bool(base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar))
 
 
 def _is_grid(factor: Expr) -> bool:

@@ -35,8 +35,7 @@ def solve(given: Given, work: Work) -> None:
 def oracle(given: Given) -> Answers:
     """The best action for each unit state, as the stationary point of r + V found from the Hessian."""
     A, B, R, P = (
-        np.array([[at(entry) for entry in line] for line in lines])
-        for lines in (given.A, given.B, given.R, given.P)
+        np.array([[at(entry) for entry in line] for line in lines]) for lines in (given.A, given.B, given.R, given.P)
     )
 
     def worth(s: Array, a: Array) -> float:

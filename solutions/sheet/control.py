@@ -9,8 +9,7 @@ with evaluate(False):
     Q_LEARNING = Formula(
         "q-learning",
         Q(S(t), A(t)),
-        Q(S(t), A(t))
-        + alpha * (r(t + 1) + gamma * MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
         title="Q-learning",
         source="Sutton & Barto 2018, eq. 6.8",
         hint="The target takes the best action value of the next state, whatever is done there.",
@@ -25,8 +24,7 @@ with evaluate(False):
     MEAN_FOR_MAX = misread(
         Q_LEARNING,
         "mean-for-max",
-        Q(S(t), A(t))
-        + alpha * (r(t + 1) + gamma * MeanOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * MeanOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
         "Q-learning takes the greatest action value of the next state, not the mean.",
     )
     FORGOT_GAMMA = misread(

@@ -30,8 +30,7 @@ with evaluate(False):
         LQR_GAIN,
         "cost-to-go-for-value",
         Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * -Transposed(Bt(t)) * Pt(t + 1) * At(t),
-        "The sheet's P is the matrix of the value, so negative; the positive cost-to-go S belongs in "
-        "(R + BᵀSB)⁻¹BᵀSA.",
+        "The sheet's P is the matrix of the value, so negative; the positive cost-to-go S belongs in (R + BᵀSB)⁻¹BᵀSA.",
     )
     FORGOT_R = misread(
         LQR_GAIN,
@@ -42,10 +41,7 @@ with evaluate(False):
     TRANSPOSED_A = misread(
         LQR_GAIN,
         "transposed-a",
-        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
-        * Transposed(Bt(t))
-        * Pt(t + 1)
-        * Transposed(At(t)),
+        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * Transposed(At(t)),
         "A stands untransposed at the end; only B is transposed.",
         when=lambda given: len(given.A) > 1,  # a scalar is its own transpose
     )

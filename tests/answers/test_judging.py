@@ -7,6 +7,7 @@ import sympy
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
+
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
@@ -53,7 +54,8 @@ def test_the_tolerance_is_half_a_unit_of_the_third_digit(value: object, half_a_u
     [
         ("3.495", fmpq(7, 2), True), ("3.505", fmpq(7, 2), True),  # the bounds are included
         ("3.4949", fmpq(7, 2), False), ("3.5051", fmpq(7, 2), False),
-        ("0.333", fmpq(1, 3), True), ("0.33", fmpq(1, 3), False), ("0.33333", fmpq(1, 3), True), ("1/3", fmpq(1, 3), True),
+        ("0.333", fmpq(1, 3), True), ("0.33", fmpq(1, 3), False), ("0.33333", fmpq(1, 3), True),
+        ("1/3", fmpq(1, 3), True),
         ("0.0005", fmpq(0), True), ("0.00051", fmpq(0), False), ("-0.0005", fmpq(0), True),
         ("20.1", sympy.exp(3), True), ("20", sympy.exp(3), False), ("e^3", sympy.exp(3), True),
         ("2 + 1/2*(-1 + 0.9*4 - 2)", fmpq(23, 10), True),
@@ -113,7 +115,12 @@ def verdicts(*typed: str) -> list[Verdict]:
 
 
 def test_right_in_all_ways_of_typing() -> None:
-    for text in ("cool: 7/2, warm: 5/2", "3.5 2.5".replace(" ", ", "), "warm = 2.50; cool = 3 1/2", "V(cool)=3.5, V(warm)=2.5"):
+    for text in (
+        "cool: 7/2, warm: 5/2",
+        "3.5 2.5".replace(" ", ", "),
+        "warm = 2.50; cool = 3 1/2",
+        "V(cool)=3.5, V(warm)=2.5",
+    ):
         assert verdicts(text)[0].outcome is Outcome.RIGHT, text
 
 

@@ -534,10 +534,7 @@ def test_choices(text, option):
 
 def test_choices_refused():
     options = ["Sarsa", "Q-learning", "Q(λ)"]
-    assert (
-        "'Q' fits more than one option; type a letter from a to c."
-        in refusal(read_choice, "Q", options).message
-    )
+    assert "'Q' fits more than one option; type a letter from a to c." in refusal(read_choice, "Q", options).message
     assert "'z' is not one of the options" in refusal(read_choice, "z", options).message
     assert "fits more than one" in refusal(read_choice, "a", ["b", "a"]).message
 
@@ -730,9 +727,7 @@ def computed(tree) -> Fraction:
     if operator == "^":
         return value ** right[0]
     other = computed(right[0])
-    return {"+": value.__add__, "-": value.__sub__, "*": value.__mul__, "/": value.__truediv__}[operator](
-        other
-    )
+    return {"+": value.__add__, "-": value.__sub__, "*": value.__mul__, "/": value.__truediv__}[operator](other)
 
 
 def typed(tree, above: int = 0) -> str:

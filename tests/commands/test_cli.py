@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 import rldrill
 
 ROOT = Path(__file__).parent.parent.parent
@@ -48,7 +49,10 @@ def test_help_lists_every_command_and_each_has_help_with_examples() -> None:
 def test_help_and_list_import_nothing_heavy() -> None:
     for arguments in (["-h"], ["list"], ["list", "bellman", "--json"]):
         process = subprocess.run(
-            [sys.executable, "-X", "importtime", "-m", "rldrill", *arguments], capture_output=True, text=True, check=True
+            [sys.executable, "-X", "importtime", "-m", "rldrill", *arguments],
+            capture_output=True,
+            text=True,
+            check=True,
         )
         loaded = {line.rpartition("|")[2].strip().split(".")[0] for line in process.stderr.splitlines()}
         assert "typer" in loaded
@@ -75,14 +79,18 @@ def test_errors_are_one_sentence_with_their_exit_code(arguments: list[str], code
     assert fragment in one_sentence(process)
 
 
-@pytest.mark.parametrize("arguments", [["no-such-command"], ["quiz", "--level", "9"], ["generate", "-n", "0"], ["show"]])
+@pytest.mark.parametrize(
+    "arguments", [["no-such-command"], ["quiz", "--level", "9"], ["generate", "-n", "0"], ["show"]]
+)
 def test_usage_errors_exit_2(arguments: list[str]) -> None:
     process = run(*arguments)
     assert process.returncode == 2
     assert "Traceback" not in process.stderr
 
 
-def test_an_error_of_our_own_exits_70_without_a_traceback(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_error_of_our_own_exits_70_without_a_traceback(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     from rldrill import cli
 
     monkeypatch.setattr(sys, "argv", ["rldrill", "show", "td-zero/1/1"])
@@ -121,10 +129,11 @@ def test_solve_as_data() -> None:
 
 def test_a_pipe_that_closes_early_is_no_error() -> None:
     process = subprocess.run(
-        f"{sys.executable} -m rldrill generate td-zero -n 400 --seed 1 2>/dev/null | head -1; echo ${{PIPESTATUS[0]}}",
+        f"{sys.executable} -m rldrill generate td-zero -n 400 --seed 1 | head -1; echo ${{PIPESTATUS[0]}}",
         shell=True, executable="/bin/bash", capture_output=True, text=True, cwd=ROOT, timeout=60,
     )  # fmt: skip
-    assert process.stdout.splitlines()[-1] == "0"
+    assert process.stderr == "seed 1\n"
+    assert process.stdout.splitlines()[-1] == "141"  # ended by SIGPIPE, as cat and grep are
 
 
 def test_without_a_home_and_with_an_ascii_terminal() -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pexpect
 import pytest
-import rldrill
 from rich.console import Console
+
+import rldrill
 from rldrill.quiz.questions import questions
 from rldrill.quiz.screen import HELP, Screen
 from rldrill.quiz.session import Session, State
@@ -39,7 +40,9 @@ class Typist:
         return file.getvalue()
 
 
-def quiz(*lines: str | type[BaseException], names: tuple[str, ...] = (str(RACING_CAR),)) -> tuple[Typist, Session, bool]:
+def quiz(
+    *lines: str | type[BaseException], names: tuple[str, ...] = (str(RACING_CAR),)
+) -> tuple[Typist, Session, bool]:
     typist = Typist(*lines)
     exercises, total = questions(names, 1, None, lambda: 0)
     session = Session(total)
@@ -112,7 +115,11 @@ def test_nothing_answered() -> None:
 def terminal() -> Iterator[pexpect.spawn]:
     environment = {**os.environ, "TERM": "xterm", "NO_COLOR": "1", "COLUMNS": "100"}
     child = pexpect.spawn(
-        sys.executable, ["-m", "rldrill", "quiz", str(RACING_CAR)], encoding="utf-8", timeout=30, env=environment
+        sys.executable,
+        ["-m", "rldrill", "quiz", str(RACING_CAR)],
+        encoding="utf-8",
+        timeout=30,
+        env=environment,
     )
     yield child
     child.close(force=True)
@@ -121,10 +128,10 @@ def terminal() -> Iterator[pexpect.spawn]:
 def test_in_a_real_terminal(terminal: pexpect.spawn) -> None:
     terminal.expect(r"\(a\) > ")
     terminal.sendline("cool: 3.5, warm: 5/2")
-    terminal.expect("✓ Right")
+    terminal.expect(r"✓\S* Right")
     terminal.expect(r"\(b\) > ")
     terminal.send("cool: slow\x1b[D\x1b[D\x1b[D\x1b[D\x0bfast, warm: slow\r")  # left, left …, delete to the end
-    terminal.expect("✓ Right")
+    terminal.expect(r"✓\S* Right")
     terminal.expect("Enter next")
     terminal.sendline("")
     terminal.expect("2 of 2 parts right")

@@ -8,6 +8,7 @@ import sympy
 from flint import fmpq, fmpq_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import evaluate

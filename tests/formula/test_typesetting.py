@@ -2,6 +2,7 @@
 
 import pytest
 from flint import fmpq
+
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import mathematics
 from rldrill.render.latex import latex

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError

@@ -5,6 +5,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from rldrill.problems.exact import Parameter, read_fraction, read_scalar, shown
 
 
@@ -20,7 +21,8 @@ def test_numbers(written: object, value: Fraction) -> None:
 
 
 @pytest.mark.parametrize(
-    "written", ["", "1/0", "abc", "nan", "inf", float("nan"), True, None, [], "9" * 41, "1e99999", "1/2/3", "0x10"]
+    "written",
+    ["", "1/0", "abc", "nan", "inf", float("nan"), True, None, [], "9" * 41, "1e99999", "1/2/3", "0x10"],
 )
 def test_what_is_not_a_number_is_refused(written: object) -> None:
     with pytest.raises(ValueError, match=r"number|zero"):
@@ -32,7 +34,9 @@ def test_a_fraction_survives_being_written(value: Fraction) -> None:
     assert read_fraction(str(value)) == value
 
 
-@pytest.mark.parametrize(("written", "name", "text"), [("gamma", "gamma", "γ"), ("γ", "gamma", "γ"), ("1 - p", "p", "1 − p")])
+@pytest.mark.parametrize(
+    ("written", "name", "text"), [("gamma", "gamma", "γ"), ("γ", "gamma", "γ"), ("1 - p", "p", "1 − p")]
+)
 def test_parameters(written: str, name: str, text: str) -> None:
     parameter = read_scalar(written)
     assert isinstance(parameter, Parameter)

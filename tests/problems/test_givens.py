@@ -3,11 +3,15 @@
 from typing import Any
 
 import pytest
+
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 
-MDP = {"transitions": [["a", "go", "b", "1/2", 1], ["a", "go", "end", 0.5, 2], ["b", "go", "a", 1, 3]], "terminal": ["end"]}
+MDP = {
+    "transitions": [["a", "go", "b", "1/2", 1], ["a", "go", "end", 0.5, 2], ["b", "go", "a", 1, 3]],
+    "terminal": ["end"],
+}
 VALUE_ITERATION: dict[str, Any] = {"mdp": MDP, "gamma": "9/10", "sweeps": 2}
 
 

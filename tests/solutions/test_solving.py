@@ -3,10 +3,11 @@
 from typing import Any
 
 import pytest
-import rldrill
 from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+import rldrill
 from rldrill.audit import audit
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import FileError
@@ -83,9 +84,7 @@ def test_a_value_that_does_not_exist_is_one_sentence() -> None:
 
 def test_a_measurement_that_cannot_happen_is_one_sentence() -> None:
     with pytest.raises(FileError, match="no answer"):
-        solved(
-            "bayes-rule", prior={"a": 1, "b": 0}, likelihood={"z": {"a": 0, "b": 1}}, measurements=["z"]
-        )
+        solved("bayes-rule", prior={"a": 1, "b": 0}, likelihood={"z": {"a": 0, "b": 1}}, measurements=["z"])
 
 
 def test_a_hundred_states_are_solved_exactly() -> None:

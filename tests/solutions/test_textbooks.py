@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import rldrill
 from flint import fmpq
+
+import rldrill
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 
@@ -50,7 +51,10 @@ def test_the_cookie_problem_of_think_bayes() -> None:
     belief = solved(
         "bayes-rule",
         prior={"Bowl 1": "1/2", "Bowl 2": "1/2"},
-        likelihood={"vanilla": {"Bowl 1": "3/4", "Bowl 2": "1/2"}, "chocolate": {"Bowl 1": "1/4", "Bowl 2": "1/2"}},
+        likelihood={
+            "vanilla": {"Bowl 1": "3/4", "Bowl 2": "1/2"},
+            "chocolate": {"Bowl 1": "1/4", "Bowl 2": "1/2"},
+        },
         measurements=["vanilla"],
     )["a"]
     assert belief["Bowl 1"] == fmpq(3, 5)
@@ -59,11 +63,16 @@ def test_the_cookie_problem_of_think_bayes() -> None:
 def test_the_random_walk_of_sutton_and_barto() -> None:
     # Example 6.2: the values of A … E are 1/6 … 5/6. With α = 0.1 the first episode, ending on the left,
     # changes V(A) alone, from 0.5 to 0.45 (exercise 6.3).
-    walk = [[s, move, n, "1/2", int(n == "right end")]
-            for s, left, right in [("A", "left end", "B"), ("B", "A", "C"), ("C", "B", "D"), ("D", "C", "E"), ("E", "D", "right end")]
-            for move, n in [("step", left), ("step", right)]]  # fmt: skip
+    line = ["left end", *"ABCDE", "right end"]
+    walk = [
+        [state, "step", after, "1/2", int(after == "right end")]
+        for left, state, right in zip(line, line[1:], line[2:], strict=False)
+        for after in (left, right)
+    ]
     values = solved("policy-value", gamma=1, mdp={"transitions": walk, "terminal": ["left end", "right end"]})["a"]
-    assert [Fraction(int(v.numerator), int(v.denominator)) for v in values.values()] == [Fraction(k, 6) for k in range(1, 6)]
+    assert [Fraction(int(v.numerator), int(v.denominator)) for v in values.values()] == [
+        Fraction(k, 6) for k in range(1, 6)
+    ]
     after = solved(
         "td-zero",
         trajectory={"states": ["C", "B", "A", "left end"], "rewards": [0, 0, 0], "terminal": ["left end"]},

@@ -1,0 +1,72 @@
+"""``rldrill sheet``: the formula sheet."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rldrill.commands.arguments import Output
+
+NAME = "sheet"
+
+
+def complete_sections(incomplete: str) -> list[str]:
+    """Sections of the formula sheet that begin so."""
+    folder = Path(__file__).parents[1] / "solutions" / "sheet"
+    names = sorted(file.stem.replace("_", "-") for file in folder.glob("*.py") if file.stem != "__init__")
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def command(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[SECTION]…", autocompletion=complete_sections, help="Sections; all, if none."),
+    ] = None,
+    output: Output = None,
+    paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper of a PDF.")] = "a4",
+    latex: Annotated[bool, typer.Option("--latex", help="Print the formulas as LaTeX.")] = False,
+) -> None:
+    """Print the formula sheet, or write it as PDF or Markdown.
+
+    Examples:
+
+        rldrill sheet
+
+        rldrill sheet bellman temporal-difference
+
+        rldrill sheet -o sheet.pdf --paper letter
+
+        rldrill sheet -o sheet.md
+    """
+    from rldrill.paper import paper_of
+
+    size = paper_of(paper)
+    if output is None:
+        _print(names or [], as_latex=latex)
+        return
+    from rldrill.formula_sheet import markdown, sheet_source
+    from rldrill.paper import pdf, write_bytes_atomically
+    from rldrill.problems.errors import UsageError
+
+    if output.is_dir():
+        raise UsageError(f"{output} is a folder; give the name of a file, such as {output / 'sheet.pdf'}.")
+    if latex:
+        raise UsageError(
+            "--latex prints to the terminal; leave it out with --output, or write a file that ends in .md."
+        )
+    suffix = output.suffix.lower()
+    if suffix not in (".pdf", ".md"):
+        raise UsageError(f"{output} must end in .pdf or .md: the formula sheet is written as PDF or Markdown.")
+    data = pdf(sheet_source(names or [], size)) if suffix == ".pdf" else markdown(names or []).encode()
+    write_bytes_atomically(output, data)
+    typer.echo(str(output))
+
+
+def _print(names: list[str], *, as_latex: bool) -> None:
+    from rich.console import Console
+
+    from rldrill.formula_sheet import terminal
+
+    console = Console(highlight=False, soft_wrap=True)
+    for line in terminal(names, as_latex=as_latex):
+        console.print(line)

@@ -1,0 +1,73 @@
+"""``rldrill worksheet``: printed worksheets with their keys."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rldrill.commands.arguments import Json, Level, Names, Seed
+
+NAME = "worksheet"
+
+
+def command(
+    names: Names = None,
+    count: Annotated[int, typer.Option("--count", "-n", min=1, max=100, help="Problems in each version.")] = 8,
+    level: Level = None,
+    seed: Seed = None,
+    versions: Annotated[int, typer.Option("--versions", min=1, max=200, help="How many versions.")] = 1,
+    paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper.")] = "a4",
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE.pdf", help="Write to this file.")] = Path(
+        "worksheet.pdf"
+    ),
+    title: Annotated[str | None, typer.Option("--title", help="What is printed at the head.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Typeset a worksheet as PDF, with a key for each version.
+
+    Versions share topics and levels, and never a problem. A manifest (FILE.json) records what was printed.
+
+    Examples:
+
+        rldrill worksheet
+
+        rldrill worksheet bellman td-zero -n 6 --level 2 -o exam.pdf
+
+        rldrill worksheet -n 5 --versions 30 --seed 7 --title "Quiz 3" -o quiz3.pdf
+    """
+    from rldrill.paper import paper_of
+    from rldrill.selection import fresh_seed
+    from rldrill.worksheet import DEFAULT_TITLE, check_output, plan, write
+
+    size = paper_of(paper)
+    check_output(output)
+    chosen = fresh_seed() if seed is None else seed
+    typer.echo(f"seed {chosen}", err=True)
+    with _progress(2 * versions) as advance:
+        sheet = plan(names or (), count, level, chosen, versions, title=title or DEFAULT_TITLE, advance=advance)
+        written = write(sheet, output, size, advance)
+    _print([str(path) for path in written], as_json=as_json)
+
+
+@contextmanager
+def _progress(steps: int) -> Iterator[Callable[[], None]]:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True, disable=not _is_shown()) as progress:
+        task = progress.add_task("Typesetting", total=steps)
+        yield lambda: progress.advance(task)
+
+
+def _is_shown() -> bool:
+    from rich.console import Console
+
+    return Console(stderr=True).is_terminal
+
+
+def _print(paths: list[str], *, as_json: bool) -> None:
+    import json
+
+    typer.echo(json.dumps(paths, ensure_ascii=False, indent=2) if as_json else "\n".join(paths))

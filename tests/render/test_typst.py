@@ -1,0 +1,195 @@
+"""Blocks and mathematics as Typst: all compiles, nothing is read as code, nothing is too wide."""
+
+import html
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from rldrill.exercise import Exercise, draw
+from rldrill.paper import PAPERS, page_setup, pdf
+from rldrill.problems.catalogue import families, family
+from rldrill.problems.document import Equation, Heading, Paragraph, Table
+from rldrill.problems.mathematics import (
+    EMPTY,
+    Accent,
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Grid,
+    Math,
+    Root,
+    Row,
+    Script,
+    mathematics,
+    number,
+    operator,
+    row,
+    variable,
+    word,
+)
+from rldrill.render.typst import block, document, text, typst
+from rldrill.solutions.sheet import formulas
+
+HOSTILE = [
+    "a#b",
+    "*x*",
+    "$",
+    'say"so"',
+    "back\\slash",
+    "]",
+    "//x",
+    "@x",
+    "<l>",
+    "`c`",
+    "#eval",
+    "_u_",
+    "~",
+    "=h",
+]
+SETUP = page_setup(PAPERS["a4"], title="t", left="", right="", margin="2cm")
+NARROW = SETUP + "#set page(width: 9cm, height: 25cm, margin: 1cm)\n#set text(size: 9pt)\n"
+CENTIMETRE = 72 / 2.54
+
+
+def words_of(data: bytes, folder: Path) -> list[tuple[str, float, float, float]]:
+    """Every word of a PDF with its left and right edge and the width of its page."""
+    if shutil.which("pdftotext") is None:
+        pytest.skip("poppler's pdftotext is not installed")
+    (folder / "page.pdf").write_bytes(data)
+    command = ["pdftotext", "-bbox", str(folder / "page.pdf"), "-"]
+    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    found, width = [], 0.0
+    for line in printed.splitlines():
+        if page := re.search(r'<page width="([\d.]+)"', line):
+            width = float(page[1])
+        elif match := re.search(r'<word xMin="([-\d.]+)" yMin="[-\d.]+" xMax="([-\d.]+)" .*?>(.*)</word>', line):
+            found.append((html.unescape(match[3]), float(match[1]), float(match[2]), width))
+    return found
+
+
+def assert_inside(data: bytes, folder: Path, margin: float) -> None:
+    edge = margin * CENTIMETRE - 1
+    outside = [word for word, left, right, width in words_of(data, folder) if left < edge or right > width - edge]
+    assert outside == []
+
+
+def exercises() -> list[Exercise]:
+    return [draw(name, level, seed) for name, seed in product(families(), (1, 2)) for level in family(name).levels]
+
+
+@pytest.fixture(scope="module")
+def everything() -> str:
+    parts = [block(formula.equation()) for formula in formulas().values()]
+    for exercise in exercises():
+        parts += [document(exercise.question()), document(exercise.working())]
+        for part in exercise.parts:
+            parts += [block(Paragraph(f"({part.label}) {part.ask}")), block(exercise.answer(part))]
+    return "".join(parts)
+
+
+def test_all_formulas_questions_and_workings_stay_inside_the_page(everything: str, tmp_path: Path) -> None:
+    assert_inside(pdf(SETUP + everything), tmp_path, 2)
+
+
+def test_they_do_so_in_a_narrow_column_too(everything: str, tmp_path: Path) -> None:
+    assert_inside(pdf(NARROW + everything), tmp_path, 1)
+
+
+def test_names_are_never_read_as_code(tmp_path: Path) -> None:
+    blocks = [
+        *(Paragraph(f"in {name} end") for name in HOSTILE),
+        *(Heading(f"head {name}") for name in HOSTILE),
+        Table(("name",), tuple((name,) for name in HOSTILE)),
+        *(Equation(row(variable("V"), Fence(word(name))), (word(name),), ("=",)) for name in HOSTILE),
+    ]
+    found = [word for word, *_ in words_of(pdf(SETUP + document(tuple(blocks))), tmp_path)]
+    joined = "".join(found).replace("”", '"').replace("“", '"')
+    for name in HOSTILE:
+        assert joined.count(name) >= 5, name
+
+
+@pytest.mark.parametrize("style", ["variable", "word", "number", "operator", "relation", "punctuation"])
+def test_every_sign_of_every_style_compiles(style: str) -> None:
+    signs = [chr(code) for code in range(32, 127)] + [
+        "ab",
+        "1x",
+        "",
+        "′",
+        "日",
+        "𝔼",
+        "∼",
+        "s₁′",
+        "…",
+        "#",
+        ";;",
+        "--",
+    ]
+    glyphs: list[Math] = [Glyph(sign, style) for sign in signs]  # type: ignore[arg-type]
+    inside = [*glyphs, *(Script(glyph, glyph, glyph) for glyph in glyphs), *(Fraction(g, g) for g in glyphs)]
+    pdf(SETUP + "".join(f"${typst(item)}$ " for item in inside) + f"$ {typst(Grid((tuple(glyphs),)))} $")
+
+
+def test_every_kind_of_mathematics_compiles() -> None:
+    x = variable("x")
+    kinds: list[Math] = [
+        EMPTY, Fraction(EMPTY, EMPTY), Root(x), Accent(x, "hat"), Accent(x, "bar"), Accent(x, "tilde"),
+        Big("∫", x, x), Big("𝔼", x), Big("arg max", x), Big("Σ"),
+        Fence(x, "|", "|"), Fence(x, "⟨", "⟩"), Fence(x, "{", ""), Fence(EMPTY),
+        Grid(((x, x), (x, EMPTY))), Grid(((x,),), "{", ""), Script(EMPTY, x), Row((x, Glyph("′", "word"))),
+    ]  # fmt: skip
+    pdf(SETUP + "".join(f"${typst(item)}$ $ {typst(item)} $" for item in kinds))
+
+
+@pytest.mark.parametrize(
+    ("source", "written"),
+    [
+        ("V(s)", "V lr(paren.l s paren.r)"),
+        ("3/4", "frac(3, 4)"),
+        ("s_{t+1}", r"attach(s, b: t \+ 1)"),
+        ('V("cool")', 'V lr(paren.l upright("cool") paren.r)'),
+        ("e^{3/2}", r"attach(e, t: 3 \/ 2)"),
+        ("γ", r"\u{3b3}"),
+    ],
+)
+def test_mathematics_is_written_explicitly(source: str, written: str) -> None:
+    assert typst(mathematics(source)) == written
+
+
+def test_text_is_a_string_and_mathematics_an_equation() -> None:
+    assert text('a "b" \\ $x$') == r'#"a \"b\" \\ ";#box[$x$]'
+
+
+def long_sum(terms: int) -> Math:
+    return row(*(item for index in range(1, terms) for item in (number(index * 1111), operator("+"))), number(1))
+
+
+@pytest.mark.parametrize(
+    "wide",
+    [
+        lambda: long_sum(60),
+        lambda: row(word("max"), Fence(long_sum(60), "{", "}")),
+        lambda: row(Fence(long_sum(20)), Fence(row(long_sum(9), operator("−"), Fence(long_sum(30))))),
+        lambda: row(*[Grid(((number("1/3"),) * 4,) * 4)] * 9),
+        lambda: Fraction(long_sum(60), number(2)),
+        lambda: row(variable("x"), Script(Fence(long_sum(60)), above=number(2))),
+        lambda: word("w" * 300),
+    ],
+)
+def test_whatever_is_too_wide_is_broken_or_shrunk(wide: Callable[[], Math], tmp_path: Path) -> None:
+    blocks = document((
+        Equation(variable("V"), (wide(), number(7)), ("=", "=")),
+        Equation(wide(), (number(7),), ("=",)),
+        Equation(EMPTY, (wide(),), ("",)),
+    ))  # fmt: skip
+    assert_inside(pdf(SETUP + blocks), tmp_path, 2)
+
+
+def test_a_wide_table_is_shrunk(tmp_path: Path) -> None:
+    line = tuple(f"rattling{index}" for index in range(20))
+    assert_inside(pdf(SETUP + block(Table(line, (line, line)))), tmp_path, 2)

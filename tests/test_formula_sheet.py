@@ -1,0 +1,103 @@
+"""The formula sheet in the terminal, as PDF and as Markdown: always the same formulas."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from rldrill.commands import sheet as sheet_command
+from rldrill.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
+from rldrill.paper import PAPERS, pdf
+from rldrill.problems.errors import UsageError
+from rldrill.render.unicode import unicode_text
+from rldrill.solutions.sheet import SECTIONS, formulas
+
+MARGIN = 1.6 * 72 / 2.54 - 1
+
+
+@pytest.fixture
+def app() -> typer.Typer:
+    app = typer.Typer()
+    app.command()(sheet_command.command)
+    return app
+
+
+def test_the_terminal_shows_every_formula() -> None:
+    printed = "\n".join(line.plain for line in terminal([]))
+    for formula in formulas().values():
+        assert formula.title in printed
+        assert unicode_text(formula.equation()) in printed
+    assert all(title in printed for title in SECTIONS.values())
+
+
+def test_markdown_has_every_formula_in_latex() -> None:
+    written = markdown([])
+    assert all(f"$${latex_equation(formula.equation())}$$" in written for formula in formulas().values())
+    assert written.count("\n## ") == len(SECTIONS)
+
+
+def test_sections_keep_the_order_of_the_sheet() -> None:
+    assert list(sections(["temporal-difference", "Bellman"])) == ["bellman", "temporal_difference"]
+
+
+def test_an_unknown_section_is_refused_with_the_list() -> None:
+    with pytest.raises(UsageError, match="fundamentals, bellman, dynamic-programming"):
+        sections(["belman"])
+
+
+@pytest.mark.parametrize("paper", ["a4", "letter"])
+def test_every_word_of_the_pdf_is_inside_the_margins(paper: str, tmp_path: Path) -> None:
+    if shutil.which("pdftotext") is None:
+        pytest.skip("poppler's pdftotext is not installed")
+    path = tmp_path / "sheet.pdf"
+    path.write_bytes(pdf(sheet_source([], PAPERS[paper])))
+    command = ["pdftotext", "-bbox", str(path), "-"]
+    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    match = re.search(r'<page width="([\d.]+)"', printed)
+    assert match is not None
+    width = float(match[1])
+    words = re.findall(r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)"', printed)
+    boxes = [tuple(map(float, word)) for word in words]
+    assert all(left > MARGIN and right < width - MARGIN for left, _, right in boxes)
+    below_title = [(left, right) for left, top, right in boxes if 80 < top < 740]
+    assert not [box for box in below_title if box[0] < width / 2 < box[1]]
+
+
+def test_the_command_prints_plain_text_when_piped(app: typer.Typer) -> None:
+    printed = CliRunner().invoke(app, ["bellman"], catch_exceptions=False).stdout
+    assert "\x1b" not in printed
+    assert "V^π(s) = " in printed
+
+
+def test_the_command_prints_latex(app: typer.Typer) -> None:
+    assert r"\gamma" in CliRunner().invoke(app, ["fundamentals", "--latex"], catch_exceptions=False).stdout
+
+
+@pytest.mark.parametrize(("name", "begins"), [("sheet.pdf", b"%PDF"), ("sheet.md", b"# ")])
+def test_the_command_writes_files(app: typer.Typer, tmp_path: Path, name: str, begins: bytes) -> None:
+    path = tmp_path / name
+    result = CliRunner().invoke(app, ["-o", str(path)], catch_exceptions=False)
+    assert result.stdout == f"{path}\n"
+    assert path.read_bytes().startswith(begins)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["-o", "x.html"], "must end in .pdf or .md"),
+        (["-o", "."], "is a folder"),
+        (["nope"], "There is no section"),
+    ],
+)
+def test_the_command_refuses(app: typer.Typer, arguments: list[str], message: str) -> None:
+    result = CliRunner().invoke(app, arguments)
+    assert isinstance(result.exception, UsageError)
+    assert message in str(result.exception)
+
+
+def test_completion_offers_the_sections() -> None:
+    assert {name.replace("-", "_") for name in sheet_command.complete_sections("")} == set(SECTIONS)

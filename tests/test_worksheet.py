@@ -1,0 +1,266 @@
+"""Worksheets: the same arguments print the same bytes, versions share no problem, all fits the page."""
+
+import hashlib
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from rldrill import load
+from rldrill.commands import worksheet as worksheet_command
+from rldrill.paper import PAPERS, paper_of, pdf, write_bytes_atomically
+from rldrill.problems.catalogue import families
+from rldrill.problems.errors import UsageError
+from rldrill.problems.parts import Matrix, Number, Part
+from rldrill.render.unicode import unicode
+from rldrill.solutions.answers.rule import RULE
+from rldrill.worksheet import (
+    Sheet,
+    answer_lines,
+    key_source,
+    manifest,
+    plan,
+    version_code,
+    worksheet_source,
+    write,
+)
+
+A4, LETTER = PAPERS["a4"], PAPERS["letter"]
+MARGIN = 2 * 72 / 2.54 - 1
+TITLE = "Quiz #1 *for* <all> $ ] // @x"
+
+
+@pytest.fixture(scope="module")
+def sheet() -> Sheet:
+    return plan([], len(families()), None, 5, 3, title=TITLE)
+
+
+@pytest.fixture(scope="module")
+def folder(sheet: Sheet, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("printed")
+    write(sheet, folder / "exam.pdf", LETTER)
+    return folder
+
+
+def poppler(tool: str, *arguments: str) -> str:
+    if shutil.which(tool) is None:
+        pytest.skip(f"poppler's {tool} is not installed")
+    return subprocess.run([tool, *arguments], capture_output=True, check=True, text=True).stdout
+
+
+def test_versions_share_families_and_levels_but_no_problem(sheet: Sheet) -> None:
+    slots = [
+        [(item.problem.family.name, item.problem.level) for item in version.exercises] for version in sheet.versions
+    ]
+    assert slots[0] == slots[1] == slots[2]
+    problems = [json.dumps(item.problem.data()) for version in sheet.versions for item in version.exercises]
+    assert len(set(problems)) == len(problems)
+
+
+def test_a_version_repeats_no_problem() -> None:
+    version = plan(["return"], 40, 1, 3, 1).versions[0]
+    assert len({json.dumps(item.problem.data()) for item in version.exercises}) == 40
+
+
+def test_versions_are_lettered() -> None:
+    assert [version_code(index) for index in (0, 25, 26, 27, 199)] == ["A", "Z", "AA", "AB", "GR"]
+
+
+def test_files_of_several_versions(folder: Path) -> None:
+    names = {"exam.json", *(f"exam-{code}{key}.pdf" for code in "ABC" for key in ("", "-key"))}
+    assert {path.name for path in folder.iterdir()} == names
+
+
+def test_files_of_one_version(tmp_path: Path) -> None:
+    written = write(plan(["return"], 1, 1, 1, 1), tmp_path / "one.pdf", A4)
+    assert [path.name for path in written] == ["one.pdf", "one-key.pdf", "one.json"]
+
+
+def test_the_manifest_draws_the_same_problems(sheet: Sheet, folder: Path) -> None:
+    data = json.loads((folder / "exam.json").read_text())
+    assert data == json.loads(json.dumps(manifest(sheet, LETTER)))
+    assert (data["seed"], data["title"], data["paper"]) == (5, TITLE, "letter")
+    for version in data["versions"]:
+        assert version["points"] == sum(problem["points"] for problem in version["problems"])
+        for problem in version["problems"]:
+            assert re.fullmatch(r"[a-z-]+/\d/\d+@\d+", problem["id"])
+            assert load(problem["id"]).problem.data() == problem["problem"]
+            assert problem["points"] == sum(part["points"] for part in problem["parts"])
+
+
+def test_what_stands_on_the_sheet(sheet: Sheet, folder: Path) -> None:
+    printed = poppler("pdftotext", "-layout", str(folder / "exam-B.pdf"), "-")
+    pages = [page for page in printed.split("\f") if page.strip()]
+    assert all("Version B" in page and "seed 5" in page for page in pages)
+    assert TITLE in pages[0]
+    assert "Name:" in pages[0]
+    assert "Total" in pages[0]
+    assert RULE in " ".join(pages[0].split())
+    for exercise in sheet.versions[1].exercises:
+        assert str(exercise.id) in printed
+
+
+def test_the_key_has_every_id_and_title(sheet: Sheet, folder: Path) -> None:
+    printed = poppler("pdftotext", "-layout", str(folder / "exam-C-key.pdf"), "-")
+    assert all(str(exercise.id) in printed for exercise in sheet.versions[2].exercises)
+    assert "Key C" in printed
+
+
+@pytest.mark.parametrize("name", ["exam-A", "exam-A-key", "exam-B", "exam-C-key"])
+def test_every_word_is_inside_the_margins(folder: Path, name: str) -> None:
+    printed = poppler("pdftotext", "-bbox", str(folder / f"{name}.pdf"), "-")
+    boxes = re.findall(
+        r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)">(.*?)</word>', printed
+    )
+    assert boxes
+    for left, top, right, bottom, word in boxes:
+        across = float(left) > MARGIN and float(right) < 612 - MARGIN
+        inside = across and float(top) > 20 and float(bottom) < 772
+        assert inside, html.unescape(word)
+
+
+def test_problems_are_not_torn(sheet: Sheet, folder: Path) -> None:
+    pages = poppler("pdftotext", "-layout", str(folder / "exam-A.pdf"), "-").split("\f")
+    for exercise in sheet.versions[0].exercises:
+        page = next(page for page in pages if str(exercise.id) in page)
+        rest = page.split(str(exercise.id))[1]
+        assert all(f"({part.label})" in rest for part in exercise.parts if len(exercise.parts) > 1)
+
+
+@pytest.mark.parametrize(("paper", "size"), [("a4", "595.276 x 841.89"), ("letter", "612 x 792")])
+def test_paper_sizes(paper: str, size: str, tmp_path: Path) -> None:
+    version = plan(["return"], 1, 1, 1, 1).versions[0]
+    (tmp_path / "x.pdf").write_bytes(pdf(worksheet_source(version, paper_of(paper))))
+    assert size in poppler("pdfinfo", str(tmp_path / "x.pdf"))
+
+
+def test_there_are_two_papers() -> None:
+    with pytest.raises(UsageError, match="a4 or letter"):
+        paper_of("a5")
+
+
+def test_the_same_bytes_in_every_process() -> None:
+    program = (
+        "import hashlib\nfrom rldrill.paper import *\nfrom rldrill.worksheet import *\n"
+        "version = plan(['return', 'value-iteration', 'lqr-gain'], 3, None, 9, 2).versions[1]\n"
+        "sources = (worksheet_source(version, PAPERS['a4']), key_source(version, PAPERS['a4']))\n"
+        "print(*(hashlib.sha256(pdf(source)).hexdigest() for source in sources))\n"
+    )
+    processes = [
+        subprocess.Popen(
+            [sys.executable, "-c", program],
+            env={**os.environ, "PYTHONHASHSEED": salt},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for salt in ("1", "2")
+    ]
+    first, second = (process.communicate()[0] for process in processes)
+    assert first == second
+    version = plan(["return", "value-iteration", "lqr-gain"], 3, None, 9, 2).versions[1]
+    here = [pdf(source(version, A4)) for source in (worksheet_source, key_source)]
+    assert first.split() == [hashlib.sha256(data).hexdigest() for data in here]
+
+
+def test_typst_errors_are_runtime_errors() -> None:
+    with pytest.raises(RuntimeError):
+        pdf("#nothing-of-that-name")
+
+
+def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rldrill.worksheet._ATTEMPTS", 0)
+    with pytest.raises(UsageError, match="too few different problems"):
+        plan(["return"], 1, 1, 1, 1)
+
+
+def test_a_title_that_is_too_long_is_refused() -> None:
+    with pytest.raises(UsageError, match="121 characters"):
+        plan(["return"], 1, 1, 1, 1, title="x" * 121)
+
+
+def exact_and_decimal(kind: Number | Matrix, value: object) -> str:
+    return "; ".join(map(unicode, answer_lines(Part("a", "?", kind), value)))
+
+
+def test_keys_give_exact_numbers_and_decimals() -> None:
+    import sympy
+    from flint import fmpq, fmpq_mat
+
+    assert exact_and_decimal(Number(), fmpq(7)) == "7"
+    assert exact_and_decimal(Number(), fmpq(7, 2)) == "7/2 = 3.5"
+    assert exact_and_decimal(Number(), fmpq(-1, 3)) == "−1/3 ≈ −0.3333"
+    assert exact_and_decimal(Number(), fmpq(1, 3 * 10**7)) == "1/30000000 ≈ 3.333·10⁻⁸"
+    assert exact_and_decimal(Number(), sympy.exp(1)) == "e ≈ 2.718"
+    assert exact_and_decimal(Matrix(1, 2), fmpq_mat(1, 2, [fmpq(1, 3), 2])) == "[1/3  2] ≈ [0.3333  2]"
+
+
+# Writing
+
+
+def test_an_old_file_stays_when_the_new_one_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "old.pdf"
+    path.write_bytes(b"old")
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("rldrill.paper.os.fsync", full)
+    with pytest.raises(OSError, match="No space left") as caught:
+        write_bytes_atomically(path, b"new")
+    assert caught.value.filename == str(path)
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_missing_folder_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError) as caught:
+        write_bytes_atomically(tmp_path / "no" / "x.pdf", b"")
+    assert caught.value.filename == str(tmp_path / "no" / "x.pdf")
+
+
+def test_a_file_is_replaced_with_its_rights(tmp_path: Path) -> None:
+    path = tmp_path / "x.pdf"
+    path.write_bytes(b"old")
+    path.chmod(0o640)
+    write_bytes_atomically(path, b"new")
+    assert path.read_bytes() == b"new"
+    assert path.stat().st_mode & 0o777 == 0o640
+
+
+def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "x.json").write_text('{"mine": 1}')
+    with pytest.raises(UsageError, match=r"x\.json would be overwritten"):
+        write(plan(["return"], 1, 1, 1, 1), tmp_path / "x.pdf", A4)
+    assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
+
+
+# The command
+
+
+@pytest.fixture
+def app() -> typer.Typer:
+    app = typer.Typer()
+    app.command()(worksheet_command.command)
+    return app
+
+
+def test_the_command_prints_the_files_and_echoes_the_seed(app: typer.Typer, tmp_path: Path) -> None:
+    arguments = ["return", "-n", "2", "--seed", "4", "--json", "-o", str(tmp_path / "a.pdf")]
+    result = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert json.loads(result.stdout) == [str(tmp_path / name) for name in ("a.pdf", "a-key.pdf", "a.json")]
+    assert result.stderr == "seed 4\n"
+
+
+@pytest.mark.parametrize(("output", "message"), [(".", "is a folder"), ("x.txt", "does not end in .pdf")])
+def test_the_command_refuses_other_paths(app: typer.Typer, output: str, message: str) -> None:
+    result = CliRunner().invoke(app, ["-o", output])
+    assert isinstance(result.exception, UsageError)
+    assert message in str(result.exception)
