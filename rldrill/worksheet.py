@@ -1,5 +1,6 @@
 """Worksheets: versions of one length and difficulty that share no problem, their keys and their manifest."""
 
+import errno
 import json
 import math
 import re
@@ -426,11 +427,14 @@ def check_output(output: Path) -> None:
 
     Raises:
         UsageError: it is a folder, does not end in ``.pdf``, or a file that is no manifest is in the way.
+        FileNotFoundError: its folder does not exist.
     """
     if output.is_dir():
         raise UsageError(f"{output} is a folder; give the name of a PDF file, such as {output / 'worksheet.pdf'}.")
     if output.suffix.lower() != ".pdf":
         raise UsageError(f"{output} does not end in .pdf; a worksheet is written as PDF.")
+    if not output.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder", str(output.parent))
     beside = output.with_suffix(".json")
     if beside.exists() and not _is_manifest(beside):
         raise UsageError(f"{beside} would be overwritten, but is not a worksheet's manifest; choose another name.")

@@ -144,6 +144,24 @@ def _ball(expression: sympy.Expr, at: fmpq | None) -> arb:
     raise ValueError(f"{expression.func.__name__} has no real value here")
 
 
+def magnitude(value: Value) -> int:
+    """The power of ten at the first digit of a real value that is not zero; it may be off by one.
+
+    Raises:
+        ValueError: it has no real value, or one too close to zero to tell.
+    """
+    before = ctx.prec
+    try:
+        for precision in (64, 256, 1024):
+            ctx.prec = precision
+            ball = abs(enclosure(value))
+            if ball.is_finite() and ball > 0:
+                return int((ball.log() / arb(10).log()).mid().floor().unique_fmpz())
+    finally:
+        ctx.prec = before
+    raise ValueError(f"{value} cannot be told from zero, or is no real number")
+
+
 def sign(value: Value, at: fmpq | None = None) -> int:
     """−1, 0 or 1: the exact sign of a real value.
 

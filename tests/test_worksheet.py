@@ -264,3 +264,10 @@ def test_the_command_refuses_other_paths(app: typer.Typer, output: str, message:
     result = CliRunner().invoke(app, ["-o", output])
     assert isinstance(result.exception, UsageError)
     assert message in str(result.exception)
+
+
+def test_a_missing_folder_is_found_out_before_anything_is_drawn(app: typer.Typer, tmp_path: Path) -> None:
+    result = CliRunner().invoke(app, ["-o", str(tmp_path / "no" / "x.pdf")])
+    assert isinstance(result.exception, FileNotFoundError)
+    assert result.exception.filename == str(tmp_path / "no")
+    assert result.stderr == ""

@@ -35,7 +35,7 @@ def command(
 
         rldrill worksheet bellman td-zero -n 6 --level 2 -o exam.pdf
 
-        rldrill worksheet -n 5 --versions 30 --seed 7 --title "Quiz 3" -o quiz3.pdf
+        rldrill worksheet -n 5 --versions 30 --seed 7 -o quiz.pdf
     """
     from rldrill.paper import paper_of
     from rldrill.selection import fresh_seed

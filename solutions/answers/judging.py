@@ -97,16 +97,10 @@ def _judge(
     wrong = _wrong_cells(cells, key)
     if not wrong:
         return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
-    if earlier:
-        follows = solution.following(earlier)
-        if label in follows and not _wrong_cells(cells, answer_kind(part.kind).cells(follows[label])):
-            return Verdict(
-                Outcome.FOLLOW_THROUGH,
-                "Right, going on from your earlier answer.",
-                Fraction(1),
-                read,
-                value=value,
-            )
+    if earlier and _matches(part, cells, solution.following(earlier)):
+        return Verdict(
+            Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
+        )
     made = _made(solution, part, cells, earlier)
     credit = Fraction(len(key) - len(wrong), len(key)) if len(key) > 1 else Fraction(0)
     named = tuple(name for name in wrong if name)
@@ -125,16 +119,21 @@ def _judge(
 
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
     """The misconceptions that give this answer, from the start or from the person's earlier answers."""
-    kind = answer_kind(part.kind)
     for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):
-        made = tuple(
-            misconception
-            for misconception, answers in mistakes
-            if part.label in answers and not _wrong_cells(cells, kind.cells(answers[part.label]))
-        )
+        made = tuple(misconception for misconception, answers in mistakes if _matches(part, cells, answers))
         if made:
             return made
     return ()
+
+
+def _matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:
+    """Whether what was typed is the answer that a mistake, or somebody's earlier answer, leads to."""
+    if part.label not in answers:
+        return False
+    try:
+        return not _wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
+    except (ValueError, ArithmeticError):
+        return False  # an odd earlier answer leads to what is no real number: nobody can have typed it
 
 
 def _content(cell: Cell) -> Any:

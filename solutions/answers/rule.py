@@ -1,10 +1,11 @@
 """The rule for judging a number: exact, or right to three significant digits; compared in exact arithmetic."""
 
-import math
+import hashlib
+from collections.abc import Iterator
 
 from flint import fmpq
 
-from rldrill.solutions.exact import Value, enclosure, from_sympy, is_zero, parameters, sign, to_sympy
+from rldrill.solutions.exact import Value, from_sympy, is_zero, magnitude, parameters, sign, to_sympy
 from rldrill.solutions.rational import RationalFunction
 
 #: The rule in words, printed beside every question.
@@ -12,16 +13,14 @@ RULE = "an exact value, or a decimal that is right to 3 significant digits"
 DIGITS = 3
 _AT_ZERO = fmpq(1, 2000)
 _CLOSE = fmpq(1, 50)
-#: Where an expression in a parameter is compared with a rounded one; none is a special value of any formula.
-_POINTS = (fmpq(1, 7), fmpq(3, 11), fmpq(5, 13), fmpq(9, 17), fmpq(13, 19), fmpq(19, 23))
+_POINTS = 6
 
 
 def tolerance(value: Value) -> fmpq:
     """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
     if is_zero(value):
         return _AT_ZERO
-    exponent = math.floor(math.log10(abs(float(enclosure(value).mid()))))
-    # The logarithm is a guess; the comparisons decide, exactly.
+    exponent = magnitude(value)  # a guess, by one perhaps; the comparisons decide, exactly
     while sign(abs(value) - fmpq(10) ** (exponent + 1)) >= 0:
         exponent += 1
     while sign(abs(value) - fmpq(10) ** exponent) < 0:
@@ -48,7 +47,7 @@ def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
         return within(value, key, tolerance(key))
     if equivalent(value, key):
         return True
-    return rounded and all(_right_at(value, key, point) for point in _POINTS)
+    return rounded and all(_right_at(value, key, point) for point in points(value))
 
 
 def is_close(value: Value, key: Value) -> bool:
@@ -70,13 +69,23 @@ def equivalent(value: Value, key: Value) -> bool:
     if isinstance(value, fmpq | RationalFunction) and isinstance(key, fmpq | RationalFunction):
         return bool(value == key)
     difference = value - key
-    for point in _POINTS:
+    for point in points(value):
         try:
             if sign(difference, point) != 0:
                 return False
         except ValueError:
             return False
     return True
+
+
+def points(value: Value) -> Iterator[fmpq]:
+    """Where an answer is compared with the key: between 0 and 1, and depending on the answer itself.
+
+    So no answer can be made to agree at these points alone.
+    """
+    digest = hashlib.sha256(str(to_sympy(value)).encode()).digest()
+    for start in range(0, 2 * _POINTS, 2):
+        yield fmpq(1 + int.from_bytes(digest[start : start + 2], "big"), 65537)
 
 
 def _right_at(value: Value, key: Value, point: fmpq) -> bool:

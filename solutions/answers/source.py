@@ -106,10 +106,17 @@ def clean(text: str) -> Source:
         letters.append(spelled)
         columns += [column] * len(spelled)
     whole = Source("".join(letters), tuple(columns), len(text))
-    source = whole.part(0, len(whole.text))
+    source = _bare(whole.part(0, len(whole.text)))
     if not source.text:
         raise Unreadable("Nothing was typed.")
     return source
+
+
+def _bare(source: Source) -> Source:
+    """Without the signs that set mathematics off, and the sign for "about"."""
+    while len(source.text) > 1 and source.text[0] == source.text[-1] == "$":
+        source = source.part(1, len(source.text) - 1)
+    return source.part(1, len(source.text)) if source.text[:1] in "≈~" else source
 
 
 _UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})

@@ -44,7 +44,8 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     Raises:
         Unreadable: it is not one number.
     """
-    return number(_right_side(clean(text)), parameters, Arithmetic())
+    source = _right_side(clean(text))
+    return number(source.unwrapped("[") or source, parameters, Arithmetic())
 
 
 def read_vector(text: str, length: int | None = None, parameters: Sequence[str] = ()) -> tuple[Reading, ...]:
@@ -58,8 +59,12 @@ def read_vector(text: str, length: int | None = None, parameters: Sequence[str] 
     Raises:
         Unreadable: an entry is not a number, or there are too few or too many.
     """
-    source = _right_side(clean(text))
+    source = clean(text)
     entries = _vector(_untransposed(source), length)
+    if len(entries) == 1 or not all(_LEFT_SIDE.match(entry.text) for entry in entries[1:]):
+        source = _right_side(source)  # R = 1, 2
+        entries = _vector(_untransposed(source), length)
+    entries = [_right_side(entry) for entry in entries]  # R_0 = 1, R_1 = 2
     readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None)
     if length is not None and len(readings) != length:
         raise source.unreadable(
@@ -123,7 +128,10 @@ def read_table(text: str, keys: Sequence[Key], parameters: Sequence[str] = ()) -
     source = clean(text)
     items = _items(source, keys)
     if items is None:
-        readings = read_vector(text, None, parameters)
+        try:
+            readings = read_vector(text, len(keys), parameters)
+        except Unreadable:
+            readings = read_vector(text, None, parameters)
         if len(readings) != len(keys):
             needed = f"{len(keys)} {_are(len(keys))} needed: {_listed(map(_shown, keys))}."
             raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
@@ -212,7 +220,7 @@ def _untransposed(source: Source) -> Source:
 
 def _vector(source: Source, length: int | None) -> list[Source]:
     body, wrapped = _unwrapped(source)
-    entries = _list(body, wrapped and length != 1)
+    entries = _list(body, length != 1 and (wrapped or length is not None))
     columns = [entry.unwrapped("[") for entry in entries]  # [[1], [2]]
     whole = [column for column in columns if column]
     return whole if len(whole) == len(entries) else entries

@@ -70,7 +70,10 @@ def test_the_rule_at_its_bounds(text: str, key: object, right: bool) -> None:
     ("text", "right"),
     [
         ("1/(1-gamma)", True), ("-1/(gamma - 1)", True), ("(1+γ)/(1-γ^2)", True), ("1 + gamma", False),
-        ("1.0/(1-gamma)", True), ("1.0002/(1-gamma)", True), ("1.001/(1-gamma)", False), ("1", False),
+        ("1.0/(1-gamma)", True), ("1.0002/(1-gamma)", True), ("1.01/(1-gamma)", False), ("1", False),
+        # Agrees with the key at seven points that somebody might think are the ones compared.
+        ("1.0/(1-gamma) + 100*(γ-1/7)*(γ-3/11)*(γ-5/13)*(γ-9/17)*(γ-13/19)*(γ-19/23)*(γ-1/2)", False),
+        ("1/(1-gamma) + sqrt(γ)*(γ-1/7)*(γ-3/11)*(γ-5/13)*(γ-9/17)*(γ-13/19)*(γ-19/23)", False),
     ],
 )  # fmt: skip
 def test_expressions_are_judged_by_equivalence(text: str, right: bool) -> None:
@@ -153,6 +156,14 @@ def test_close_says_so_and_earns_nothing() -> None:
     verdict = judge(solution, "a", "1.46")
     assert verdict.outcome is Outcome.CLOSE
     assert verdict.credit == 0
+
+
+@pytest.mark.parametrize("odd", ["800, 0", "2, 1e40", "-1e40, 1e40"])
+def test_an_odd_earlier_answer_breaks_nothing(odd: str) -> None:
+    solution = problem("softmax-policy", theta=["1"], features={"left": ["1"], "right": ["2"]})
+    earlier = {"a": judge(solution, "a", odd).value}
+    assert not judge(solution, "b", "0.5, 0.4", earlier).accepted
+    assert judge(solution, "b", "e/(e + e^2), e^2/(e + e^2)", earlier).accepted
 
 
 def test_unreadable_says_what_and_keeps_nothing() -> None:
