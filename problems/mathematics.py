@@ -2,7 +2,7 @@
 
 Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
 stand for themselves, ``_`` and ``^`` make scripts, a word of several letters or in quotes is set upright,
-``3/4`` is a fraction. Formulas arrive here from sympy expressions.
+``3/4`` is a fraction, ``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
 """
 
 import re
@@ -161,7 +161,6 @@ _TOKEN = re.compile(
 )
 _RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
 _OPERATORS = set("+−-·×*±")
-_LETTER = re.compile(r"[^\W\d_]")
 _OPENING = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -219,6 +218,8 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         return number(token), at + 1
     if match.lastgroup == "letters":
         return name(token.replace("'", "′")), at + 1
+    if token == "⊤":
+        return word("T"), at + 1
     if token in _RELATIONS:
         return relation(token), at + 1
     if token in _OPERATORS:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from rldrill.problems.catalogue import family as family_of
-from rldrill.problems.document import Block, Document, Equation, Paragraph
+from rldrill.problems.document import Block, Document, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
@@ -71,9 +71,12 @@ class Exercise:
 
     def working(self, part: str | None = None) -> Document:
         """The working as a page, whole or of one part."""
-        lines = self.solution.lines if part is None else self.solution.lines_of(part)
+        if part is None and len(self.parts) > 1:
+            return tuple(
+                block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
+            )
         blocks: list[Block] = []
-        for line in lines:
+        for line in self.solution.lines if part is None else self.solution.lines_of(part):
             if isinstance(line, Step):
                 blocks.append(line.equation())
             elif isinstance(line, Note):

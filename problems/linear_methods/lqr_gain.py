@@ -66,12 +66,12 @@ def matrix(lines: MatrixField) -> Math:
 
 def question(given: Given) -> Question:
     """The four matrices; the gain is asked for."""
-    named = (("A_t", given.A), ("B_t", given.B), ("R_t", given.R), ("P_{t+1}", given.P))
+    named = (("A_0", given.A), ("B_0", given.B), ("R_0", given.R), ("P_1", given.P))
     blocks = (
         Paragraph(
             "A linear system $s_{t+1} = A_t s_t + B_t a_t$ earns the reward "
-            "$r(s_t, a_t) = −(s_t^T Q_t s_t + a_t^T R_t a_t)$. The value from the next time on is "
-            "$V_{t+1}(s) = s^T P_{t+1} s$. At time $t$:"
+            "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$. The value from the next time on is "
+            "$V_{t+1}(s) = s^⊤ P_{t+1} s$. At $t = 0$:"
         ),
         *(Equation(mathematics(name), (matrix(lines),), ("=",)) for name, lines in named),
     )
@@ -81,7 +81,7 @@ def question(given: Given) -> Question:
         (
             Part(
                 "a",
-                "What is the gain $L_t$ of the optimal action $a_t = −L_t s_t$?",
+                "What is the gain $L_0$ of the optimal action $a_0 = −L_0 s_0$?",
                 MatrixKind(rows, columns),
             ),
         ),

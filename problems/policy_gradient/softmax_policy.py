@@ -55,7 +55,7 @@ def question(given: Given) -> Question:
             header=("$a$", *columns),
             rows=tuple((action, *(f"${shown(value)}$" for value in row)) for action, row in given.features.items()),
         ),
-        Paragraph(f"The weights are ${weights}$. The policy is softmax in the preferences $h(s, a) = θ^T f(s, a)$."),
+        Paragraph(f"The weights are ${weights}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."),
     )
     return Question(
         blocks,

@@ -187,4 +187,7 @@ def _inner(term: Expr) -> Expr:
 
 
 def _worked_out(expression: Expr) -> Expr:
-    return computed(evaluated(expression))
+    value = evaluated(expression)
+    # What holds exponentials or roots does not get simpler, only reordered.
+    plain = isinstance(value, sympy.MatrixBase) or value.is_rational_function(*value.free_symbols)
+    return computed(ordered(value) if value.is_Add else value) if plain else expression

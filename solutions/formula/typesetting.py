@@ -81,7 +81,7 @@ def typeset_value(value: Value) -> Math:
     expression = ordered(to_sympy(value))
     if expression.is_Add:
         return _sum(expression.args)
-    numerator, denominator = sympy.fraction(expression)
+    numerator, denominator = _quotient(expression)
     if denominator != 1 and not expression.is_Rational:
         if _negative(first_term(denominator)):  # (9 − 3p)/(1 − p), not (−9 + 3p)/(−1 + p)
             numerator, denominator = sympy.expand(-numerator), sympy.expand(-denominator)
@@ -89,6 +89,13 @@ def typeset_value(value: Value) -> Math:
         quotient = Fraction(typeset_value(-numerator if minus else numerator), typeset_value(denominator))
         return row(_MINUS, quotient) if minus else quotient
     return typeset(expression)
+
+
+def _quotient(expression: Expr) -> tuple[Expr, Expr]:
+    """What stands above and below the line; a small power of e stays above: e^(−3/4), not 1/e^(3/4)."""
+    below = [f for f in sympy.Mul.make_args(expression) if f.is_Pow and f.base is not sympy.E and f.exp.is_negative]
+    denominator = sympy.Mul(*(1 / factor for factor in below))
+    return expression * denominator, denominator
 
 
 def first_term(expression: Expr) -> Expr:
