@@ -4,13 +4,18 @@ from collections import Counter
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
 from typing import Annotated, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from rldrill.problems.document import Paragraph, Table, joined
-from rldrill.problems.exact import Exact, Open, OpenProbability, Parameter, Scalar, shown
+from rldrill.problems.document import Table, joined
+from rldrill.problems.exact import (
+    Open,
+    OpenProbability,
+    Parameter,
+    Scalar,
+    shown,
+)
 from rldrill.problems.family import Givens
 
 
@@ -153,28 +158,6 @@ def check_policy(policy: Policy, model: Dynamics) -> None:
             raise ValueError(f"the policy's probabilities in {state!r} do not sum to 1")
 
 
-class Trajectory(Givens):
-    """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
-
-    states: tuple[Name, ...] = Field(min_length=2)
-    actions: tuple[Name, ...] = ()
-    rewards: tuple[Exact, ...] = Field(min_length=1)
-    terminal: tuple[Name, ...] = ()
-
-    @model_validator(mode="after")
-    def _consistent(self) -> "Trajectory":
-        if len(self.rewards) != len(self.states) - 1:
-            raise ValueError(
-                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}"
-            )
-        if self.actions and len(self.actions) not in (len(self.rewards), len(self.states)):
-            raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}")
-        for state, after in pairwise(self.states):
-            if state in self.terminal:
-                raise ValueError(f"{state!r} is terminal, so the run cannot go on to {after!r}")
-        return self
-
-
 def transitions_table(model: Dynamics) -> Table:
     """The model as a table, one line for every transition."""
     return Table(
@@ -183,15 +166,6 @@ def transitions_table(model: Dynamics) -> Table:
             (t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$") for t in model.transitions
         ),
     )
-
-
-def terminal_note(terminal: tuple[str, ...]) -> tuple[Paragraph, ...]:
-    """The sentence that says where an episode ends, and what that is worth."""
-    if not terminal:
-        return ()
-    if len(terminal) == 1:
-        return (Paragraph(f"An episode ends in {terminal[0]}, a terminal state, whose value is $0$."),)
-    return (Paragraph(f"Episodes end in {joined(list(terminal))}, terminal states, whose values are $0$."),)
 
 
 def values_table(values: Mapping[str, Scalar], of: str = "V") -> Table:
@@ -212,33 +186,3 @@ def policy_table(policy: Policy) -> Table:
             for action, chance in chances.items()
         ),
     )
-
-
-def trajectory_table(run: Trajectory) -> Table:
-    """A run as a table over time; what lies outside it is a dash."""
-    times = range(len(run.states))
-    rows = [("$s_t$", *run.states)]
-    if run.actions:
-        rows.append(("$a_t$", *run.actions, *["–"] * (len(run.states) - len(run.actions))))
-    rows.append(("$r_t$", "–", *(f"${shown(reward)}$" for reward in run.rewards)))
-    return Table(header=("$t$", *(f"${t}$" for t in times)), rows=tuple(rows))
-
-
-def discount(gamma: Scalar) -> str:
-    """The sentence that gives the discount."""
-    if isinstance(gamma, Parameter):
-        return f"The discount ${shown(gamma)}$ is left open."
-    return f"The discount is $γ = {shown(gamma)}$."
-
-
-def step_size(alpha: Scalar) -> str:
-    """The sentence that gives the step size."""
-    if isinstance(alpha, Parameter):
-        return f"The step size ${shown(alpha)}$ is left open."
-    return f"The step size is $α = {shown(alpha)}$."
-
-
-def in_open(given: Givens) -> str:
-    """What is added to a question whose answer is an expression in what is left open."""
-    left_open = given.parameters()
-    return f", as an expression in ${shown(Parameter(left_open[0]))}$" if left_open else ""

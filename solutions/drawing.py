@@ -1,5 +1,6 @@
 """Drawing a problem that is a good exam question, with its solution."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -35,15 +36,20 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
     if not 0 <= seed < MAX_SEED:
         raise UsageError(f"The seed {seed} is out of range; take a whole number from 0 to {MAX_SEED - 1}.")
     identity = Identity(family.name, level, seed, family.revision)
+    why: Counter[str] = Counter()
     for attempt in range(ATTEMPTS):
         given = family.draw(level, Draws(f"{identity}#{attempt}"))
         try:
             solution = solve(Problem(family, given, identity))
-        except NoSolution:
+        except NoSolution as error:
+            why[str(error)] += 1
             continue
-        if next(flaws(solution), None) is None:
+        flaw = next(flaws(solution), None)
+        if flaw is None:
             return solution
-    raise RuntimeError(f"{identity}: no acceptable problem in {ATTEMPTS} attempts")
+        why[flaw] += 1
+    reasons = "; ".join(f"{count} × {reason}" for reason, count in why.most_common(3))
+    raise RuntimeError(f"{identity}: no acceptable problem in {ATTEMPTS} attempts: {reasons}")
 
 
 def by_id(text: str) -> Solution:

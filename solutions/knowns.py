@@ -5,10 +5,14 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from rldrill.problems.exact import Scalar
-from rldrill.problems.models import Dynamics, Policy, Trajectory
+from rldrill.problems.models import Dynamics, Policy
+from rldrill.problems.runs import ActionRun, Trajectory
 from rldrill.solutions.exact import ZERO, Value, exact
 
 Key = TypeVar("Key")
+
+#: The one action of a terminal state, worth nothing; no action of a problem can have this name.
+NO_ACTION = "–"
 
 
 def values(numbers: Mapping[Key, Scalar]) -> dict[Key, Value]:
@@ -50,3 +54,19 @@ def trajectory(run: Trajectory) -> dict[str, Any]:
         "A": dict(enumerate(run.actions)),
         "r": {time + 1: exact(reward) for time, reward in enumerate(run.rewards)},
     }
+
+
+def action_run(given: ActionRun) -> dict[str, Any]:
+    """A run with its action values, α and γ; where an episode ends there is one action, worth 0."""
+    run = given.trajectory
+    known = trajectory(run) | {
+        "alpha": exact(given.alpha),
+        "gamma": exact(given.gamma),
+        "actions": {state: tuple(row) for state, row in given.values.items()}
+        | dict.fromkeys(run.terminal, (NO_ACTION,)),
+        "Q": {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
+        | {(state, NO_ACTION): ZERO for state in (*given.values, *run.terminal)},
+    }
+    if run.states[-1] in run.terminal:
+        known["A"][len(run.rewards)] = NO_ACTION
+    return known

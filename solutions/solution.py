@@ -100,8 +100,8 @@ class Solution:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
         try:
             return run(self.problem, misconception, carried).answers
-        except (NoSolution, ZeroDivisionError):
-            return None
+        except (NoSolution, ZeroDivisionError, LookupError):
+            return None  # LookupError: it asks for something that a problem from outside does not give
 
     def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
         """The answers of somebody who goes on correctly from own answers to earlier parts."""

@@ -74,8 +74,12 @@ def test_a_family_is_complete(name: str) -> None:
     twin = solver(found)
     assert twin.misconceptions, "a family recognises at least one typical mistake"
     assert len({m.name for m in twin.misconceptions}) == len(twin.misconceptions)
+    used = {formula for level in found.levels for formula in draw(name, level, 0).formulas()}
     for misconception in twin.misconceptions:
         assert misconception.says.endswith("."), misconception
+        assert misconception.formula is None or misconception.formula in used, (
+            f"{misconception} misreads {misconception.formula}, which {name} does not use"
+        )
 
 
 @pytest.mark.parametrize("name", families())

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+
 from rldrill.quiz.questions import questions
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
@@ -46,7 +47,8 @@ def test_commands(command: str, code: int, lines: list[str], folder: Path) -> No
     assert program == "rldrill"
     process = subprocess.run(
         [sys.executable, "-m", "rldrill", *arguments], cwd=folder, capture_output=True, text=True, encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"},
+        env={**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8",
+             "COLUMNS": "140"},
     )  # fmt: skip
     assert process.returncode == code, process.stderr
     printed = iter(" ".join(line.split()) for line in process.stdout.splitlines())

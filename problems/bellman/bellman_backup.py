@@ -14,13 +14,12 @@ from rldrill.problems.models import (
     PolicyField,
     check_keys,
     check_policy,
-    discount,
-    in_open,
     policy_table,
     transitions_table,
     values_table,
 )
 from rldrill.problems.parts import Number, Part
+from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
 TITLE = "Bellman backup"

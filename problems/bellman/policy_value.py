@@ -13,14 +13,12 @@ from rldrill.problems.models import (
     PolicyField,
     Transition,
     check_policy,
-    discount,
     equiprobable,
-    in_open,
     policy_table,
-    terminal_note,
     transitions_table,
 )
 from rldrill.problems.parts import Part, Table
+from rldrill.problems.phrases import discount, in_open, terminal_note
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Value of a policy"

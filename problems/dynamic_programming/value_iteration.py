@@ -8,16 +8,9 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import (
-    Model,
-    Name,
-    check_keys,
-    discount,
-    terminal_note,
-    transitions_table,
-    values_table,
-)
+from rldrill.problems.models import Model, Name, check_keys, transitions_table, values_table
 from rldrill.problems.parts import Part, Policy, Table
+from rldrill.problems.phrases import discount, terminal_note
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Value iteration"

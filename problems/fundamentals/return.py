@@ -6,8 +6,8 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import discount, in_open
 from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.phrases import discount, in_open
 
 TITLE = "Return"
 SOURCE = "Sutton & Barto 2018, section 3.3"

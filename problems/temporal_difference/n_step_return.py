@@ -8,17 +8,10 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import (
-    Name,
-    Trajectory,
-    check_keys,
-    discount,
-    in_open,
-    terminal_note,
-    trajectory_table,
-    values_table,
-)
+from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Part
+from rldrill.problems.phrases import discount, in_open, terminal_note
+from rldrill.problems.runs import Trajectory, check_values, trajectory_table
 from rldrill.problems.settings import draw_setting
 
 TITLE = "n-step return"
@@ -36,9 +29,7 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        known = tuple(dict.fromkeys((*self.trajectory.states, *self.trajectory.terminal)))
-        needed = tuple(state for state in known if state not in self.trajectory.terminal)
-        check_keys(self.values, known, "the value", needed=needed)
+        check_values(self.values, self.trajectory)
         last = len(self.trajectory.rewards)
         for time, steps in self.asked:
             if time < 0 or steps < 1 or time + steps > last:

@@ -2,32 +2,19 @@
 
 from rldrill.problems.control.q_learning import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import FORGOT_GAMMA, MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
 
-#: The one action of a terminal state, worth nothing, so that the maximum over its actions is 0.
-_NONE = "none"
-
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    run = given.trajectory
-    known = knowns.trajectory(run) | {
-        "alpha": exact(given.alpha),
-        "gamma": exact(given.gamma),
-        "actions": {state: tuple(row) for state, row in given.values.items()} | dict.fromkeys(run.terminal, (_NONE,)),
-    }
-    known["A"].setdefault(len(run.rewards), _NONE)
-    values = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
-    values |= {(state, _NONE): ZERO for state in run.terminal}
-    for time in range(len(run.rewards)):
-        pair = run.states[time], run.actions[time]
-        values = values | {pair: work.step(Q_LEARNING, t=time, Q=values, **known)}
-    work.answer("a", {pair: values[pair] for pair in given.updated})
+    known = knowns.action_run(given)
+    for time, pair in enumerate(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False)):
+        known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, t=time, **known)}
+    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
 
 
 def oracle(given: Given) -> Answers:

@@ -19,12 +19,15 @@ UNICODE = {
     "return-recursive": "Rₜ = rₜ₊₁ + γRₜ₊₁",
     "bellman-v": "V^π(s) = Σₐ π(a|s) Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
     "bellman-q": "Q^π(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
+    "v-from-q": "V^π(s) = Σₐ π(a|s) Q^π(s, a)",
+    "action-preference": "h(s, a) = Σᵢ θᵢfᵢ(s, a)",
     "bellman-optimality-v": "V*(s) = maxₐ Q*(s, a) = maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV*(s′))",
     "bellman-optimality-q": "Q*(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γ maxₐ′ Q*(s′, a′))",
     "value-iteration": "V(s) ← maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
     "greedy-from-v": "π(s) = arg maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
     "n-step-return": "Rₜ⁽ⁿ⁾ = rₜ₊₁ + … + γⁿ⁻¹rₜ₊ₙ + γⁿV(sₜ₊ₙ) = Σᵢ₌₀ⁿ⁻¹ γⁱrₜ₊₁₊ᵢ + γⁿV(sₜ₊ₙ)",
     "td-zero": "V(sₜ) ← V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))",
+    "sarsa": "Q(sₜ, aₜ) ← Q(sₜ, aₜ) + α(rₜ₊₁ + γQ(sₜ₊₁, aₜ₊₁) − Q(sₜ, aₜ))",
     "q-learning": "Q(sₜ, aₜ) ← Q(sₜ, aₜ) + α(rₜ₊₁ + γ maxₐ Q(sₜ₊₁, a) − Q(sₜ, aₜ))",
     "lqr-gain": "Lₜ = (BₜᵀPₜ₊₁Bₜ − Rₜ)⁻¹BₜᵀPₜ₊₁Aₜ",
     "bayes": "p(h|z) = (p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′))",
@@ -36,6 +39,10 @@ UNICODE = {
 def test_formulas_are_written_as_the_sheet_prints_them(key: str) -> None:
     written = unicode_text(formulas()[key].equation())
     assert " ".join(written.split()) == UNICODE[key]
+
+
+def test_every_formula_of_the_sheet_is_here() -> None:
+    assert set(UNICODE) == set(formulas())
 
 
 def test_a_formula_in_latex() -> None:

@@ -35,6 +35,7 @@ def test_every_family_draws_what_the_golden_file_holds(name: str) -> None:
         for seed in (0, 1):
             solution = draw(name, level, seed)
             key = str(solution.problem.identity)
+            assert key in golden, f"{key} is not pinned yet: run 'python tests/golden/write.py' and review its diff."
             assert solution.problem.data()["given"] == golden.get(key), (
                 f"{key} draws another problem than before. If that is meant, raise the family's REVISION and run "
                 "'python tests/golden/write.py'."

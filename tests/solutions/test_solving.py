@@ -3,15 +3,19 @@
 from typing import Any
 
 import pytest
-from flint import fmpq
+import sympy
+from flint import fmpq, fmpq_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
 from rldrill.audit import audit
-from rldrill.problems.catalogue import families
+from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import to_sympy
+from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.work import Step
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)
 
@@ -25,6 +29,22 @@ def test_the_audit_finds_nothing(name: str) -> None:
     for finding in audit([name], number=6, seed=1):
         assert finding.clean, finding.data()
         assert finding.made > 0
+
+
+@pytest.mark.parametrize("name", families())
+def test_every_step_is_worth_what_it_says(name: str) -> None:
+    # Steps are written when somebody looks at them: what was put in must not have changed since.
+    for level in family(name).levels:
+        for seed in range(2):
+            for line in draw(name, level, seed).lines:
+                if isinstance(line, Step) and line.value is not None and not isinstance(line.value, tuple):
+                    assert same(line.value, evaluated(line.put_in)), line.equation()
+
+
+def same(value: Any, written_out: Any) -> bool:
+    if isinstance(value, fmpq_mat):
+        return bool(sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out)
+    return bool(sympy.simplify(to_sympy(value) - written_out) == 0)
 
 
 @given(st.lists(numbers, min_size=2, max_size=6), st.sampled_from(["0", "1/2", "1"]))
@@ -46,6 +66,33 @@ def test_a_td_step_with_alpha_1_is_the_one_step_return(reward: str, here: str, t
     values = {"a": here, "b": there}
     after = solved("td-zero", trajectory=run, values=values, alpha=1, gamma=gamma)["a"]["a"]
     assert after == solved("n-step-return", trajectory=run, values=values, gamma=gamma, asked=[[0, 1]])["a"]
+
+
+@given(numbers, numbers, numbers, st.sampled_from(["1/2", "9/10"]))
+@settings(deadline=None, max_examples=30)
+def test_sarsa_is_q_learning_where_there_is_no_choice(reward: str, here: str, there: str, gamma: str) -> None:
+    run = {"states": ["a", "b", "a"], "actions": ["go", "go", "go"], "rewards": [reward, "2"]}
+    values = {"a": {"go": here}, "b": {"go": there}}
+    given_ = {"trajectory": run, "values": values, "alpha": "1/4", "gamma": gamma}
+    assert solved("sarsa", **given_) == solved("q-learning", **given_)
+
+
+def test_sarsa_needs_the_last_action_unless_the_run_ends() -> None:
+    run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
+    values = {"a": {"x": 2}, "b": {"y": 3}}
+    with pytest.raises(FileError, match="needs the action taken in 'b'"):
+        solved("sarsa", trajectory=run, values=values, alpha=1, gamma=1)
+    ended = run | {"terminal": ["b"]}
+    assert solved("sarsa", trajectory=ended, values={"a": {"x": 2}}, alpha=1, gamma=1)["a"] == {("a", "x"): 1}
+
+
+def test_a_mistake_that_cannot_be_made_is_not_looked_for() -> None:
+    # The action taken in b does not exist in a, so nobody can have taken its value there.
+    run = {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]}
+    values = {"a": {"x": 2}, "b": {"y": 3, "z": 5}}
+    given_ = {"trajectory": run, "values": values, "alpha": "1/2", "gamma": "1/2"}
+    exercise = rldrill.read({"family": "sarsa", "given": given_})
+    assert "state-for-next-state" not in [m.name for m, _ in exercise.solution.mistakes]
 
 
 @given(st.integers(0, 10_000))

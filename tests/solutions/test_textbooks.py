@@ -81,6 +81,18 @@ def test_the_random_walk_of_sutton_and_barto() -> None:
     assert after == {"C": fmpq(1, 2), "B": fmpq(1, 2), "A": fmpq(9, 20)}
 
 
+def test_sarsa_by_hand() -> None:
+    # Sutton & Barto, eq. 6.7, with α = γ = 1/2. The action taken is not the best one; the first update counts
+    # in the second; nothing follows the end.
+    # Q(a, x) = 2 + 1/2·(1 + 1/2·4 − 2) = 5/2, Q(b, y) = 4 + 1/2·(−2 + 1/2·5/2 − 4) = 13/8,
+    # Q(a, x) = 5/2 + 1/2·(3 + 0 − 5/2) = 11/4.
+    run = {"states": ["a", "b", "a", "end"], "actions": ["x", "y", "x"], "rewards": [1, -2, 3]}
+    run["terminal"] = ["end"]
+    values = {"a": {"x": 2, "y": 7}, "b": {"x": 9, "y": 4}}
+    after = solved("sarsa", trajectory=run, values=values, alpha=0.5, gamma=0.5)["a"]
+    assert after == {("a", "x"): fmpq(11, 4), ("b", "y"): fmpq(13, 8)}
+
+
 @pytest.mark.parametrize(
     ("A", "B", "R", "P", "gain"),
     [

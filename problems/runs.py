@@ -1,0 +1,134 @@
+"""Runs of an agent: what was visited, done and earned, and the updates that follow it."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph, Table
+from rldrill.problems.exact import Exact, Probability, Scalar, StepSize, shown
+from rldrill.problems.family import Givens
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.phrases import discount, step_size, terminal_note
+
+
+class Trajectory(Givens):
+    """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
+
+    states: tuple[Name, ...] = Field(min_length=2)
+    actions: tuple[Name, ...] = ()
+    rewards: tuple[Exact, ...] = Field(min_length=1)
+    terminal: tuple[Name, ...] = ()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Trajectory":
+        if len(self.rewards) != len(self.states) - 1:
+            raise ValueError(
+                f"{len(self.states)} states need {len(self.states) - 1} rewards between them, not {len(self.rewards)}"
+            )
+        if self.actions and len(self.actions) not in (len(self.rewards), len(self.states)):
+            raise ValueError(f"{len(self.rewards)} rewards need as many actions, not {len(self.actions)}")
+        for state, after in pairwise(self.states):
+            if state in self.terminal:
+                raise ValueError(f"{state!r} is terminal, so the run cannot go on to {after!r}")
+        return self
+
+
+class ValueRun(Givens):
+    """A run, the state values before it, the step size and the discount."""
+
+    trajectory: Trajectory
+    values: dict[Name, Exact]
+    alpha: StepSize
+    gamma: Probability
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        check_values(self.values, self.trajectory)
+        return self
+
+    @property
+    def visited(self) -> tuple[str, ...]:
+        """The states that are left, in the order of their first visit."""
+        return tuple(dict.fromkeys(self.trajectory.states[:-1]))
+
+
+class ActionRun(Givens):
+    """A run with its actions, the action values before it, the step size and the discount."""
+
+    trajectory: Trajectory
+    values: dict[Name, dict[Name, Exact]]
+    alpha: StepSize
+    gamma: Probability
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        run = self.trajectory
+        if len(run.actions) < len(run.rewards):
+            raise ValueError("trajectory: the action taken in every state that is left is needed")
+        for state in run.states:
+            if state not in run.terminal and not self.values.get(state):
+                raise ValueError(f"values: the action values of {state!r} are missing")
+        for state, action in zip(run.states, run.actions, strict=False):
+            if state in run.terminal:
+                raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there")
+            if action not in self.values[state]:
+                raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+        return self
+
+    @property
+    def updated(self) -> tuple[tuple[str, str], ...]:
+        """The pairs of state and action that are updated, in the order of their first visit."""
+        run = self.trajectory
+        return tuple(dict.fromkeys(zip(run.states[: len(run.rewards)], run.actions, strict=False)))
+
+    @property
+    def last_action_known(self) -> bool:
+        """Whether something is known to be done in the last state, or nothing is because the run ends there."""
+        run = self.trajectory
+        return run.states[-1] in run.terminal or len(run.actions) == len(run.states)
+
+
+def check_values(values: Mapping[str, object], run: Trajectory) -> None:
+    """Demand a value for every state of a run that is not terminal.
+
+    Raises:
+        ValueError: one is missing, or given for an unknown state.
+    """
+    known = tuple(dict.fromkeys((*run.states, *run.terminal)))
+    check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
+
+
+def trajectory_table(run: Trajectory) -> Table:
+    """A run as a table over time; what lies outside it is a dash."""
+    times = range(len(run.states))
+    rows = [("$s_t$", *run.states)]
+    if run.actions:
+        rows.append(("$a_t$", *run.actions, *["–"] * (len(run.states) - len(run.actions))))
+    rows.append(("$r_t$", "–", *(f"${shown(reward)}$" for reward in run.rewards)))
+    return Table(header=("$t$", *(f"${t}$" for t in times)), rows=tuple(rows))
+
+
+def action_values_table(values: Mapping[str, Mapping[str, Scalar]]) -> Table:
+    """Action values, a line for every state and a column for every action."""
+    actions = tuple(dict.fromkeys(action for row in values.values() for action in row))
+    return Table(
+        header=("$Q(s, a)$", *actions),
+        rows=tuple(
+            (state, *(f"${shown(row[action])}$" if action in row else "–" for action in actions))
+            for state, row in values.items()
+        ),
+    )
+
+
+def run_blocks(given: ValueRun | ActionRun, values: Table, method: str) -> tuple[Block, ...]:
+    """The situation of a question about updates along a run: the run, the values before it, and the method."""
+    return (
+        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(given.trajectory),
+        *terminal_note(given.trajectory.terminal),
+        Paragraph(f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)}"),
+        values,
+        Paragraph(f"{method} updates after every transition, with the values that are current then."),
+    )
