@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from rldrill.problems.document import Table, joined
+from rldrill.problems.document import Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
     Open,
     OpenProbability,
@@ -17,6 +17,7 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
+from rldrill.problems.phrases import terminal_note
 
 
 def _name(value: object) -> object:
@@ -85,6 +86,7 @@ class Model(Dynamics):
     """A finite Markov decision process: its transitions, and the states in which an episode ends."""
 
     terminal: tuple[Name, ...] = ()
+    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
@@ -166,6 +168,13 @@ def transitions_table(model: Dynamics) -> Table:
             (t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$") for t in model.transitions
         ),
     )
+
+
+def model_blocks(model: Model) -> tuple[Block, ...]:
+    """A model as a question gives it: the story, the table of transitions, and what a terminal state is worth."""
+    told = f"{model.story} " if model.story else ""
+    opening = Paragraph(f"{told}This Markov decision process moves and pays like this:")
+    return (opening, transitions_table(model), *terminal_note(model.terminal))
 
 
 def values_table(values: Mapping[str, Scalar], of: str = "V") -> Table:

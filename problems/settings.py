@@ -1,7 +1,10 @@
 """The little worlds in which problems are set, and random models of them."""
 
+import tomllib
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
+from pathlib import Path
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.models import Model, Transition
@@ -17,25 +20,19 @@ class Setting:
     actions: tuple[str, ...]
 
 
-SETTINGS = (
-    Setting("A racing car drives fast or slowly, and must not overheat.",
-            ("cool", "warm", "hot", "smoking"), "overheated", ("slow", "fast", "brake")),
-    Setting("A recycling robot looks for cans until its battery is empty.",
-            ("high", "medium", "low", "critical"), "empty", ("search", "wait", "recharge")),
-    Setting("A machine wears out; it can be run, oiled or repaired until it breaks.",
-            ("new", "worn", "rattling", "cracked"), "broken", ("run", "oil", "repair")),
-    Setting("A robot moves along a corridor to its charger.",
-            ("door", "hall", "bend", "ramp"), "charger", ("roll", "climb", "turn")),
-    Setting("A gambler plays until he leaves the table.",
-            ("poor", "even", "rich", "lucky"), "gone", ("bet", "double", "pass")),
-    Setting("A rover explores a crater and drives back to its lander.",
-            ("rim", "slope", "floor", "cave"), "lander", ("drill", "drive", "scan")),
-)  # fmt: skip
+@cache
+def settings() -> tuple[Setting, ...]:
+    """All worlds, from ``worlds.toml``."""
+    with (Path(__file__).parent / "worlds.toml").open("rb") as file:
+        worlds = tomllib.load(file)["world"]
+    return tuple(
+        Setting(world["story"], tuple(world["states"]), world["terminal"], tuple(world["actions"])) for world in worlds
+    )
 
 
 def draw_setting(rng: Draws) -> Setting:
     """One of the worlds."""
-    return rng.choice(SETTINGS)
+    return rng.choice(settings())
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,4 +78,4 @@ def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
             if number < len(wanted) and wanted[number] not in targets:
                 targets = tuple(target for target in everything if target in (wanted[number], *targets[1:]))
             rows += draw_outcomes(rng, state, action, targets, shape)
-    return Model(transitions=tuple(rows), terminal=ends)
+    return Model(story=setting.story, transitions=tuple(rows), terminal=ends)

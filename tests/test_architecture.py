@@ -1,12 +1,15 @@
 """The rooms: imports go one way, every family has its twin, and nothing lies astray."""
 
 import ast
+from itertools import pairwise
 from pathlib import Path
+from statistics import median
 
 import pytest
 
 from rldrill.problems.catalogue import families, family, topics
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.effort import minutes
 from rldrill.solutions.sheet import SECTIONS, formulas
 from rldrill.solutions.solution import Solution, solver
 
@@ -106,3 +109,9 @@ def test_formulas_are_complete() -> None:
         assert formula.hint.endswith("."), key
     modules = {file.stem for file in (ROOT / "solutions" / "sheet").glob("*.py")} - {"__init__"}
     assert modules == set(SECTIONS), "a section of the sheet is a module, and is named in SECTIONS"
+
+
+@pytest.mark.parametrize("name", families())
+def test_levels_ask_for_more_and_more_work(name: str) -> None:
+    work = [median(minutes(draw(name, level, seed)) for seed in range(15)) for level in family(name).levels]
+    assert all(easier < harder for easier, harder in pairwise(work)), [float(m) for m in work]

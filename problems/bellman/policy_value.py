@@ -14,11 +14,11 @@ from rldrill.problems.models import (
     Transition,
     check_policy,
     equiprobable,
+    model_blocks,
     policy_table,
-    transitions_table,
 )
 from rldrill.problems.parts import Part, Table
-from rldrill.problems.phrases import discount, in_open, terminal_note
+from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Value of a policy"
@@ -91,9 +91,7 @@ def _left_open(rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
     blocks: list[Block] = [
-        Paragraph("A Markov decision process moves and pays like this:"),
-        transitions_table(given.mdp),
-        *terminal_note(given.mdp.terminal),
+        *model_blocks(given.mdp),
     ]
     if any(len(actions) > 1 for actions in given.mdp.actions.values()):
         blocks += [Paragraph("The policy is:"), policy_table(given.chances)]

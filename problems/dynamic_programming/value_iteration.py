@@ -8,9 +8,9 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_keys, transitions_table, values_table
+from rldrill.problems.models import Model, Name, check_keys, model_blocks, values_table
 from rldrill.problems.parts import Part, Policy, Table
-from rldrill.problems.phrases import discount, terminal_note
+from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Value iteration"
@@ -51,9 +51,7 @@ def question(given: Given) -> Question:
         else (Paragraph("Value iteration starts from $V_0(s) = 0$ for all states."),)
     )
     blocks = (
-        Paragraph("A Markov decision process moves and pays like this:"),
-        transitions_table(given.mdp),
-        *terminal_note(given.mdp.terminal),
+        *model_blocks(given.mdp),
         *begin,
         Paragraph(f"{discount(given.gamma)} Sweeps are synchronous: each uses only the values of the sweep before."),
     )

@@ -25,7 +25,7 @@ def draw(level: int, rng: Draws) -> Given:
     states = {
         1: (first, second),
         2: (first, second, first, rng.choice((third, setting.terminal))),
-        3: (first, second, first),
+        3: (first, second, first, second),
     }[level]
     rewards = tuple(rng.nonzero(-4, 8) for _ in states[1:])
     terminal = tuple(state for state in states if state == setting.terminal)

@@ -1,5 +1,7 @@
 """How formulas and steps are written: literal lines, as the sheet prints them."""
 
+from pathlib import Path
+
 import pytest
 from flint import fmpq
 
@@ -14,25 +16,11 @@ from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bellman import BELLMAN_V
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
 
-UNICODE = {
-    "return": "Rₜ = rₜ₊₁ + γrₜ₊₂ + γ²rₜ₊₃ + … = Σᵢ₌₀^∞ γⁱrₜ₊₁₊ᵢ",
-    "return-recursive": "Rₜ = rₜ₊₁ + γRₜ₊₁",
-    "bellman-v": "V^π(s) = Σₐ π(a|s) Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
-    "bellman-q": "Q^π(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV^π(s′))",
-    "v-from-q": "V^π(s) = Σₐ π(a|s) Q^π(s, a)",
-    "action-preference": "h(s, a) = Σᵢ θᵢfᵢ(s, a)",
-    "bellman-optimality-v": "V*(s) = maxₐ Q*(s, a) = maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV*(s′))",
-    "bellman-optimality-q": "Q*(s, a) = Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γ maxₐ′ Q*(s′, a′))",
-    "value-iteration": "V(s) ← maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
-    "greedy-from-v": "π(s) = arg maxₐ Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γV(s′))",
-    "n-step-return": "Rₜ⁽ⁿ⁾ = rₜ₊₁ + … + γⁿ⁻¹rₜ₊ₙ + γⁿV(sₜ₊ₙ) = Σᵢ₌₀ⁿ⁻¹ γⁱrₜ₊₁₊ᵢ + γⁿV(sₜ₊ₙ)",
-    "td-zero": "V(sₜ) ← V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))",
-    "sarsa": "Q(sₜ, aₜ) ← Q(sₜ, aₜ) + α(rₜ₊₁ + γQ(sₜ₊₁, aₜ₊₁) − Q(sₜ, aₜ))",
-    "q-learning": "Q(sₜ, aₜ) ← Q(sₜ, aₜ) + α(rₜ₊₁ + γ maxₐ Q(sₜ₊₁, a) − Q(sₜ, aₜ))",
-    "lqr-gain": "Lₜ = (BₜᵀPₜ₊₁Bₜ − Rₜ)⁻¹BₜᵀPₜ₊₁Aₜ",
-    "bayes": "p(h|z) = (p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′))",
-    "softmax-policy": "π(a|s) = exp(h(s, a))/(Σ_b exp(h(s, b)))",
-}
+LINES = Path(__file__).parent / "lines"
+#: Every formula as a book prints it, in one file for each section: the key, a colon, the line.
+UNICODE = dict(
+    line.split(": ", 1) for file in sorted(LINES.glob("*.txt")) for line in file.read_text("utf-8").splitlines() if line
+)
 
 
 @pytest.mark.parametrize("key", UNICODE)

@@ -1,0 +1,114 @@
+"""Pictures as data: what is drawn, not how; the terminal and the PDF each draw them in their own way.
+
+Labels are texts, with mathematics between ``$`` signs.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from rldrill.problems.document import Block
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """One transition of a state diagram: from a state by an action to a state."""
+
+    state: str
+    action: str
+    next: str
+    probability: str
+    reward: str
+
+
+@dataclass(frozen=True, slots=True)
+class StateDiagram(Block):
+    """States as circles, actions as dots, probabilities and rewards on the arrows."""
+
+    states: tuple[str, ...]
+    terminal: tuple[str, ...]
+    arrows: tuple[Arrow, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Timeline(Block):
+    """A run over time: states, and between them actions (if any) and rewards."""
+
+    states: tuple[str, ...]
+    actions: tuple[str, ...]
+    rewards: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GridPicture(Block):
+    """A grid world: the label of every cell, row by row; ``#`` is a wall."""
+
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A line of a backup diagram downwards, with what stands beside it."""
+
+    node: "Node"
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A node of a backup diagram: an open circle for a state, a filled dot for an action, a square for the end.
+
+    ``maximum`` draws the arc across the branches; ``dots`` says that the diagram goes on between this node
+    and the next in the same way.
+    """
+
+    kind: Literal["state", "action", "end"]
+    branches: tuple[Branch, ...] = ()
+    label: str = ""
+    maximum: bool = False
+    dots: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class BackupDiagram(Block):
+    """A backup diagram as Sutton & Barto draw it, root above."""
+
+    root: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Bars(Block):
+    """Shares side by side, such as a belief before and after: for every name one bar in each series.
+
+    The shares are between 0 and 1; their labels are what stands above the bars.
+    """
+
+    names: tuple[str, ...]
+    series: tuple[str, ...]
+    shares: tuple[tuple[float, ...], ...]
+    labels: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Bumps(Block):
+    """Radial basis functions over a state axis, and the state that is asked about."""
+
+    centres: tuple[float, ...]
+    width: float
+    shape: Literal["gaussian", "tent"]
+    state: float
+
+
+@dataclass(frozen=True, slots=True)
+class Arm(Block):
+    """A planar arm: its links, and the joints' angles in degrees, each relative to the link before."""
+
+    lengths: tuple[float, ...]
+    angles: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Pendulum(Block):
+    """A pendulum at an angle in degrees from hanging down; ``cart`` puts it on a cart, standing up at 180."""
+
+    angle: float
+    cart: bool = False
