@@ -1,7 +1,8 @@
 """The parts (a), (b), … of a problem, and the kinds of answer that they ask for."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from string import ascii_lowercase
 from typing import ClassVar, TypeAlias
 
 Key: TypeAlias = str | tuple[str, str]
@@ -85,3 +86,8 @@ class Part:
     points: int = 1
     ties: bool = False
     zero: bool = False
+
+
+def lettered(parts: Iterable[Part]) -> tuple[Part, ...]:
+    """Parts with the letters a, b, … in their order: for questions in which a part may be missing."""
+    return tuple(replace(part, label=letter) for part, letter in zip(parts, ascii_lowercase, strict=False))

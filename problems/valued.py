@@ -13,6 +13,8 @@ from rldrill.problems.settings import Setting, Shape
 UNITS = {Fraction(1, 2): 2, Fraction(2, 3): 3, Fraction(4, 5): 5, Fraction(9, 10): 10}
 _ATTEMPTS = 40
 _LARGEST_REWARD = 12
+#: Books print optimal values to two or three digits.
+_ROUNDING = Fraction(1, 100)
 
 
 class Valued(NamedTuple):
@@ -36,37 +38,46 @@ def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, oth
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
     """
     states = setting.states[: shape.states]
-    values = {
-        state: UNITS[gamma] * times
-        for state, times in zip(states, rng.distinct(len(states), -1, 20 // UNITS[gamma] + 1), strict=True)
-    }
+    times = rng.shuffled([number for number in range(-1, 16 // UNITS[gamma] + 2) if number])
+    values = {state: Fraction(UNITS[gamma] * number) for state, number in zip(states, times, strict=False)}
     surplus = [number for number in range(others[0], others[1] + 1) if number]
+    ahead = values | {setting.terminal: Fraction(0)}
+    actions = setting.actions[: shape.actions]
     policy, rows = {}, []
     for state in states:
-        policy[state] = rng.choice(setting.actions[: shape.actions])
+        policy[state] = rng.choice(actions)
         better = iter(rng.shuffled(surplus))
-        for action in setting.actions[: shape.actions]:
+        targets = rng.shuffled(tuple(ahead))  # each action leads somewhere else, as far as there are enough states
+        for index, action in enumerate(actions):
             worth = values[state] + (0 if action == policy[state] else next(better))
-            rows += _draw_worth(rng, (state, action), worth, values | {setting.terminal: Fraction(0)}, gamma, shape)
+            towards = targets[index % len(targets)]
+            rows += _draw_worth(rng, (state, action), worth, towards, ahead, gamma, shape)
     return Valued(Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,)), policy, values)
 
 
 def _draw_worth(
-    rng: Draws, pair: tuple[str, str], worth: Fraction, values: Mapping[str, Fraction], gamma: Fraction, shape: Shape
+    rng: Draws,
+    pair: tuple[str, str],
+    worth: Fraction,
+    towards: str,
+    values: Mapping[str, Fraction],
+    gamma: Fraction,
+    shape: Shape,
 ) -> list[Transition]:
     """The transitions of one action, with whole rewards that make it worth what is wanted."""
     for _ in range(_ATTEMPTS):
-        targets = rng.sample(tuple(values), 1 + rng.below(shape.branches))
+        chosen = {towards, *rng.sample(tuple(values), rng.below(shape.branches))}
+        targets = tuple(target for target in values if target in chosen)
         chances = (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
         ahead = sum(chance * values[target] for chance, target in zip(chances, targets, strict=True))
         mean = worth - gamma * ahead
-        spread = _spread(rng, chances)
-        rewards = [mean + difference for difference in spread]
+        rewards = [mean + difference for difference in _spread(rng, chances)]
         if mean.denominator == 1 and max(map(abs, rewards)) <= _LARGEST_REWARD:
             return [
                 Transition(*pair, target, chance, reward)
                 for target, chance, reward in zip(targets, chances, rewards, strict=True)
             ]
+        towards = rng.choice(tuple(values))
     return [Transition(*pair, tuple(values)[-1], Fraction(1), worth)]  # the end: nothing comes after it
 
 
@@ -94,12 +105,22 @@ def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: D
     Raises:
         ValueError: a state has another value.
     """
-    for state, chances in policy.items():
-        total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in chances.items())
+    for state, row in policy.items():
+        total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in row.items())
         if total != values[state]:
-            raise ValueError(
-                f"values: {state!r} is given as {values[state]}, but what the policy does there is worth {total}"
-            )
+            raise ValueError(f"values: {state!r} is given as {values[state]}, but one step of the policy gives {total}")
+
+
+def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma: Fraction) -> None:
+    """Demand that values are the optimal ones, as far as rounding may hide it: the best action gives them back.
+
+    Raises:
+        ValueError: a state has another value.
+    """
+    for state, actions in model.actions.items():
+        best = max(worth(model, (state, action), values, gamma) for action in actions)
+        if abs(best - values[state]) > _ROUNDING * max(1, abs(best)):
+            raise ValueError(f"values: {state!r} is given as {values[state]}, but its best action is worth {best}")
 
 
 def deterministic(policy: Mapping[str, str]) -> dict[str, dict[str, Fraction]]:

@@ -43,8 +43,11 @@ def _zero() -> Value:
 
 
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
-    """A policy as π(a|s), with the action first."""
-    return {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
+    """A policy as π(a|s), with the action first; what it does not name it never does."""
+    pi: dict[tuple[str, str], Value] = defaultdict(_zero)
+    for state, chances in given.items():
+        pi |= {(action, state): exact(chance) for action, chance in chances.items()}
+    return pi
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:

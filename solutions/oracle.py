@@ -61,3 +61,24 @@ def chances(policy: Policy, model: Dynamics, states: tuple[str, ...]) -> Array:
         for action, chance in actions.items():
             result[states.index(state), names.index(action)] = at(chance)
     return result
+
+
+def policy_values(P: Array, R: Array, pi: Array, gamma: float) -> Array:
+    """The values of a policy, by sweeps until nothing changes."""
+    V = np.zeros(len(P))
+    for _ in range(100_000):
+        worth = lookahead(P, R, V, gamma)
+        after = np.where(pi > 0, pi * np.where(np.isinf(worth), 0.0, worth), 0.0).sum(axis=1)
+        if np.abs(after - V).max() < 1e-13:
+            break
+        V = after
+    return V
+
+
+def best_actions(model: Dynamics, worth: Array) -> dict[str, set[str]]:
+    """The best actions of every state, from an array of shape (states, actions)."""
+    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    return {
+        state: {names[j] for j in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
+        for state, row in zip(model.states, worth, strict=True)
+    }

@@ -1,13 +1,11 @@
 """The Bellman equations of all states, solved as a linear system."""
 
-import numpy as np
-
 from rldrill.problems.bellman.policy_value import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Vpi
-from rldrill.solutions.oracle import Answers, at, chances, lookahead, tensors
+from rldrill.solutions.oracle import Answers, at, chances, policy_values, tensors
 from rldrill.solutions.sheet.bellman import BELLMAN_V, TRANSPOSED
 from rldrill.solutions.work import Work
 
@@ -51,12 +49,5 @@ def oracle(given: Given) -> Answers:
     """Sweeps of evaluation until nothing changes, on arrays."""
     states = (*given.mdp.states, *given.mdp.terminal)
     P, R = tensors(given.mdp, states)
-    pi = chances(given.chances, given.mdp, states)
-    V = np.zeros(len(states))
-    for _ in range(100_000):
-        worth = lookahead(P, R, V, at(given.gamma))
-        after = np.where(pi > 0, pi * np.where(np.isinf(worth), 0.0, worth), 0.0).sum(axis=1)
-        if np.abs(after - V).max() < 1e-13:
-            break
-        V = after
+    V = policy_values(P, R, chances(given.chances, given.mdp, states), at(given.gamma))
     return {"a": V[: len(given.mdp.states)]}

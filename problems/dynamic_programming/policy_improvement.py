@@ -1,0 +1,66 @@
+"""The greedy policy for the values of a policy, and whether that policy was optimal already."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, Probability
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Model, Name, PolicyField, check_keys, check_policy, model_blocks, values_table
+from rldrill.problems.parts import Part, Policy, Table, YesNo, lettered
+from rldrill.problems.phrases import discount
+from rldrill.problems.settings import Shape, draw_setting
+from rldrill.problems.valued import UNITS, check_policy_values, deterministic, draw_valued, policy_blocks
+
+TITLE = "Policy improvement"
+SOURCE = "Sutton & Barto 2018, section 4.2"
+REVISION = 1
+
+
+class Given(Givens):
+    """A model, a policy, the discount, and the policy's values; without them, they are asked for first."""
+
+    mdp: Model
+    policy: PolicyField
+    values: dict[Name, Exact] | None = None
+    gamma: Probability
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        check_policy(self.policy, self.mdp)
+        if self.values is not None:
+            check_keys(self.values, self.mdp.states, "the value", needed=self.mdp.states)
+            if not self.parameters():
+                check_policy_values(self.values, self.policy, self.mdp, self.gamma)
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two states whose moves are certain; then three whose moves are not; then the values are asked for, too."""
+    gamma = rng.choice(tuple(UNITS)[: level + 1])
+    shape = {
+        1: Shape(states=2, actions=3, branches=1),
+        2: Shape(states=3, actions=3, branches=2, denominators=(2,)),
+        3: Shape(states=3, actions=3, branches=2, denominators=(2,)),
+    }[level]
+    others = (-4, -1) if rng.chance(rng.fraction("1/3")) else (-4, 4)
+    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others)
+    return Given(mdp=mdp, policy=deterministic(policy), values=None if level == 3 else values, gamma=gamma)
+
+
+def question(given: Given) -> Question:
+    """The model and the policy, with its values or asking for them."""
+    states = given.mdp.states
+    blocks: list[Block] = [*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma))]
+    parts = [
+        Part("", "Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions), points=len(states)),
+        Part("", "Is $π$ an optimal policy?", YesNo()),
+    ]
+    if given.values is None:
+        ask = "What is $V^π(s)$, the value of every state under the policy?"
+        parts.insert(0, Part("", ask, Table("V^π", states), points=len(states)))
+    else:
+        blocks += [Paragraph("The values under the policy are known:"), values_table(given.values, "V^π")]
+    return Question(tuple(blocks), lettered(parts))

@@ -1,0 +1,87 @@
+"""The worth of one step of another policy, and whether the policy improvement theorem applies to it."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, Probability
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Model, Name, check_keys, check_policy, model_blocks, values_table
+from rldrill.problems.parts import Part, Table, YesNo, lettered
+from rldrill.problems.phrases import discount
+from rldrill.problems.settings import Shape, draw_setting
+from rldrill.problems.valued import (
+    UNITS,
+    check_policy_values,
+    choices_table,
+    deterministic,
+    draw_valued,
+    policy_blocks,
+)
+
+TITLE = "Policy improvement theorem"
+SOURCE = "Sutton & Barto 2018, section 4.2"
+REVISION = 1
+
+
+class Given(Givens):
+    """A model, two deterministic policies, the discount, and the first one's values, or None to ask for them."""
+
+    mdp: Model
+    policy: dict[Name, Name]
+    other: dict[Name, Name]
+    values: dict[Name, Exact] | None = None
+    gamma: Probability
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        for policy in (self.policy, self.other):
+            check_policy(deterministic(policy), self.mdp)
+        if self.values is not None:
+            check_keys(self.values, self.mdp.states, "the value", needed=self.mdp.states)
+            if not self.parameters():
+                check_policy_values(self.values, deterministic(self.policy), self.mdp, self.gamma)
+        return self
+
+    @property
+    def pairs(self) -> tuple[tuple[str, str], ...]:
+        """Every state with what the other policy does there."""
+        return tuple((state, self.other[state]) for state in self.mdp.states)
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two states whose moves are certain; then three whose moves are not; then the values are asked for, too."""
+    gamma = rng.choice(tuple(UNITS)[: level + 1])
+    shape = Shape(states=2 if level == 1 else 3, actions=2, branches=1 if level == 1 else 2, denominators=(2, 4))
+    others = (1, 4) if rng.chance(rng.fraction("1/2")) else (-4, 4)
+    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others)
+    kept = rng.choice(mdp.states) if level > 1 else None
+    other = {
+        state: policy[state] if state == kept else next(action for action in actions if action != policy[state])
+        for state, actions in mdp.actions.items()
+    }
+    return Given(mdp=mdp, policy=policy, other=other, values=None if level == 3 else values, gamma=gamma)
+
+
+def question(given: Given) -> Question:
+    """The model and both policies, with the values of the first or asking for them."""
+    states = given.mdp.states
+    blocks: list[Block] = [
+        *model_blocks(given.mdp),
+        *policy_blocks(deterministic(given.policy)),
+        Paragraph("Another policy is:"),
+        choices_table(given.other, "π'"),
+        Paragraph(discount(given.gamma)),
+    ]
+    parts = [
+        Part("", "What is $Q^π(s, π'(s))$ in every state?", Table("Q^π", given.pairs), points=len(states)),
+        Part("", "Does the policy improvement theorem show that $π'$ is at least as good as $π$?", YesNo()),
+    ]
+    if given.values is None:
+        ask = "What is $V^π(s)$, the value of every state under $π$?"
+        parts.insert(0, Part("", ask, Table("V^π", states), points=len(states)))
+    else:
+        blocks += [Paragraph("The values under $π$ are known:"), values_table(given.values, "V^π")]
+    return Question(tuple(blocks), lettered(parts))

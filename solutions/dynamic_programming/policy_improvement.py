@@ -1,0 +1,51 @@
+"""One look ahead with every action, from the values of the policy."""
+
+from rldrill.problems.dynamic_programming.policy_improvement import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.sheet.bellman import BELLMAN_V
+from rldrill.solutions.sheet.dynamic_programming import (
+    IMPROVEMENT_BY_REWARD,
+    IMPROVEMENT_BY_VALUE,
+    POLICY_IMPROVEMENT,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, ONE_SWEEP)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The policy's values if they are not given, the greedy actions, and whether they are the policy's own."""
+    mdp = given.mdp
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    labels = iter("abc")
+    if given.values is None:
+        found = evaluated(work, BELLMAN_V, mdp, known | {"pi": knowns.policy(given.policy)})
+        answered = work.answer(next(labels), {state: found[state] for state in mdp.states})
+    else:
+        answered = knowns.values(given.values)
+    values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
+    greedy = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+    greedy = work.answer(next(labels), greedy)
+    taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
+    optimal = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
+    work.say(
+        "The greedy policy takes no other action than $π$, so no action is better in any state: $π$ is optimal."
+        if optimal
+        else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
+    )
+    work.answer(next(labels), optimal)
+
+
+def oracle(given: Given) -> Answers:
+    """Sweeps until nothing changes, then every action tried; optimal if no action beats the policy's values."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    n = len(given.mdp.states)
+    P, R = tensors(given.mdp, states)
+    V = policy_values(P, R, chances(given.policy, given.mdp, states), at(given.gamma))
+    worth = lookahead(P, R, V, at(given.gamma))[:n]
+    answers = [V[:n]] if given.values is None else []
+    answers += [best_actions(given.mdp, worth), bool((worth.max(axis=1) < V[:n] + 1e-9).all())]
+    return dict(zip("abc", answers, strict=False))
