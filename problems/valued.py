@@ -38,7 +38,7 @@ def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, oth
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
     """
     states = setting.states[: shape.states]
-    times = rng.shuffled([number for number in range(-1, 16 // UNITS[gamma] + 2) if number])
+    times = rng.shuffled([number for number in range(-1, max(16 // UNITS[gamma], len(states)) + 2) if number])
     values = {state: Fraction(UNITS[gamma] * number) for state, number in zip(states, times, strict=False)}
     surplus = [number for number in range(others[0], others[1] + 1) if number]
     ahead = values | {setting.terminal: Fraction(0)}

@@ -103,7 +103,7 @@ def _over(expression: Over, known: Known) -> Expr:
     if isinstance(expression, SumOver):
         return _sum(terms)
     if isinstance(expression, MaxOver):
-        return MaxOf(*terms)
+        return MaxOf(*terms) if len(terms) > 1 else terms[0]
     if isinstance(expression, MeanOver):
         return _product([_sum(terms), Pow(sympy.Integer(len(terms)), -1, evaluate=False)])
     if isinstance(expression, ArgMaxOver):

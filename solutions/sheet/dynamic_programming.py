@@ -12,6 +12,7 @@ from rldrill.solutions.formula.notation import (
     P,
     Q,
     Qpi,
+    Qstar,
     R,
     States,
     Successors,
@@ -19,6 +20,7 @@ from rldrill.solutions.formula.notation import (
     V,
     Vpi,
     a,
+    a1,
     called,
     gamma,
     letter,
@@ -27,7 +29,7 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
-from rldrill.solutions.sheet.bellman import LOOKAHEAD, WITHOUT_GAMMA
+from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, LOOKAHEAD, WITHOUT_GAMMA
 
 
 def _values(mark: Math) -> Math:
@@ -179,6 +181,30 @@ with evaluate(False):
         "smallest-q",
         ArgMaxOver(-Q(s, a), a, Actions(s)),
         "Q is a return, so the greatest is best; only costs are minimised.",
+    )
+
+    # Misreadings of the optimality equation for Q, as somebody makes them who looks for the best action.
+    OPTIMAL_Q_BY_VALUE = misread(
+        BELLMAN_OPTIMALITY_Q,
+        "by-next-value-alone",
+        SumOver(P(s, a, s1) * MaxOver(Qstar(s1, a1), a1, Actions(s1)), s1, Successors(s, a)),
+        "The reward on the way counts too: add γ times the best next value to it.",
+    )
+    OPTIMAL_Q_BY_REWARD = misread(
+        BELLMAN_OPTIMALITY_Q,
+        "by-reward-alone",
+        _REWARD,
+        "What comes after the reward counts too: add γ times the best value in the next state.",
+    )
+    OPTIMAL_Q_MEAN_FOR_MAX = misread(
+        BELLMAN_OPTIMALITY_Q,
+        "mean-for-max",
+        SumOver(
+            P(s, a, s1) * (R(s, a, s1) + gamma * MeanOver(Qstar(s1, a1), a1, Actions(s1))),
+            s1,
+            Successors(s, a),
+        ),
+        "In the next state the best action is taken: the greatest of its values counts, not their mean.",
     )
 
     MAX_NORM = Formula(

@@ -1,0 +1,28 @@
+"""One look ahead with every action, from the optimal values."""
+
+from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at, best_actions, tensors
+from rldrill.solutions.sheet.dynamic_programming import GREEDY_BY_REWARD, GREEDY_BY_VALUE, GREEDY_FROM_V
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (GREEDY_BY_VALUE, GREEDY_BY_REWARD)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The best action of every state."""
+    known = knowns.model(given.mdp) | {
+        "gamma": exact(given.gamma),
+        "V": knowns.state_values(given.values, given.mdp.terminal),
+    }
+    work.answer("a", {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states})
+
+
+def oracle(given: Given) -> Answers:
+    """Every action's mean reward and mean next value, as two arrays; the best by trying all."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    P, R = tensors(given.mdp, states)
+    ahead = P @ [at(given.values.get(state, 0)) for state in states]
+    worth = (P * R.clip(min=-1e300)).sum(axis=2) + at(given.gamma) * ahead
+    return {"a": best_actions(given.mdp, worth[: len(given.mdp.states)])}
