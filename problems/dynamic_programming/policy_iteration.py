@@ -1,0 +1,68 @@
+"""Values and policies of some rounds of policy iteration, and whether it has ended."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Probability
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Model, Name, check_policy, model_blocks
+from rldrill.problems.parts import Part, Policy, Table, YesNo, lettered
+from rldrill.problems.phrases import discount
+from rldrill.problems.settings import Shape, draw_setting
+from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_valued
+
+TITLE = "Policy iteration"
+SOURCE = "Sutton & Barto 2018, section 4.3"
+REVISION = 1
+
+
+class Given(Givens):
+    """A model, the policy to start from, the discount, and how many rounds of evaluation and improvement."""
+
+    mdp: Model
+    start: dict[Name, Name]
+    gamma: Probability
+    rounds: int = Field(ge=1, le=12)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        check_policy(deterministic(self.start), self.mdp)
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One round over two states whose moves are certain; then two rounds; then two over three states."""
+    gamma = rng.choice(tuple(UNITS)[: 2 if level < 3 else 3])
+    shape = {
+        1: Shape(states=2, actions=3, branches=1),
+        2: Shape(states=2, actions=3, branches=2, denominators=(2,)),
+        3: Shape(states=3, actions=2, branches=2, denominators=(2,)),
+    }[level]
+    optimal = level == 1 and rng.chance(rng.fraction("1/4"))
+    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1) if optimal else (-3, 5))
+    return Given(mdp=mdp, start=policy, gamma=gamma, rounds=min(level, 2))
+
+
+def question(given: Given) -> Question:
+    """The model and the first policy; values and policy of every round are asked for."""
+    states = given.mdp.states
+    blocks = (
+        *model_blocks(given.mdp),
+        Paragraph("Policy iteration starts from this policy:"),
+        choices_table(given.start, "π_0"),
+        Paragraph(
+            f"{discount(given.gamma)} Each policy is evaluated exactly. Improvement changes an action only where "
+            "another one is better: on a tie the old action is kept."
+        ),
+    )
+    parts = []
+    for number in range(given.rounds):
+        of, after = f"V^{{π_{{{number}}}}}", f"π_{{{number + 1}}}"
+        parts += [
+            Part("", f"What is ${of}(s)$, the value of every state?", Table(of, states), points=len(states)),
+            Part("", f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions), points=len(states)),
+        ]
+    return Question(blocks, lettered([*parts, Part("", f"Does the last round show that ${after}$ is optimal?", YesNo())]))

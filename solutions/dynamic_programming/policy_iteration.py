@@ -1,0 +1,77 @@
+"""Evaluation and improvement in turn; when improvement changes nothing, the policy is optimal."""
+
+from collections.abc import Mapping
+from string import ascii_lowercase
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.dynamic_programming.policy_iteration import Given
+from rldrill.problems.valued import deterministic
+from rldrill.solutions import knowns
+from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
+from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.sheet.dynamic_programming import (
+    IMPROVEMENT_BY_REWARD,
+    IMPROVEMENT_BY_VALUE,
+    POLICY_IMPROVEMENT,
+    POLICY_ITERATION,
+)
+from rldrill.solutions.work import Work
+
+STOPS = slip(
+    "stops-after-one-round",
+    "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
+    when=lambda given: given.rounds > 1,
+)
+MISCONCEPTIONS = (STOPS, ONE_SWEEP, IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Round after round: the values of the policy, then the greedy actions for them."""
+    mdp = given.mdp
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    labels = iter(ascii_lowercase)
+    policy, changed = given.start, True
+    values: Mapping[str, Value] = {}
+    for number in range(given.rounds):
+        before = policy
+        if number == 0 or not work.makes(STOPS):
+            work.say(f"Evaluation of $π_{{{number}}}$:")
+            values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy}, values)
+        answered = work.answer(next(labels), {state: values[state] for state in mdp.states})
+        values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
+        if number == 0 or not work.makes(STOPS):
+            work.say(f"Improvement to $π_{{{number + 1}}}$:")
+            best = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+        improved = work.answer(next(labels), _improved(policy, best))
+        policy = {state: actions[0] for state, actions in improved.items()}
+        changed = policy != before
+    if changed:
+        work.say("The last improvement still changed the policy, so it is not known whether another round would.")
+    else:
+        work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
+    work.answer(next(labels), not changed)
+
+
+def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    """The greedy actions; an old action that is among them is kept."""
+    return {state: (policy[state],) if policy[state] in actions else actions for state, actions in best.items()}
+
+
+def oracle(given: Given) -> Answers:
+    """The rounds in floating point, each evaluation by sweeps until nothing changes."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    n = len(given.mdp.states)
+    P, R = tensors(given.mdp, states)
+    policy, answers, stable = dict(given.start), [], False
+    for _ in range(given.rounds):
+        V = policy_values(P, R, chances(deterministic(policy), given.mdp, states), at(given.gamma))
+        best = best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n])
+        best = {state: {policy[state]} & actions or actions for state, actions in best.items()}
+        answers += [np.array(V[:n]), best]
+        stable = all(policy[state] in actions for state, actions in best.items())
+        policy = {state: next(a for a in given.mdp.actions[state] if a in best[state]) for state in given.mdp.states}
+    return dict(zip(ascii_lowercase, [*answers, stable], strict=False))
