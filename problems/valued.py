@@ -119,7 +119,7 @@ def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma:
     """
     for state, actions in model.actions.items():
         best = max(worth(model, (state, action), values, gamma) for action in actions)
-        if abs(best - values[state]) > _ROUNDING * max(1, abs(best)):
+        if abs(best - values[state]) > _ROUNDING * max(Fraction(1), abs(best)):
             raise ValueError(f"values: {state!r} is given as {values[state]}, but its best action is worth {best}")
 
 

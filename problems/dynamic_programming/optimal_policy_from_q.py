@@ -42,7 +42,9 @@ class Given(Givens):
         self._check_rows()
         for row in self.missing.transitions:
             if row.next not in self.values and row.next not in self.terminal:
-                raise ValueError(f"missing: {row.next!r} is reached but has no values; give them or list it as terminal")
+                raise ValueError(
+                    f"missing: {row.next!r} is reached but has no values; give them or list it as terminal"
+                )
             if row.next in self.missing.states:
                 raise ValueError(f"missing: {row.next!r} is reached but has a missing value itself")
         return self
@@ -92,7 +94,9 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
-    best = Part("", "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions))
+    best = Part(
+        "", "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions)
+    )
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
         return Question(tuple(known), lettered([best]))
@@ -103,12 +107,16 @@ def question(given: Given) -> Question:
         *terminal_note(given.terminal),
         Paragraph(discount(given.gamma)),
     )
-    ask = "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
+    ask = (
+        "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
+    )
     return Question(blocks, lettered([Part("", ask, TableKind("Q^*", given.gaps), points=len(given.gaps)), best]))
 
 
 def _table(given: Given) -> Table:
-    every = tuple(dict.fromkeys(action for row in sorted(given.actions.values(), key=len, reverse=True) for action in row))
+    every = tuple(
+        dict.fromkeys(action for row in sorted(given.actions.values(), key=len, reverse=True) for action in row)
+    )
 
     def cell(state: str, action: str) -> str:
         if action in given.values[state]:

@@ -65,4 +65,6 @@ def question(given: Given) -> Question:
             Part("", f"What is ${of}(s)$, the value of every state?", Table(of, states), points=len(states)),
             Part("", f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions), points=len(states)),
         ]
-    return Question(blocks, lettered([*parts, Part("", f"Does the last round show that ${after}$ is optimal?", YesNo())]))
+    return Question(
+        blocks, lettered([*parts, Part("", f"Does the last round show that ${after}$ is optimal?", YesNo())])
+    )

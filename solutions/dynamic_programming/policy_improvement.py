@@ -1,5 +1,7 @@
 """One look ahead with every action, from the values of the policy."""
 
+from typing import Any
+
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
@@ -46,6 +48,6 @@ def oracle(given: Given) -> Answers:
     P, R = tensors(given.mdp, states)
     V = policy_values(P, R, chances(given.policy, given.mdp, states), at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n]
-    answers = [V[:n]] if given.values is None else []
+    answers: list[Any] = [V[:n]] if given.values is None else []
     answers += [best_actions(given.mdp, worth), bool((worth.max(axis=1) < V[:n] + 1e-9).all())]
     return dict(zip("abc", answers, strict=False))

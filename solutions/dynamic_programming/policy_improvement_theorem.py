@@ -1,6 +1,7 @@
 """One step of the other policy, held against the first policy's values in every state."""
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -82,6 +83,6 @@ def oracle(given: Given) -> Answers:
     first, second = (chances(deterministic(pi), given.mdp, states) for pi in (given.policy, given.other))
     V = policy_values(P, R, first, at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n][second[:n] > 0]
-    answers = [V[:n]] if given.values is None else []
+    answers: list[Any] = [V[:n]] if given.values is None else []
     answers += [worth, bool(np.all(worth > V[:n] - 1e-9))]
     return dict(zip("abc", answers, strict=False))

@@ -102,7 +102,7 @@ with evaluate(False):
         SumOver(P(s, pi(s), s1) * (R(s, pi(s), s1) + gamma * V(s1)), s1, Successors(s, pi(s))),
         title="Policy iteration: evaluation",
         source="Sutton & Barto 2018, section 4.3",
-        hint="Write one equation for every state, with the action that the policy takes there, and solve them together.",
+        hint="Write one equation for every state, with the policy's action in it, and solve them together.",
     )
     POLICY_IMPROVEMENT = Formula(
         "policy-iteration-improvement",

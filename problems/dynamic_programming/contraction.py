@@ -1,0 +1,101 @@
+"""How far value iteration can still be from V* after some sweeps, and how many sweeps an accuracy takes."""
+
+from fractions import Fraction
+from typing import Annotated, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, Probability, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.parts import Number, Part, lettered
+from rldrill.problems.phrases import discount
+from rldrill.problems.settings import draw_setting
+from rldrill.problems.sweeps import counted
+
+TITLE = "Contraction of value iteration"
+SOURCE = "Puterman 1994, section 6.2"
+REVISION = 1
+
+
+def _positive(value: Fraction) -> Fraction:
+    if value <= 0:
+        raise ValueError(f"{value} is not above 0")
+    return value
+
+
+def _below_one(value: Fraction) -> Fraction:
+    if value == 1:
+        raise ValueError("with a discount of 1 value iteration is no contraction")
+    return value
+
+
+class Given(Givens):
+    """The values to start from with V*, or with the values after one sweep; the discount; sweeps and accuracy."""
+
+    start: dict[Name, Exact] = Field(min_length=1)
+    optimum: dict[Name, Exact] | None = None
+    first: dict[Name, Exact] | None = None
+    gamma: Annotated[Probability, AfterValidator(_below_one)]
+    sweeps: int = Field(ge=1, le=1000)
+    accuracy: Annotated[Exact, AfterValidator(_positive)] | None = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if (self.optimum is None) == (self.first is None):
+            raise ValueError("give either optimum, the values V*, or first, the values after one sweep")
+        check_keys(self.other, tuple(self.start), "the value", needed=tuple(self.start))
+        return self
+
+    @property
+    def other(self) -> dict[Name, Exact]:
+        """What the starting values are compared with."""
+        return self.optimum or self.first or {}
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """V* is known, one bound; then also the sweeps for an accuracy; then only the first sweep is known."""
+    states = draw_setting(rng).states[: level + 1]
+    start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
+    other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}
+    return Given(
+        start=start,
+        optimum=other if level < 3 else None,
+        first=other if level == 3 else None,
+        gamma=rng.fraction(*(("1/2", "1/3", "1/4", "1/5") if level < 3 else ("1/2", "2/3", "4/5", "9/10"))),
+        sweeps=1 + rng.below(3) + (level > 1),
+        accuracy=rng.fraction("1/2", "1/10", "1/20", "1/100") if level > 1 else None,
+    )
+
+
+def question(given: Given) -> Question:
+    """The two value functions; their distance, the bounds that follow, and the sweeps that are enough."""
+    known = given.optimum is not None
+    mark = "V^*" if known else "V_1"
+    blocks: tuple[Block, ...] = (
+        Paragraph(
+            "Value iteration starts from $V_0$; the optimal values $V^*$ are known."
+            if known
+            else "Value iteration starts from $V_0$; one synchronous sweep gives $V_1$. "
+            "The optimal values $V^*$ are not known."
+        ),
+        Table(
+            header=("$s$", *given.start),
+            rows=tuple(
+                (f"${name}(s)$", *(f"${shown(values[state])}$" for state in given.start))
+                for name, values in (("V_0", given.start), (mark, given.other))
+            ),
+        ),
+        Paragraph(f"{discount(given.gamma)} Distances are measured in the maximum norm $‖·‖_∞$."),
+    )
+    parts = [Part("", f"What is $‖{'V_0 − V^*' if known else 'V_1 − V_0'}‖_∞$?", Number())]
+    if not known:
+        parts.append(Part("", "How large can $‖V_0 − V^*‖_∞$ be at most, by what the first sweep changed?", Number()))
+    ask = f"How large can $‖V_{{{given.sweeps}}} − V^*‖_∞$ be at most, after {counted(given.sweeps)}?"
+    parts.append(Part("", ask, Number()))
+    if given.accuracy is not None:
+        ask = f"What is the smallest $k$ for which this bound guarantees $‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$?"
+        parts.append(Part("", ask, Number(), points=2))
+    return Question(blocks, lettered(parts))

@@ -1,0 +1,113 @@
+"""The distance at the start, what is left of it after k sweeps, and the first k at which little enough is left."""
+
+from typing import Any
+
+from rldrill.problems.dynamic_programming.contraction import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.answers.kinds import text_of
+from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
+from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.dynamic_programming import (
+    CHANGE_FOR_ERROR,
+    CONTRACTION,
+    ERROR_FROM_CHANGE,
+    FORGOT_DISTANCE,
+    MAX_NORM,
+    ONE_POWER_SHORT,
+    SUM_FOR_MAX,
+    StartNorm,
+    SweepNorm,
+)
+from rldrill.solutions.work import Work
+
+MOST_SWEEPS = 4096
+#: Up to so many sweeps the bound is written out as a fraction.
+WRITTEN_OUT = 8
+STOPS_SHORT = slip(
+    "one-sweep-too-few",
+    "After that many sweeps the bound is still above the accuracy; round up to the next whole number of sweeps.",
+    when=lambda given: given.accuracy is not None,
+)
+MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERROR, STOPS_SHORT)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The norm, then the bounds; the smallest k by exact comparisons."""
+    labels = iter("abcd")
+    gamma = exact(given.gamma)
+    distance = work.step(
+        MAX_NORM,
+        into=StartNorm if given.optimum is not None else SweepNorm,
+        states=tuple(given.start),
+        V=knowns.values(given.other),
+        V1=knowns.values(given.start),
+    )
+    distance = work.answer(next(labels), distance)
+    if given.first is not None:
+        distance = work.answer(next(labels), work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
+    known = {"distance": {0: distance}, "gamma": gamma}
+    work.answer(next(labels), work.step(CONTRACTION, k=given.sweeps, **known))
+    if given.accuracy is None:
+        return
+    enough = _sweeps(work, known, exact(given.accuracy))
+    if enough > WRITTEN_OUT:
+        work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
+    _explain(work, known, exact(given.accuracy), enough)
+    work.answer(next(labels), max(enough - 1, 0) if work.makes(STOPS_SHORT) else enough)
+
+
+def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) -> None:
+    """Show that the bound is met after that many sweeps, and not one sweep earlier."""
+    limit = f"${text_of(accuracy)}$"
+    for k, relation in ((enough - 1, "above"), (enough, "at most")):
+        if k < 0:
+            continue
+        if enough <= WRITTEN_OUT:
+            work.step(CONTRACTION, k=k, **known)
+            work.say(f"That is {relation} {limit}.")
+        else:  # the fraction has more digits than anybody reads
+            value = evaluate(work.reading(CONTRACTION), {**known, "k": k})
+            work.say(f"After {k} sweeps the bound is about ${decimal(value, 4)}$, {relation} {limit}.")
+
+
+def _sweeps(work: Work, known: dict[str, Any], accuracy: Value) -> int:
+    """The smallest k whose bound is at most the accuracy, found by halving.
+
+    Raises:
+        NoSolution: it is out of reach.
+    """
+    bound = work.reading(CONTRACTION)
+    low, high = 0, MOST_SWEEPS
+    if sign(accuracy - evaluate(bound, {**known, "k": high})) < 0:
+        raise NoSolution(f"the accuracy takes more than {MOST_SWEEPS} sweeps")
+    while low < high:
+        middle = (low + high) // 2
+        if sign(accuracy - evaluate(bound, {**known, "k": middle})) >= 0:
+            high = middle
+        else:
+            low = middle + 1
+    return low
+
+
+def oracle(given: Given) -> Answers:
+    """The worst case played out: an error that shrinks by no more than it must, sweep by sweep."""
+    worst = max(abs(at(given.other[state]) - at(value)) for state, value in given.start.items())
+    answers = [worst]
+    if given.first is not None:
+        # What the sweeps after the first can still change, added up until nothing is left.
+        change = worst
+        while change > 1e-14 * answers[0]:
+            change *= at(given.gamma)
+            worst += change
+        answers.append(worst)
+    after, k = worst, 0
+    for _ in range(given.sweeps):
+        after *= at(given.gamma)
+    answers.append(after)
+    if given.accuracy is not None:
+        while worst > at(given.accuracy) * (1 + 1e-11):
+            worst, k = worst * at(given.gamma), k + 1
+        answers.append(k)
+    return dict(zip("abcd", answers, strict=False))
