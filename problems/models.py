@@ -17,6 +17,8 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
+from rldrill.problems.grids import read_grid
+from rldrill.problems.gymnasium import read_environment
 from rldrill.problems.phrases import terminal_note
 
 
@@ -83,10 +85,22 @@ class Dynamics(Givens):
 
 
 class Model(Dynamics):
-    """A finite Markov decision process: its transitions, and the states in which an episode ends."""
+    """A finite Markov decision process: its transitions, and the states in which an episode ends.
+
+    Files may also give it as a ``grid`` drawn as text, or as the ID of a ``gymnasium`` environment.
+    """
 
     terminal: tuple[Name, ...] = ()
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _other_forms(cls, data: object) -> object:
+        if isinstance(data, dict) and "grid" in data:
+            return read_grid(data)
+        if isinstance(data, dict) and "gymnasium" in data:
+            return read_environment(data)
+        return data
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
