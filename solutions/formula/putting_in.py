@@ -119,7 +119,7 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    kept = [term for term in _flat(Add, terms) if not term.is_zero]
+    kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
     if not kept:
         return sympy.S.Zero
     return kept[0] if len(kept) == 1 else Add(*kept, evaluate=False)
