@@ -43,7 +43,7 @@ def to_sympy(value: Value) -> sympy.Expr:
     """Any exact value as a sympy expression."""
     if isinstance(value, fmpq):
         return sympy.Rational(int(value.numerator), int(value.denominator))
-    return value if isinstance(value, sympy.Expr) else sympy.sympify(value)
+    return value if isinstance(value, sympy.Expr) else sympy.sympify(value, strict=True)
 
 
 def ordered(expression: sympy.Expr) -> sympy.Expr:

@@ -23,7 +23,7 @@ class RationalFunction:
     def __add__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) + other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) + other if isinstance(other, sympy.Expr) else NotImplemented
         if self.bottom == other.bottom:
             return quotient(self.parameter, self.top + other.top, self.bottom)
         return quotient(self.parameter, self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
@@ -42,7 +42,7 @@ class RationalFunction:
     def __mul__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) * other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) * other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.top, self.bottom * other.bottom)
 
     __rmul__ = __mul__
@@ -50,7 +50,7 @@ class RationalFunction:
     def __truediv__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) / other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) / other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.bottom, self.bottom * other.top)
 
     def __rtruediv__(self, other: Any) -> Any:
@@ -118,7 +118,7 @@ def _lifted(parameter: str, value: Any) -> Any:
     if isinstance(value, int | fmpq):
         return RationalFunction(parameter, fmpq_poly([value]), fmpq_poly([1]))
     if isinstance(value, RationalFunction) and value.parameter != parameter:
-        return sympy.sympify(value)
+        return sympy.sympify(value, strict=True)
     return value
 
 

@@ -96,11 +96,11 @@ def _inverse(value: Value) -> Value:
 
 
 def _exp(value: Value) -> Value:
-    return sympy.exp(sympy.sympify(value))
+    return sympy.exp(sympy.sympify(value, strict=True))
 
 
 def _log(value: Value) -> Value:
-    return sympy.log(sympy.sympify(value))
+    return sympy.log(sympy.sympify(value, strict=True))
 
 
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:

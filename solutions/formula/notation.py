@@ -113,7 +113,7 @@ class Over(Expr):
 
     def __new__(cls, body: Expr, index: sympy.Symbol, domain: Expr) -> "Over":
         """Build it without evaluating anything."""
-        return Expr.__new__(cls, sympy.sympify(body), index, domain)
+        return Expr.__new__(cls, sympy.sympify(body, strict=True), index, domain)
 
     @property
     def body(self) -> Expr:
@@ -162,8 +162,8 @@ class Counting(Expr):
 
     def __new__(cls, first: Expr, last: Expr, shown: Expr | None = None) -> "Counting":
         """Build it without evaluating anything."""
-        last = sympy.sympify(last)
-        return Expr.__new__(cls, sympy.sympify(first), last, last if shown is None else shown)
+        last = sympy.sympify(last, strict=True)
+        return Expr.__new__(cls, sympy.sympify(first, strict=True), last, last if shown is None else shown)
 
     @property
     def free_symbols(self) -> set[sympy.Symbol]:
