@@ -18,7 +18,8 @@ _COMMANDS = {
     "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi",
     "ξ": r"\xi", "∞": r"\infty", "∇": r"\nabla", "𝔼": r"\mathbb{E}", "·": r"\cdot", "×": r"\times", "±": r"\pm",
     "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
-    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "∫": r"\int",
+    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "Π": r"\prod",
+    "∫": r"\int",
     "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
     "log": r"\log", "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
 }  # fmt: skip

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from math import prod
 from typing import Any
 
 import sympy
@@ -58,6 +59,9 @@ class _Code(StrPrinter):
     def _print_SumOver(self, expression: Over) -> str:
         return f"total({self._over(expression)})"
 
+    def _print_ProductOver(self, expression: Over) -> str:
+        return f"product({self._over(expression)})"
+
     def _print_MaxOver(self, expression: Over) -> str:
         return f"largest({self._over(expression)})"
 
@@ -82,6 +86,10 @@ class _Code(StrPrinter):
 
 def _total(values: Sequence[Value]) -> Value:
     return sum(values, ZERO)
+
+
+def _product(values: Sequence[Value]) -> Value:
+    return prod(values, start=ONE)
 
 
 def _mean(values: Sequence[Value]) -> Value:
@@ -111,6 +119,7 @@ def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
 
 _NAMES = {
     "total": _total,
+    "product": _product,
     "mean": _mean,
     "largest": largest,
     "arg_max": arg_max,

@@ -145,6 +145,10 @@ class SumOver(Over):
     """Σ over a finite set."""
 
 
+class ProductOver(Over):
+    """Π over a finite set."""
+
+
 class MaxOver(Over):
     """The greatest value over a finite set."""
 

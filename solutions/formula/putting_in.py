@@ -18,6 +18,7 @@ from rldrill.solutions.formula.notation import (
     MeanOver,
     Negative,
     Over,
+    ProductOver,
     Quantity,
     SumOver,
     Transposed,
@@ -102,6 +103,8 @@ def _over(expression: Over, known: Known) -> Expr:
     terms = [put_in(expression.body, {**known, expression.index.name: item}) for item in items]
     if isinstance(expression, SumOver):
         return _sum(terms)
+    if isinstance(expression, ProductOver):
+        return _product(terms)
     if isinstance(expression, MaxOver):
         return MaxOf(*terms)
     if isinstance(expression, MeanOver):

@@ -38,6 +38,7 @@ from rldrill.solutions.formula.notation import (
     MeanOver,
     Negative,
     Over,
+    ProductOver,
     Quantity,
     SumOver,
     Transposed,
@@ -192,7 +193,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
 def _factor(factor: Expr, *, last: bool) -> Math:
     if factor.is_Add or (factor.is_Number and factor.is_negative):
         return Fence(typeset(factor))
-    if isinstance(factor, SumOver | MaxOver) and not last:
+    if isinstance(factor, SumOver | ProductOver | MaxOver) and not last:
         return Fence(typeset(factor))
     return typeset(factor)
 
@@ -219,7 +220,7 @@ def _body(expression: Expr) -> Math:
 
 
 def _over(expression: Over) -> Math:
-    signs = {SumOver: "Σ", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
+    signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
     if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
         return row(Big("arg max", typeset(expression.index)), _braces(body.args))

@@ -59,6 +59,7 @@ def known(data: st.DataObject) -> dict[str, Any]:
         "actions": Anything(lambda _: ACTIONS), "successors": Anything(lambda _: STATES[:2]),
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
+    fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 
