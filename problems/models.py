@@ -52,7 +52,7 @@ class Dynamics(Givens):
             state, action, after = doubled[0]
             raise ValueError(f"the transition {state}, {action}, {after} is given twice; give each once")
         for (state, action), outcomes in self.outcomes.items():
-            if not _sums_to_one([outcome.probability for outcome in outcomes]):
+            if not sums_to_one([outcome.probability for outcome in outcomes]):
                 total = sum(o.probability for o in outcomes if isinstance(o.probability, Fraction))
                 raise ValueError(f"the probabilities of {action!r} in {state!r} sum to {total}, not to 1")
         return self
@@ -126,7 +126,8 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
 
 
-def _sums_to_one(probabilities: list[Scalar]) -> bool:
+def sums_to_one(probabilities: list[Scalar]) -> bool:
+    """Whether probabilities sum to 1; a parameter and its complement do."""
     rest = Fraction(1)
     balance: Counter[str] = Counter()
     for probability in probabilities:
@@ -170,7 +171,7 @@ def check_policy(policy: Policy, model: Dynamics) -> None:
     check_keys(policy, model.states, "the policy", needed=model.states)
     for state, chances in policy.items():
         check_keys(chances, model.actions[state], f"the policy in {state!r}", needed=())
-        if not _sums_to_one(list(chances.values())):
+        if not sums_to_one(list(chances.values())):
             raise ValueError(f"the policy's probabilities in {state!r} do not sum to 1")
 
 

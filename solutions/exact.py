@@ -65,8 +65,8 @@ def from_sympy(expression: sympy.Expr) -> Value:
 
 
 def simplest(value: Value) -> Value:
-    """The same value, as a plain rational where no parameter is left in it."""
-    if isinstance(value, int):
+    """The same value, as a plain rational where no parameter is left in it; yes and no stay what they are."""
+    if isinstance(value, int) and not isinstance(value, bool):
         return fmpq(value)
     if isinstance(value, Fraction):
         return fmpq(value.numerator, value.denominator)

@@ -76,12 +76,14 @@ class RationalFunction:
         return tuple(c for poly in (top, bottom) for c in poly.coeffs() if c)
 
     def _written(self) -> tuple[fmpq_poly, fmpq_poly]:
-        """Top and bottom with whole coefficients, unless the bottom is 1."""
+        """Top and bottom with whole coefficients, unless the bottom is 1; what is below begins with a plus."""
         if self.bottom.degree() == 0:
             return self.top, self.bottom
         every = [c for poly in (self.top, self.bottom) for c in poly.coeffs() if c]
         scale = fmpq(lcm(*(int(c.q) for c in every)))
         shared = gcd(*(int((c * scale).p) for c in every))
+        if next(c for c in self.bottom.coeffs() if c) < 0:  # 1 − γ, not −1 + γ
+            shared = -shared
         return self.top * scale / shared, self.bottom * scale / shared
 
     def _sympy_(self) -> sympy.Expr:

@@ -104,11 +104,7 @@ def question(given: Given) -> Question:
     weight = {row[:3]: row.weight for row in given.table}
     told = "the joint probability" if given.probabilities else "how often"
     of = "of three states in a row" if given.probabilities else "three states were seen in a row"
-    rest = (
-        ""
-        if given.probabilities
-        else " Take the relative frequencies in it as the probabilities of the process."
-    )
+    rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."
     blocks = (
         Paragraph(f"{given.story} Only its states are looked at.".strip()),
         Paragraph(f"This table tells {told} {of}: $s_{{t-1}}$, $s_t$ and $s_{{t+1}}$.{rest}"),

@@ -44,7 +44,9 @@ def question(given: Given) -> Question:
     """The rewards in words; the return from where they begin to repeat, then the return from the start."""
     k = len(given.first)
     first = ", ".join(f"r_{{{time + 1}}} = {shown(reward)}" for time, reward in enumerate(given.first))
-    opening = f"A task never ends. Its first reward{'s are' if k > 1 else ' is'} ${first}$. " if k else "A task never ends. "
+    opening = (
+        f"A task never ends. Its first reward{'s are' if k > 1 else ' is'} ${first}$. " if k else "A task never ends. "
+    )
     since = f"From $r_{{{k + 1}}}$ on" if k else "From the first one on"
     if len(given.repeated) == 1:
         told = f"{since}, every reward is ${shown(given.repeated[0])}$."

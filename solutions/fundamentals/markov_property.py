@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, where
 from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
@@ -87,6 +88,7 @@ def solve(given: Given, work: Work) -> None:
     verdict = _verdict(given, matters)
     work.answer("b", verdict[0])
     if len(verdict) > 1:
+        work.say(f"What $s_{{t-1}}$ was matters {_in_words(matters)}.")
         work.answer("c", verdict[1])
 
 
@@ -101,6 +103,10 @@ def _verdict(given: Given, matters: tuple[str, ...]) -> tuple[Any, ...]:
         return (not matters,)
     *_, none, several = letters
     return not matters, letters[none if not matters else several if len(matters) > 1 else matters[0]]
+
+
+def _in_words(matters: tuple[str, ...]) -> str:
+    return f"in {joined(list(matters))}" if matters else "in no state"
 
 
 def _compare(given: Given, work: Work, now: str, chances: Chances, *, differs: bool) -> None:
@@ -132,7 +138,7 @@ def oracle(given: Given) -> Answers:
         for before, now in given.histories
     ]
     broken = [now for j, now in enumerate(given.present) if np.linalg.matrix_rank(counts[:, j], tol=1e-9) > 1]
-    answers: dict[str, Any] = {"a": share, "b": ("no" if broken else "yes",)}
+    answers: dict[str, Any] = {"a": share, "b": not broken}
     options = list(where(given).items())
     if options:
         place = -2 if not broken else -1 if len(broken) > 1 else given.present.index(broken[0])
