@@ -113,18 +113,21 @@ class Work:
             return mistake.reads
         return formula.right
 
-    def step(self, formula: Formula, *, into: type[Quantity] | None = None, **known: Any) -> Value:
+    def step(
+        self, formula: Formula, *, into: type[Quantity] | None = None, sign: str | None = None, **known: Any
+    ) -> Value:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
 
         Args:
             formula: a formula of the sheet.
             into: the quantity to name the result by, where it is not the formula's own (V₂ for V).
+            sign: the relation that holds here, where it is not the formula's own (an inequality that fails).
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
         right = self.reading(formula)
         value = evaluate(right, known)
         left = formula.left if into is None else into(*formula.left.args)
-        sign = formula.sign if into is None else "="
+        sign = sign or (formula.sign if into is None else "=")
         self.lines.append(Step(formula, right, known, value, left, sign))
         return value
 

@@ -6,7 +6,7 @@ from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.oracle import Answers, at, lookahead, tensors
 from rldrill.solutions.sheet.dynamic_programming import (
     FORGOT_GAMMA,
@@ -45,7 +45,7 @@ def solve(given: Given, work: Work) -> None:
             current = old | values if work.makes(IN_PLACE) else old
             values[state] = work.step(VALUE_ITERATION, s=state, V=current, into=numbered(V, sweep), **known)
     values = ends | work.answer("a", {state: values[state] for state in mdp.states})
-    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states})
+    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:

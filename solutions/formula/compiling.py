@@ -47,6 +47,9 @@ class _Code(StrPrinter):
 
     _print_Function = _print_Quantity
 
+    def _print_Abs(self, expression: Any) -> str:
+        return f"abs({self._print(expression.args[0])})"
+
     def _print_exp(self, expression: Any) -> str:
         return f"exp({self._print(expression.args[0])})"
 

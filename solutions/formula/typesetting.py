@@ -286,6 +286,7 @@ _WRITERS: dict[type, Any] = {
     Transposed: _transposed,
     MatrixLeaf: _matrix,
     Negative: lambda expression: Fence(typeset(expression.args[0])),
+    sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
     sympy.log: _logarithm,
 }

@@ -52,7 +52,7 @@ def known(data: st.DataObject) -> dict[str, Any]:
         return fmpq_mat(2, 2, [number() for _ in range(4)])
 
     fixed: dict[str, Any] = {
-        "s": "cool", "a": "slow", "s1": "warm", "b": "fast", "h": "warm", "z": "door", "i": 1,
+        "s": "cool", "a": "slow", "s1": "warm", "b": "fast", "h": "warm", "z": "door", "i": 1, "k": 3,
         "t": 1, "n": data.draw(st.integers(1, 4)), "T": data.draw(st.integers(2, 6)),
         "states": STATES, "choices": ACTIONS, "features": (1, 2), "hypotheses": STATES, "measurements": ("door",),
         "S": Anything(lambda t: STATES[t % 3]), "A": Anything(lambda t: ACTIONS[t % 2]),
