@@ -170,9 +170,18 @@ def check_policy(policy: Policy, model: Dynamics) -> None:
     """
     check_keys(policy, model.states, "the policy", needed=model.states)
     for state, chances in policy.items():
-        check_keys(chances, model.actions[state], f"the policy in {state!r}", needed=())
-        if not sums_to_one(list(chances.values())):
-            raise ValueError(f"the policy's probabilities in {state!r} do not sum to 1")
+        check_chances(chances, state, model.actions[state])
+
+
+def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str, ...], of: str = "the policy") -> None:
+    """Demand a distribution over the actions of one state.
+
+    Raises:
+        ValueError: an action is unknown, or the probabilities do not sum to 1.
+    """
+    check_keys(chances, actions, f"{of} in {state!r}", needed=())
+    if not sums_to_one(list(chances.values())):
+        raise ValueError(f"{of}'s probabilities in {state!r} do not sum to 1")
 
 
 def transitions_table(model: Dynamics) -> Table:

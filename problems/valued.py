@@ -95,7 +95,9 @@ def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: D
         ValueError: a state has another value.
     """
     for state, chances in policy.items():
-        total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in chances.items())
+        total = sum(
+            Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in chances.items()
+        )
         if total != values[state]:
             raise ValueError(
                 f"values: {state!r} is given as {values[state]}, but what the policy does there is worth {total}"

@@ -43,11 +43,17 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     left_open = level == 3 and rng.chance(rng.fraction("1/2"))
     shape = Shape(
-        states=3 if left_open else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,), reward=4 + 2 * level
+        states=3 if left_open else 2,
+        actions=2,
+        branches=1 if level == 1 else 2,
+        denominators=(2,),
+        reward=4 + 2 * level,
     )
     mdp = draw_model(rng, setting, shape)
     denominators = (2, 4) if level < 3 else (2,)
-    policy = {state: dict(zip(actions, rng.split(2, denominators), strict=True)) for state, actions in mdp.actions.items()}
+    policy = {
+        state: dict(zip(actions, rng.split(2, denominators), strict=True)) for state, actions in mdp.actions.items()
+    }
     return Given(
         mdp=mdp,
         policy=policy,
@@ -61,7 +67,9 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The model, the policy and the kind of sweep; the values after the last sweep are asked for."""
     states = list(given.mdp.states)
-    in_place = f"Sweeps are in place: the states are updated in the order {joined(states)}, each with the newest values."
+    in_place = (
+        f"Sweeps are in place: the states are updated in the order {joined(states)}, each with the newest values."
+    )
     k = given.sweeps
     blocks: tuple[Block, ...] = (
         *model_blocks(given.mdp),

@@ -175,8 +175,24 @@ class Counting(Expr):
         return self.args[0].free_symbols | self.args[1].free_symbols
 
 
+class Size(Expr):
+    """How many elements a finite set has."""
+
+
 class Indicator(Expr):
-    """1 where two things are the same, else 0."""
+    """1 where two things are the same, else 0; of four things, where the first two are and the last two are."""
+
+
+class Member(Expr):
+    """Whether something belongs to a finite set; stands in ``Cases``."""
+
+
+class Cases(Expr):
+    """One of two values: if the condition (an ``Indicator``, a ``Member``) holds, and otherwise."""
+
+    def __new__(cls, condition: Expr, then: Expr, otherwise: Expr) -> "Cases":
+        """Build it without evaluating anything."""
+        return Expr.__new__(cls, condition, sympy.sympify(then), sympy.sympify(otherwise))
 
 
 class Transposed(Expr):

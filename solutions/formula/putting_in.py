@@ -11,6 +11,7 @@ from rldrill.solutions.exact import ordered, to_sympy
 from rldrill.solutions.formula.compiling import evaluate, needs
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
+    Cases,
     Indicator,
     MatrixLeaf,
     MaxOf,
@@ -20,6 +21,7 @@ from rldrill.solutions.formula.notation import (
     Over,
     ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
     label,
@@ -38,8 +40,11 @@ def put_in(expression: Expr, known: Known) -> Expr:
         return _quantity(expression, known)
     if isinstance(expression, Over):
         return _over(expression, known)
-    if isinstance(expression, Indicator):
+    if isinstance(expression, Indicator | Size):
         return sympy.Integer(evaluate(expression, known))
+    if isinstance(expression, Cases):
+        condition, then, otherwise = expression.args
+        return put_in(then if evaluate(condition, known) else otherwise, known)
     if expression.is_Symbol:
         return leaf(known[expression.name]) if expression.name in known else expression
     if not expression.args:

@@ -29,6 +29,7 @@ from rldrill.solutions.exact import Value, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
     ArgMaxOver,
+    Cases,
     Counting,
     Indicator,
     Label,
@@ -36,10 +37,12 @@ from rldrill.solutions.formula.notation import (
     MaxOf,
     MaxOver,
     MeanOver,
+    Member,
     Negative,
     Over,
     ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
 )
@@ -242,8 +245,23 @@ def _max_of(expression: MaxOf) -> Math:
 
 
 def _indicator(expression: Indicator) -> Math:
-    left, right = map(typeset, expression.args)
-    return row(Glyph("1", "number"), Fence(row(left, relation("="), right)))
+    return row(Glyph("1", "number"), Fence(_condition(expression)))
+
+
+def _condition(expression: Expr) -> Math:
+    sign = relation("∈" if isinstance(expression, Member) else "=")
+    sides = [typeset(argument) for argument in expression.args]
+    return listed(row(left, sign, right) for left, right in zip(sides[::2], sides[1::2], strict=True))
+
+
+def _cases(expression: Cases) -> Math:
+    condition, then, otherwise = expression.args
+    lines = (typeset(then), row(word("if"), _condition(condition))), (typeset(otherwise), word("otherwise"))
+    return Grid(lines, "{", "")
+
+
+def _size(expression: Size) -> Math:
+    return Fence(typeset(expression.args[0]), "|", "|")
 
 
 def _transposed(expression: Transposed) -> Math:
@@ -283,6 +301,9 @@ _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
     Indicator: _indicator,
+    Member: _condition,
+    Cases: _cases,
+    Size: _size,
     Transposed: _transposed,
     MatrixLeaf: _matrix,
     Negative: lambda expression: Fence(typeset(expression.args[0])),
