@@ -43,7 +43,7 @@ def to_sympy(value: Value) -> sympy.Expr:
     """Any exact value as a sympy expression."""
     if isinstance(value, fmpq):
         return sympy.Rational(int(value.numerator), int(value.denominator))
-    return value if isinstance(value, sympy.Expr) else sympy.sympify(value)
+    return value if isinstance(value, sympy.Expr) else sympy.sympify(value, strict=True)
 
 
 def ordered(expression: sympy.Expr) -> sympy.Expr:
@@ -65,8 +65,8 @@ def from_sympy(expression: sympy.Expr) -> Value:
 
 
 def simplest(value: Value) -> Value:
-    """The same value, as a plain rational where no parameter is left in it."""
-    if isinstance(value, int):
+    """The same value, as a plain rational where no parameter is left in it; yes and no stay what they are."""
+    if isinstance(value, int) and not isinstance(value, bool):
         return fmpq(value)
     if isinstance(value, Fraction):
         return fmpq(value.numerator, value.denominator)

@@ -50,7 +50,9 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(A=((a,),), B=((b,),), R=((r,),), P=((p,),))
     inputs = level - 1
     A = tuple(tuple(rng.whole(-1, 2) for _ in range(2)) for _ in range(2))
-    B = tuple(tuple(rng.whole(0, 1 if level == 3 else 2) for _ in range(inputs)) for _ in range(2))
+    # An input without effect would make no question: no column of B is zero.
+    columns = tuple(rng.choice(((1, 0), (0, 1), (1, 1), (2, 1))) for _ in range(inputs))
+    B = tuple(tuple(Fraction(column[line]) for column in columns) for line in range(2))
     R = tuple(tuple(rng.whole(1, 3) if i == j else Fraction(0) for j in range(inputs)) for i in range(inputs))
     corner = rng.whole(0, 1)
     P = ((-rng.whole(2, 4), corner), (corner, -rng.whole(2, 4)))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from math import prod
 from typing import Any
 
 import sympy
@@ -10,7 +11,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign, simplest
 from rldrill.solutions.formula.notation import Counting, Over, Quantity
 
 
@@ -39,6 +40,8 @@ class _Code(StrPrinter):
         base, exponent = expression.args
         if exponent == -1:
             return f"inverse({self._print(base)})"
+        if exponent == sympy.S.Half:
+            return f"root({self._print(base)})"
         return f"(({self._print(base)})**({self._print(exponent)}))"
 
     def _print_Quantity(self, expression: Any) -> str:
@@ -61,6 +64,9 @@ class _Code(StrPrinter):
     def _print_SumOver(self, expression: Over) -> str:
         return f"total({self._over(expression)})"
 
+    def _print_ProductOver(self, expression: Over) -> str:
+        return f"product({self._over(expression)})"
+
     def _print_MaxOver(self, expression: Over) -> str:
         return f"largest({self._over(expression)})"
 
@@ -76,8 +82,20 @@ class _Code(StrPrinter):
         return f"range({self._print(first)}, {self._print(last)} + 1)"
 
     def _print_Indicator(self, expression: Any) -> str:
-        left, right = map(self._print, expression.args)
-        return f"(1 if {left} == {right} else 0)"
+        names = [self._print(argument) for argument in expression.args]
+        same = [f"{left} == {right}" for left, right in zip(names[::2], names[1::2], strict=True)]
+        return f"(1 if {' and '.join(same)} else 0)"
+
+    def _print_Member(self, expression: Any) -> str:
+        element, domain = map(self._print, expression.args)
+        return f"({element} in {domain})"
+
+    def _print_Cases(self, expression: Any) -> str:
+        condition, then, otherwise = map(self._print, expression.args)
+        return f"(({then}) if {condition} else ({otherwise}))"
+
+    def _print_Size(self, expression: Any) -> str:
+        return f"len({self._print(expression.args[0])})"
 
     def _print_Transposed(self, expression: Any) -> str:
         return f"({self._print(expression.args[0])}).transpose()"
@@ -85,6 +103,10 @@ class _Code(StrPrinter):
 
 def _total(values: Sequence[Value]) -> Value:
     return sum(values, ZERO)
+
+
+def _product(values: Sequence[Value]) -> Value:
+    return prod(values, start=ONE)
 
 
 def _mean(values: Sequence[Value]) -> Value:
@@ -98,12 +120,16 @@ def _inverse(value: Value) -> Value:
         raise NoSolution("it would divide by zero, or invert a singular matrix") from None
 
 
+def _root(value: Value) -> Value:
+    return simplest(sympy.sqrt(sympy.sympify(value)))
+
+
 def _exp(value: Value) -> Value:
-    return sympy.exp(sympy.sympify(value))
+    return sympy.exp(sympy.sympify(value, strict=True))
 
 
 def _log(value: Value) -> Value:
-    return sympy.log(sympy.sympify(value))
+    return sympy.log(sympy.sympify(value, strict=True))
 
 
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
@@ -114,6 +140,9 @@ def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
 
 _NAMES = {
     "total": _total,
+    "product": _product,
+    "root": _root,
+    "len": len,
     "mean": _mean,
     "largest": largest,
     "arg_max": arg_max,

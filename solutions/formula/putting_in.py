@@ -11,6 +11,7 @@ from rldrill.solutions.exact import ordered, to_sympy
 from rldrill.solutions.formula.compiling import evaluate, needs
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
+    Cases,
     Indicator,
     MatrixLeaf,
     MaxOf,
@@ -18,7 +19,9 @@ from rldrill.solutions.formula.notation import (
     MeanOver,
     Negative,
     Over,
+    ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
     label,
@@ -37,8 +40,11 @@ def put_in(expression: Expr, known: Known) -> Expr:
         return _quantity(expression, known)
     if isinstance(expression, Over):
         return _over(expression, known)
-    if isinstance(expression, Indicator):
+    if isinstance(expression, Indicator | Size):
         return sympy.Integer(evaluate(expression, known))
+    if isinstance(expression, Cases):
+        condition, then, otherwise = expression.args
+        return put_in(then if evaluate(condition, known) else otherwise, known)
     if expression.is_Symbol:
         return leaf(known[expression.name]) if expression.name in known else expression
     if not expression.args:
@@ -102,6 +108,8 @@ def _over(expression: Over, known: Known) -> Expr:
     terms = [put_in(expression.body, {**known, expression.index.name: item}) for item in items]
     if isinstance(expression, SumOver):
         return _sum(terms)
+    if isinstance(expression, ProductOver):
+        return _product(terms)
     if isinstance(expression, MaxOver):
         return MaxOf(*terms) if len(terms) > 1 else terms[0]
     if isinstance(expression, MeanOver):
@@ -119,7 +127,7 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    kept = [term for term in _flat(Add, terms) if not term.is_zero]
+    kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
     if not kept:
         return sympy.S.Zero
     return kept[0] if len(kept) == 1 else Add(*kept, evaluate=False)

@@ -29,6 +29,7 @@ from rldrill.solutions.exact import Value, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
     ArgMaxOver,
+    Cases,
     Counting,
     Indicator,
     Label,
@@ -36,9 +37,12 @@ from rldrill.solutions.formula.notation import (
     MaxOf,
     MaxOver,
     MeanOver,
+    Member,
     Negative,
     Over,
+    ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
 )
@@ -192,7 +196,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
 def _factor(factor: Expr, *, last: bool) -> Math:
     if factor.is_Add or (factor.is_Number and factor.is_negative):
         return Fence(typeset(factor))
-    if isinstance(factor, SumOver | MaxOver) and not last:
+    if isinstance(factor, SumOver | ProductOver | MaxOver) and not last:
         return Fence(typeset(factor))
     return typeset(factor)
 
@@ -219,7 +223,7 @@ def _body(expression: Expr) -> Math:
 
 
 def _over(expression: Over) -> Math:
-    signs = {SumOver: "Σ", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
+    signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
     if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
         return row(Big("arg max", typeset(expression.index)), _braces(body.args))
@@ -241,8 +245,23 @@ def _max_of(expression: MaxOf) -> Math:
 
 
 def _indicator(expression: Indicator) -> Math:
-    left, right = map(typeset, expression.args)
-    return row(Glyph("1", "number"), Fence(row(left, relation("="), right)))
+    return row(Glyph("1", "number"), Fence(_condition(expression)))
+
+
+def _condition(expression: Expr) -> Math:
+    sign = relation("∈" if isinstance(expression, Member) else "=")
+    sides = [typeset(argument) for argument in expression.args]
+    return listed(row(left, sign, right) for left, right in zip(sides[::2], sides[1::2], strict=True))
+
+
+def _cases(expression: Cases) -> Math:
+    condition, then, otherwise = expression.args
+    lines = (typeset(then), row(word("if"), _condition(condition))), (typeset(otherwise), word("otherwise"))
+    return Grid(lines, "{", "")
+
+
+def _size(expression: Size) -> Math:
+    return Fence(typeset(expression.args[0]), "|", "|")
 
 
 def _transposed(expression: Transposed) -> Math:
@@ -282,6 +301,9 @@ _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
     Indicator: _indicator,
+    Member: _condition,
+    Cases: _cases,
+    Size: _size,
     Transposed: _transposed,
     MatrixLeaf: _matrix,
     Negative: lambda expression: Fence(typeset(expression.args[0])),
