@@ -6,7 +6,9 @@ from typing import NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.models import Dynamics, Model, Policy, Transition, policy_table
+from rldrill.problems.models import Dynamics, Model, Policy, Transition, policy_table, values_table
+from rldrill.problems.parts import Part
+from rldrill.problems.parts import Table as ValuesKind
 from rldrill.problems.settings import Setting, Shape
 
 #: Discounts, and the number whose multiples are still whole when they are discounted.
@@ -138,3 +140,11 @@ def policy_blocks(policy: Policy) -> tuple[Block, ...]:
     certain = {state: action for state, row in policy.items() for action, chance in row.items() if chance == 1}
     table = choices_table(certain) if len(certain) == len(policy) else policy_table(policy)
     return (Paragraph("The policy $π$ is:"), table)
+
+
+def known_or_asked(values: Mapping[str, Fraction] | None, states: tuple[str, ...]) -> tuple[list[Block], list[Part]]:
+    """The values of π as a question gives them, or the part that asks for them first."""
+    if values is None:
+        ask = "What is $V^π(s)$, the value of every state under $π$?"
+        return [], [Part("", ask, ValuesKind("V^π", states), points=len(states))]
+    return [Paragraph("The values under $π$ are known:"), values_table(values, "V^π")], []

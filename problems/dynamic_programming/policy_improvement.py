@@ -4,15 +4,22 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, PolicyField, check_keys, check_policy, model_blocks, values_table
-from rldrill.problems.parts import Part, Policy, Table, YesNo, lettered
+from rldrill.problems.models import Model, Name, PolicyField, check_keys, check_policy, model_blocks
+from rldrill.problems.parts import Part, Policy, YesNo, lettered
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import UNITS, check_policy_values, deterministic, draw_valued, policy_blocks
+from rldrill.problems.valued import (
+    UNITS,
+    check_policy_values,
+    deterministic,
+    draw_valued,
+    known_or_asked,
+    policy_blocks,
+)
 
 TITLE = "Policy improvement"
 SOURCE = "Sutton & Barto 2018, section 4.2"
@@ -53,14 +60,11 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The model and the policy, with its values or asking for them."""
     states = given.mdp.states
-    blocks: list[Block] = [*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma))]
-    parts = [
+    known, asked = known_or_asked(given.values, states)
+    blocks = (*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma)), *known)
+    parts = (
+        *asked,
         Part("", "Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions), points=len(states)),
         Part("", "Is $π$ an optimal policy?", YesNo()),
-    ]
-    if given.values is None:
-        ask = "What is $V^π(s)$, the value of every state under the policy?"
-        parts.insert(0, Part("", ask, Table("V^π", states), points=len(states)))
-    else:
-        blocks += [Paragraph("The values under the policy are known:"), values_table(given.values, "V^π")]
-    return Question(tuple(blocks), lettered(parts))
+    )
+    return Question(blocks, lettered(parts))

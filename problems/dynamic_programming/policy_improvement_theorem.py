@@ -4,11 +4,11 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_keys, check_policy, model_blocks, values_table
+from rldrill.problems.models import Model, Name, check_keys, check_policy, model_blocks
 from rldrill.problems.parts import Part, Table, YesNo, lettered
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -18,6 +18,7 @@ from rldrill.problems.valued import (
     choices_table,
     deterministic,
     draw_valued,
+    known_or_asked,
     policy_blocks,
 )
 
@@ -68,20 +69,18 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The model and both policies, with the values of the first or asking for them."""
     states = given.mdp.states
-    blocks: list[Block] = [
+    known, asked = known_or_asked(given.values, states)
+    blocks = (
         *model_blocks(given.mdp),
         *policy_blocks(deterministic(given.policy)),
         Paragraph("Another policy is:"),
         choices_table(given.other, "π'"),
         Paragraph(discount(given.gamma)),
-    ]
-    parts = [
+        *known,
+    )
+    parts = (
+        *asked,
         Part("", "What is $Q^π(s, π'(s))$ in every state?", Table("Q^π", given.pairs), points=len(states)),
         Part("", "Does the policy improvement theorem show that $π'$ is at least as good as $π$?", YesNo()),
-    ]
-    if given.values is None:
-        ask = "What is $V^π(s)$, the value of every state under $π$?"
-        parts.insert(0, Part("", ask, Table("V^π", states), points=len(states)))
-    else:
-        blocks += [Paragraph("The values under $π$ are known:"), values_table(given.values, "V^π")]
-    return Question(tuple(blocks), lettered(parts))
+    )
+    return Question(blocks, lettered(parts))

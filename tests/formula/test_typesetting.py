@@ -13,8 +13,10 @@ from rldrill.solutions.exact import generator
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.sheet import formulas
-from rldrill.solutions.sheet.bellman import BELLMAN_V
+from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V
+from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
+from rldrill.solutions.work import Step, Work
 
 LINES = Path(__file__).parent / "lines"
 #: Every formula as a book prints it, in one file for each section: the key, a colon, the line.
@@ -80,6 +82,8 @@ def test_values_are_written_as_by_hand(value: object, text: str) -> None:
         ('V^π("smoking hot")', "V^π(smoking hot)"),
         ("a_t = −L_t s_t", "aₜ = −Lₜsₜ"),
         ("R_{0}^{(2)}", "R₀⁽²⁾"),
+        ("V^*(s)", "V*(s)"),
+        ("2 * 3", "2·3"),
     ],
 )
 def test_the_notation_of_questions(source: str, text: str) -> None:
@@ -94,3 +98,16 @@ def test_mathematics_left_open_is_refused() -> None:
 def test_signs_of_an_equation_stand_between_its_sides() -> None:
     equation = Equation(mathematics("x"), (mathematics("1"), mathematics("2")), ("←", "="))
     assert unicode_text(equation) == "x ← 1 = 2"
+
+
+def test_a_maximum_over_one_action_and_a_negative_number_alone_stand_bare() -> None:
+    work = Work()
+    known = {"gamma": fmpq(1, 2), "actions": {"warm": ("slow",)}, "Q": {("warm", "slow"): fmpq(-4)}}
+    model = {"successors": {("cool", "fast"): ("warm",)}, "P": {("cool", "fast", "warm"): fmpq(1)}}
+    rewards = {("cool", "fast", "warm"): fmpq(3)}
+    work.step(BELLMAN_OPTIMALITY_Q, s="cool", a="fast", R=rewards, **model, **known)
+    work.step(MAX_NORM, states=("cool",), V={"cool": fmpq(1)}, V1={"cool": fmpq(4)})
+    fails = {"s": "cool", "V": {"cool": fmpq(-2)}, "pi1": {"cool": "fast"}}
+    work.step(POLICY_IMPROVEMENT_THEOREM, sign="<", **fails)
+    lines = [" ".join(unicode_text(line.equation()).split()) for line in work.lines if isinstance(line, Step)]
+    assert lines == ["Q*(cool, fast) = 3 + 1/2·(−4) = 1", "‖V − V′‖_∞ = |1 − 4| = 3", "Q^π(cool, fast) < −2"]
