@@ -75,6 +75,16 @@ def simplest(value: Value) -> Value:
     return value
 
 
+def tidy(value: Value) -> Value:
+    """A number of roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
+    if not isinstance(value, sympy.Expr) or value.is_Atom or value.free_symbols or value.has(sympy.exp, sympy.log):
+        return value
+    value = sympy.expand(value)
+    if any(node.is_Pow and node.exp.is_negative for node in sympy.preorder_traversal(value)):
+        value = sympy.expand(sympy.radsimp(value))
+    return simplest(value)
+
+
 def parameters(value: Value) -> frozenset[str]:
     """The names of the parameters that are left open in a value."""
     if isinstance(value, fmpq):

@@ -21,9 +21,10 @@ _COMMANDS = {
     "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "Π": r"\prod",
     "∫": r"\int",
     "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
-    "log": r"\log", "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
+    "log": r"\log", "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "∂": r"\partial", "Δ": r"\Delta", "ω": r"\omega",
+    "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
 }  # fmt: skip
-_PLAIN_WORDS = {"max", "min", "ln", "exp", "log"}
+_PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
 
 
 def latex(math: Math) -> str:

@@ -6,13 +6,14 @@ from math import prod
 from typing import Any
 
 import sympy
-from flint import fmpq, fmpq_mat
+from flint import fmpq
 from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign, simplest
 from rldrill.solutions.formula.notation import Counting, Over, Quantity
+from rldrill.solutions.matrices import is_matrix, stacked
 
 
 class _Code(StrPrinter):
@@ -42,6 +43,8 @@ class _Code(StrPrinter):
             return f"inverse({self._print(base)})"
         if exponent == sympy.S.Half:
             return f"root({self._print(base)})"
+        if exponent.is_Integer and exponent.is_negative:
+            return f"inverse(({self._print(base)})**{-exponent})"
         return f"(({self._print(base)})**({self._print(exponent)}))"
 
     def _print_Quantity(self, expression: Any) -> str:
@@ -51,6 +54,14 @@ class _Code(StrPrinter):
 
     def _print_Abs(self, expression: Any) -> str:
         return f"abs({self._print(expression.args[0])})"
+
+    def _circular(self, expression: Any) -> str:
+        return f"{expression.func.__name__}({self._print(expression.args[0])})"
+
+    _print_sin = _print_cos = _print_tan = _circular
+
+    def _print_Pi(self, expression: Any) -> str:  # noqa: ARG002
+        return "pi"
 
     def _print_exp(self, expression: Any) -> str:
         return f"exp({self._print(expression.args[0])})"
@@ -100,9 +111,12 @@ class _Code(StrPrinter):
     def _print_Transposed(self, expression: Any) -> str:
         return f"({self._print(expression.args[0])}).transpose()"
 
+    def _print_Blocks(self, expression: Any) -> str:
+        return f"stacked({', '.join(map(self._print, expression.args))})"
+
 
 def _total(values: Sequence[Value]) -> Value:
-    return sum(values, ZERO)
+    return sum(values[1:], values[0]) if values else ZERO  # matrices cannot be added to 0
 
 
 def _product(values: Sequence[Value]) -> Value:
@@ -115,13 +129,13 @@ def _mean(values: Sequence[Value]) -> Value:
 
 def _inverse(value: Value) -> Value:
     try:
-        return value.inv() if isinstance(value, fmpq_mat) else ONE / value
+        return value.inv() if is_matrix(value) else ONE / value
     except ZeroDivisionError:
         raise NoSolution("it would divide by zero, or invert a singular matrix") from None
 
 
 def _root(value: Value) -> Value:
-    return simplest(sympy.sqrt(sympy.sympify(value)))
+    return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
 
 
 def _exp(value: Value) -> Value:
@@ -130,6 +144,24 @@ def _exp(value: Value) -> Value:
 
 def _log(value: Value) -> Value:
     return sympy.log(sympy.sympify(value, strict=True))
+
+
+@cache
+def _sine(angle: Value) -> Value:
+    return simplest(sympy.sin(sympy.sympify(angle, strict=True)))
+
+
+@cache
+def _cosine(angle: Value) -> Value:
+    return simplest(sympy.cos(sympy.sympify(angle, strict=True)))
+
+
+@cache
+def _tangent(angle: Value) -> Value:
+    value = simplest(sympy.tan(sympy.sympify(angle, strict=True)))
+    if value is sympy.zoo:
+        raise NoSolution("the tangent of a right angle does not exist")
+    return value
 
 
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
@@ -149,6 +181,11 @@ _NAMES = {
     "inverse": _inverse,
     "exp": _exp,
     "log": _log,
+    "sin": _sine,
+    "cos": _cosine,
+    "tan": _tangent,
+    "pi": sympy.pi,
+    "stacked": stacked,
     "Rational": fmpq,
     "range": range,
 }

@@ -201,6 +201,19 @@ class Transposed(Expr):
     is_commutative = False
 
 
+class Blocks(Expr):
+    """A matrix of entries or blocks: how many rows of them there are, then all, row by row.
+
+    Among matrices, 0 and 1 stand for as much of the zero or identity matrix as fits.
+    """
+
+    is_commutative = False
+
+    def __new__(cls, rows: int, *blocks: Any) -> "Blocks":
+        """Build it without evaluating anything."""
+        return Expr.__new__(cls, sympy.sympify(rows), *map(sympy.sympify, blocks))
+
+
 class MaxOf(Expr):
     """The greatest of some values, in their order."""
 

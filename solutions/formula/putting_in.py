@@ -4,13 +4,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy
-from flint import fmpq_mat
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.exact import ordered, to_sympy
 from rldrill.solutions.formula.compiling import evaluate, needs
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
+    Blocks,
     Cases,
     Indicator,
     MatrixLeaf,
@@ -26,6 +26,7 @@ from rldrill.solutions.formula.notation import (
     Transposed,
     label,
 )
+from rldrill.solutions.matrices import is_matrix
 
 Known = Mapping[str, Any]
 
@@ -73,7 +74,7 @@ def leaf(value: Any) -> Expr:
     """An exact value, a matrix or a name as a leaf of an expression."""
     if isinstance(value, str):
         return label(value)
-    if isinstance(value, fmpq_mat):
+    if is_matrix(value):
         return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
     return computed(ordered(to_sympy(value)))
 
@@ -172,7 +173,28 @@ def evaluated(expression: Expr) -> Expr:
         return total
     if expression.is_Pow:
         return arguments[0] ** arguments[1]
+    if isinstance(expression, Blocks):
+        return _stacked(*arguments)
     return arguments[0].T if isinstance(expression, Transposed) else expression.func(*arguments)
+
+
+def _stacked(rows: Expr, *blocks: Any) -> Any:
+    width = len(blocks) // int(rows)
+    lines = [blocks[start : start + width] for start in range(0, len(blocks), width)]
+    heights = [max(getattr(block, "rows", 1) for block in line) for line in lines]
+    widths = [max(getattr(line[j], "cols", 1) for line in lines) for j in range(width)]
+    return sympy.Matrix.vstack(
+        *(
+            sympy.Matrix.hstack(*(_filled(block, height, across) for block, across in zip(line, widths, strict=True)))
+            for line, height in zip(lines, heights, strict=True)
+        )
+    )
+
+
+def _filled(block: Any, height: int, across: int) -> Any:
+    if isinstance(block, sympy.MatrixBase):
+        return block
+    return sympy.Matrix(height, across, lambda i, j: block if i == j else 0)
 
 
 def reduced(expression: Expr) -> Expr:

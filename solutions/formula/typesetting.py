@@ -29,6 +29,7 @@ from rldrill.solutions.exact import Value, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
     ArgMaxOver,
+    Blocks,
     Cases,
     Counting,
     Indicator,
@@ -76,7 +77,9 @@ def typeset(expression: Expr) -> Math:
     if expression is sympy.pi:
         return variable("π")
     if expression.is_Function:
-        return row(word(expression.func.__name__), Fence(listed(map(typeset, expression.args))))
+        return row(
+            word(expression.func.__name__), Fence(listed(typeset(_bare(argument)) for argument in expression.args))
+        )
     raise TypeError(f"{expression.func.__name__} has no typesetting")
 
 
@@ -276,8 +279,16 @@ def _transposed(expression: Transposed) -> Math:
 def _matrix(expression: MatrixLeaf) -> Math:
     matrix = expression.args[0]
     if expression.scalar:
-        return Fence(typeset(matrix[0])) if matrix[0].is_negative else typeset(matrix[0])
+        entry = matrix[0]
+        return Fence(typeset_value(entry)) if entry.is_negative or entry.is_Add else typeset_value(entry)
     return grid([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
+
+
+def _blocks(expression: Blocks) -> Math:
+    rows, *blocks = expression.args
+    width = len(blocks) // int(rows)
+    written = [typeset(_bare(block)) for block in blocks]
+    return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 
 def grid(lines: Sequence[Sequence[Value]]) -> Grid:
@@ -306,6 +317,7 @@ _WRITERS: dict[type, Any] = {
     Size: _size,
     Transposed: _transposed,
     MatrixLeaf: _matrix,
+    Blocks: _blocks,
     Negative: lambda expression: Fence(typeset(expression.args[0])),
     sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
