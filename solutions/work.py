@@ -14,7 +14,7 @@ from rldrill.solutions.exact import ZERO, Value, simplest
 from rldrill.solutions.formula.compiling import evaluate
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.linear import Affine, solve_linear
-from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value
 
@@ -42,9 +42,11 @@ class Step:
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
-        rights = [typeset(self.put_in)]
+        alone = isinstance(self.put_in, Negative)  # a negative number that stands alone needs no brackets
+        rights = [typeset(self.put_in.args[0] if alone else self.put_in)]
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [typeset(reduced(self.put_in)), shown_value(self.value)]
+            rights += [] if alone else [typeset(reduced(self.put_in))]
+            rights += [shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         return Equation(typeset(self.left), distinct, (self.sign, *["="] * (len(distinct) - 1)))
 
