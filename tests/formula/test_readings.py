@@ -57,6 +57,7 @@ def known(data: st.DataObject) -> dict[str, Any]:
         "states": STATES, "choices": ACTIONS, "features": (1, 2), "hypotheses": STATES, "measurements": ("door",),
         "S": Anything(lambda t: STATES[t % 3]), "A": Anything(lambda t: ACTIONS[t % 2]),
         "actions": Anything(lambda _: ACTIONS), "successors": Anything(lambda _: STATES[:2]),
+        "visits": Anything(lambda _: (1, 2)),
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
