@@ -17,6 +17,8 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
+from rldrill.problems.grids import read_grid
+from rldrill.problems.gymnasium import read_environment
 from rldrill.problems.phrases import terminal_note
 
 
@@ -50,7 +52,7 @@ class Dynamics(Givens):
             state, action, after = doubled[0]
             raise ValueError(f"the transition {state}, {action}, {after} is given twice; give each once")
         for (state, action), outcomes in self.outcomes.items():
-            if not _sums_to_one([outcome.probability for outcome in outcomes]):
+            if not sums_to_one([outcome.probability for outcome in outcomes]):
                 total = sum(o.probability for o in outcomes if isinstance(o.probability, Fraction))
                 raise ValueError(f"the probabilities of {action!r} in {state!r} sum to {total}, not to 1")
         return self
@@ -83,10 +85,22 @@ class Dynamics(Givens):
 
 
 class Model(Dynamics):
-    """A finite Markov decision process: its transitions, and the states in which an episode ends."""
+    """A finite Markov decision process: its transitions, and the states in which an episode ends.
+
+    Files may also give it as a ``grid`` drawn as text, or as the ID of a ``gymnasium`` environment.
+    """
 
     terminal: tuple[Name, ...] = ()
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _other_forms(cls, data: object) -> object:
+        if isinstance(data, dict) and "grid" in data:
+            return read_grid(data)
+        if isinstance(data, dict) and "gymnasium" in data:
+            return read_environment(data)
+        return data
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
@@ -112,7 +126,8 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
 
 
-def _sums_to_one(probabilities: list[Scalar]) -> bool:
+def sums_to_one(probabilities: list[Scalar]) -> bool:
+    """Whether probabilities sum to 1; a parameter and its complement do."""
     rest = Fraction(1)
     balance: Counter[str] = Counter()
     for probability in probabilities:
@@ -155,9 +170,18 @@ def check_policy(policy: Policy, model: Dynamics) -> None:
     """
     check_keys(policy, model.states, "the policy", needed=model.states)
     for state, chances in policy.items():
-        check_keys(chances, model.actions[state], f"the policy in {state!r}", needed=())
-        if not _sums_to_one(list(chances.values())):
-            raise ValueError(f"the policy's probabilities in {state!r} do not sum to 1")
+        check_chances(chances, state, model.actions[state])
+
+
+def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str, ...], of: str = "the policy") -> None:
+    """Demand a distribution over the actions of one state.
+
+    Raises:
+        ValueError: an action is unknown, or the probabilities do not sum to 1.
+    """
+    check_keys(chances, actions, f"{of} in {state!r}", needed=())
+    if not sums_to_one(list(chances.values())):
+        raise ValueError(f"{of}'s probabilities in {state!r} do not sum to 1")
 
 
 def transitions_table(model: Dynamics) -> Table:

@@ -1,6 +1,7 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
 from collections.abc import Mapping
+from fractions import Fraction
 from itertools import pairwise
 from typing import Self
 
@@ -8,10 +9,11 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Probability, Scalar, StepSize, shown
+from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.phrases import check_one_open, discount, step_size, terminal_note
+from rldrill.problems.settings import draw_setting
 
 
 class Trajectory(Givens):
@@ -80,7 +82,7 @@ class ActionRun(Givens):
     trajectory: Trajectory
     values: dict[Name, dict[Name, Exact]]
     alpha: StepSize
-    gamma: Probability
+    gamma: Discount
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
@@ -96,6 +98,12 @@ class ActionRun(Givens):
             if action not in self.values[state]:
                 raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
         return self
+
+    def demand_last_action(self, method: str) -> None:
+        """Raise a ``ValueError`` unless the method, which needs the last action, is given it."""
+        if not self.last_action_known:
+            last = self.trajectory.states[-1]
+            raise ValueError(f"trajectory: {method} needs the action taken in {last!r}, the last state, too")
 
     @property
     def updated(self) -> tuple[tuple[str, str], ...]:
@@ -120,6 +128,40 @@ def check_values(values: Mapping[str, object], run: Trajectory) -> None:
     check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
 
 
+def draw_action_run(
+    rng: Draws, visits: str, choices: int, *, last: bool = True, same: bool = False
+) -> tuple[Trajectory, dict[str, dict[str, Fraction]]]:
+    """A run through a world, and different action values in every state that it visits.
+
+    Args:
+        rng: the stream of choices.
+        visits: a letter for every state, in the order of the visits; a full stop is the end: ``"aba."``.
+        choices: how many actions each state has.
+        last: whether the action in the last state is known too, unless the run ends there.
+        same: whether a state that is visited again sees the same action again.
+    """
+    setting = draw_setting(rng)
+    named = dict(zip(sorted(set(visits) - {"."}), rng.shuffled(setting.states), strict=False))
+    states = tuple(named.get(letter, setting.terminal) for letter in visits)
+    left = [state for state in (states if last else states[:-1]) if state != setting.terminal]
+    actions = tuple(rng.choice(setting.actions[:choices]) for _ in left)
+    if same:
+        habit = dict(zip(left, actions, strict=True))
+        actions = tuple(habit[state] for state in left)
+    run = Trajectory(
+        states=states,
+        actions=actions,
+        rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
+        terminal=tuple(state for state in states if state == setting.terminal),
+    )
+    return run, {state: draw_row(rng, setting.actions[:choices]) for state in setting.states if state in states}
+
+
+def draw_row(rng: Draws, actions: tuple[str, ...]) -> dict[str, Fraction]:
+    """A different whole number for every action."""
+    return dict(zip(actions, rng.distinct(len(actions), -3, 9), strict=True))
+
+
 def trajectory_table(run: Trajectory) -> Table:
     """A run as a table over time; what lies outside it is a dash."""
     times = range(len(run.states))
@@ -130,11 +172,11 @@ def trajectory_table(run: Trajectory) -> Table:
     return Table(header=("$t$", *(f"${t}$" for t in times)), rows=tuple(rows))
 
 
-def action_values_table(values: Mapping[str, Mapping[str, Scalar]]) -> Table:
-    """Action values, a line for every state and a column for every action."""
+def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q(s, a)") -> Table:
+    """Action values or the like, a line for every state and a column for every action."""
     actions = tuple(dict.fromkeys(action for row in values.values() for action in row))
     return Table(
-        header=("$Q(s, a)$", *actions),
+        header=(f"${of}$", *actions),
         rows=tuple(
             (state, *(f"${shown(row[action])}$" if action in row else "–" for action in actions))
             for state, row in values.items()
@@ -151,10 +193,10 @@ def seen(run: Trajectory) -> tuple[Block, ...]:
     )
 
 
-def before_run(given: ValueRun | ActionRun, values: Table, *more: str) -> tuple[Block, ...]:
-    """The situation of a question about a run: the run, and the values, α, γ and whatever is given before it."""
-    told = " ".join(("Before the run the values are these.", step_size(given.alpha), discount(given.gamma), *more))
-    return (*seen(given.trajectory), Paragraph(told), values)
+def run_situation(given: ValueRun | ActionRun, *values: Table, more: str = "") -> tuple[Block, ...]:
+    """A run, and the values before it; ``more`` is said after the step size and the discount."""
+    told = f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    return (*seen(given.trajectory), Paragraph(told.rstrip()), *values)
 
 
 def values_asked(given: ValueRun) -> str:
@@ -166,6 +208,6 @@ def values_asked(given: ValueRun) -> str:
 def run_blocks(given: ValueRun | ActionRun, values: Table, method: str) -> tuple[Block, ...]:
     """The situation of a question about updates along a run: the run, the values before it, and the method."""
     return (
-        *before_run(given, values),
+        *run_situation(given, values),
         Paragraph(f"{method} updates after every transition, with the values that are current then."),
     )

@@ -10,7 +10,7 @@ from rldrill.problems.document import Block, Document, Equation, Heading, Paragr
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Choice, Part
 from rldrill.solutions import drawing
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
@@ -110,6 +110,8 @@ class Exercise:
         for part in self.parts:
             entry: dict[str, Any] = {"part": part.label, "ask": unicode_text(Paragraph(part.ask))}
             entry |= {"kind": part.kind.name, "points": part.points}
+            if isinstance(part.kind, Choice):
+                entry["options"] = {letter: unicode_text(Paragraph(text)) for letter, text in part.kind.options.items()}
             if answers:
                 kind, value = answer_kind(part.kind), self.solution.answers[part.label]
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}

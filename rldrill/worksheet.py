@@ -28,6 +28,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.selection import sequence
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import RULE
+from rldrill.solutions.effort import minutes, whole
 from rldrill.solutions.exact import Value, decimal
 
 #: The version of the manifest's form.
@@ -76,6 +77,11 @@ class Sheet:
 def points_of(exercise: Exercise) -> int:
     """What a problem earns, all parts together."""
     return sum(part.points for part in exercise.parts)
+
+
+def minutes_of(exercise: Exercise) -> int:
+    """How many minutes a problem takes by hand, estimated from its steps."""
+    return whole(minutes(exercise.solution))
 
 
 # Planning
@@ -249,8 +255,12 @@ def _front(version: Version) -> str:
         "[Name: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))], "
         "[Date: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))]))\n"
         f"{_points_tables(version)}"
-        f"#par[{text(f'Answer with {RULE}. Show your working.')}]\n"
+        f"#par[{text(f'Answer with {RULE}. Show your working. {_time(version)}')}]\n"
     )
+
+
+def _time(version: Version) -> str:
+    return f"Expect to work for about {sum(map(minutes_of, version.exercises))} minutes."
 
 
 def _points_tables(version: Version) -> str:
@@ -271,7 +281,7 @@ def _heading(index: int, exercise: Exercise) -> str:
     title = exercise.problem.family.title
     return (
         f"heading-line([{text(str(index))}], [{text(title)}], [{text(exercise.id or '')}], "
-        f"[{text(_points(points_of(exercise)))}])"
+        f"[{text(f'about {minutes_of(exercise)} min · {_points(points_of(exercise))}')}])"
     )
 
 

@@ -33,6 +33,11 @@ def minutes(solution: Solution) -> Fraction:
     return seconds / 60
 
 
+def whole(time: Fraction) -> int:
+    """Minutes as they are told: whole, and at least 1."""
+    return max(1, round(time))
+
+
 def _seconds(expression: Expr) -> Fraction:
     operations = digits = 0
     for node in sympy.preorder_traversal(expression):

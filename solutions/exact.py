@@ -43,7 +43,7 @@ def to_sympy(value: Value) -> sympy.Expr:
     """Any exact value as a sympy expression."""
     if isinstance(value, fmpq):
         return sympy.Rational(int(value.numerator), int(value.denominator))
-    return value if isinstance(value, sympy.Expr) else sympy.sympify(value)
+    return value if isinstance(value, sympy.Expr) else sympy.sympify(value, strict=True)
 
 
 def ordered(expression: sympy.Expr) -> sympy.Expr:
@@ -65,14 +65,24 @@ def from_sympy(expression: sympy.Expr) -> Value:
 
 
 def simplest(value: Value) -> Value:
-    """The same value, as a plain rational where no parameter is left in it."""
-    if isinstance(value, int):
+    """The same value, as a plain rational where no parameter is left in it; yes and no stay what they are."""
+    if isinstance(value, int) and not isinstance(value, bool):
         return fmpq(value)
     if isinstance(value, Fraction):
         return fmpq(value.numerator, value.denominator)
     if isinstance(value, sympy.Expr) and value.is_Rational:
         return from_sympy(value)
     return value
+
+
+def tidy(value: Value) -> Value:
+    """A number of roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
+    if not isinstance(value, sympy.Expr) or value.is_Atom or value.free_symbols or value.has(sympy.exp, sympy.log):
+        return value
+    value = sympy.expand(value)
+    if any(node.is_Pow and node.exp.is_negative for node in sympy.preorder_traversal(value)):
+        value = sympy.expand(sympy.radsimp(value))
+    return simplest(value)
 
 
 def parameters(value: Value) -> frozenset[str]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from rldrill.problems.exact import Scalar
-from rldrill.problems.models import Dynamics, Policy
+from rldrill.problems.models import Dynamics, Model, Policy
 from rldrill.problems.runs import ActionRun, Trajectory
 from rldrill.solutions.exact import ZERO, Value, exact
 
@@ -70,3 +70,13 @@ def action_run(given: ActionRun) -> dict[str, Any]:
     if run.states[-1] in run.terminal:
         known["A"][len(run.rewards)] = NO_ACTION
     return known
+
+
+def pays_at_the_end(given: Model) -> bool:
+    """Whether reaching a terminal state earns anything, so that it may be taken for the state's value."""
+    return any(last_rewards(given).values())
+
+
+def last_rewards(given: Model) -> dict[str, Value]:
+    """What reaching each terminal state earns: what somebody takes for its value who gives it one."""
+    return {row.next: exact(row.reward) for row in given.transitions if row.next in given.terminal}

@@ -23,7 +23,7 @@ class RationalFunction:
     def __add__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) + other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) + other if isinstance(other, sympy.Expr) else NotImplemented
         if self.bottom == other.bottom:
             return quotient(self.parameter, self.top + other.top, self.bottom)
         return quotient(self.parameter, self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
@@ -42,7 +42,7 @@ class RationalFunction:
     def __mul__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) * other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) * other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.top, self.bottom * other.bottom)
 
     __rmul__ = __mul__
@@ -50,7 +50,7 @@ class RationalFunction:
     def __truediv__(self, other: Any) -> Any:
         other = _lifted(self.parameter, other)
         if not isinstance(other, RationalFunction):
-            return sympy.sympify(self) / other if isinstance(other, sympy.Expr) else NotImplemented
+            return sympy.sympify(self, strict=True) / other if isinstance(other, sympy.Expr) else NotImplemented
         return quotient(self.parameter, self.top * other.bottom, self.bottom * other.top)
 
     def __rtruediv__(self, other: Any) -> Any:
@@ -76,12 +76,14 @@ class RationalFunction:
         return tuple(c for poly in (top, bottom) for c in poly.coeffs() if c)
 
     def _written(self) -> tuple[fmpq_poly, fmpq_poly]:
-        """Top and bottom with whole coefficients, unless the bottom is 1."""
+        """Top and bottom with whole coefficients, unless the bottom is 1; what is below begins with a plus."""
         if self.bottom.degree() == 0:
             return self.top, self.bottom
         every = [c for poly in (self.top, self.bottom) for c in poly.coeffs() if c]
         scale = fmpq(lcm(*(int(c.q) for c in every)))
         shared = gcd(*(int((c * scale).p) for c in every))
+        if next(c for c in self.bottom.coeffs() if c) < 0:  # 1 − γ, not −1 + γ
+            shared = -shared
         return self.top * scale / shared, self.bottom * scale / shared
 
     def _sympy_(self) -> sympy.Expr:
@@ -118,7 +120,7 @@ def _lifted(parameter: str, value: Any) -> Any:
     if isinstance(value, int | fmpq):
         return RationalFunction(parameter, fmpq_poly([value]), fmpq_poly([1]))
     if isinstance(value, RationalFunction) and value.parameter != parameter:
-        return sympy.sympify(value)
+        return sympy.sympify(value, strict=True)
     return value
 
 

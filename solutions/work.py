@@ -5,23 +5,26 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from flint import fmpq_mat
 from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
-from rldrill.solutions.exact import ZERO, Value, simplest
+from rldrill.solutions.exact import ZERO, Value, simplest, tidy
 from rldrill.solutions.formula.compiling import evaluate
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.linear import Affine, solve_linear
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value
+from rldrill.solutions.matrices import is_matrix
 
 
 @dataclass(frozen=True)
 class Step:
-    """One application of a formula: what was put in, and the exact value that came out."""
+    """One application of a formula: what was put in, and the exact value that came out.
+
+    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's.
+    """
 
     formula: Formula
     right: Expr
@@ -29,6 +32,7 @@ class Step:
     value: Any
     into: Expr
     sign: str
+    own: bool = False
 
     @cached_property
     def left(self) -> Expr:
@@ -43,7 +47,8 @@ class Step:
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
         alone = isinstance(self.put_in, Negative)  # a negative number that stands alone needs no brackets
-        rights = [typeset(self.put_in.args[0] if alone else self.put_in)]
+        rights = [typeset(self.right)] if self.own else []
+        rights.append(typeset(self.put_in.args[0] if alone else self.put_in))
         if self.value is not None:  # an equation of a system has no value of its own
             rights += [] if alone else [typeset(reduced(self.put_in))]
             rights += [shown_value(self.value)]
@@ -80,7 +85,7 @@ def shown_value(value: Any) -> Math:
     """A value of any kind as mathematics: a number, a matrix, the actions that are best."""
     if isinstance(value, tuple):
         return listed(name(str(item)) for item in value)
-    if isinstance(value, fmpq_mat):
+    if is_matrix(value):
         return typeset_value(value[0, 0]) if value.nrows() == value.ncols() == 1 else grid(value.tolist())
     return typeset_value(value)
 
@@ -115,19 +120,31 @@ class Work:
             return mistake.reads
         return formula.right
 
-    def step(self, formula: Formula, *, into: type[Quantity] | None = None, **known: Any) -> Value:
+    def step(
+        self,
+        formula: Formula,
+        *,
+        into: type[Quantity] | None = None,
+        sign: str | None = None,
+        right: Expr | None = None,
+        **known: Any,
+    ) -> Value:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
 
         Args:
             formula: a formula of the sheet.
             into: the quantity to name the result by, where it is not the formula's own (V₂ for V).
+            sign: the relation that holds here, where it is not the formula's own (an inequality that fails).
+            right: what stands on the right in this problem, where the formula only says which function's
+                derivative it is.
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
-        right = self.reading(formula)
-        value = evaluate(right, known)
+        own = right is not None
+        right = self.reading(formula) if right is None else right
+        value = tidy(evaluate(right, known))
         left = formula.left if into is None else into(*formula.left.args)
-        sign = formula.sign if into is None else "="
-        self.lines.append(Step(formula, right, known, value, left, sign))
+        sign = sign or (formula.sign if into is None else "=")
+        self.lines.append(Step(formula, right, known, value, left, sign, own))
         return value
 
     def system(

@@ -83,7 +83,7 @@ def _left_open(rng: Draws) -> Given:
         Transition(second, action, setting.terminal, rng.fraction("1/2"), rng.nonzero(-3, 6)),
     )
     return Given(
-        mdp=Model(transitions=rows, terminal=(setting.terminal,)),
+        mdp=Model(story=setting.story, transitions=rows, terminal=(setting.terminal,)),
         gamma=Parameter("gamma") if in_gamma else rng.fraction("1/2", "4/5"),
     )
 

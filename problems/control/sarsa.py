@@ -21,9 +21,7 @@ class Given(ActionRun):
 
     @model_validator(mode="after")
     def _bootstraps(self) -> Self:
-        if not self.last_action_known:
-            last = self.trajectory.states[-1]
-            raise ValueError(f"trajectory: Sarsa needs the action taken in {last!r}, the last state, too")
+        self.demand_last_action("Sarsa")
         return self
 
 

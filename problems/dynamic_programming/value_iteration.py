@@ -1,36 +1,24 @@
 """Values after some sweeps of value iteration, and the greedy policy for them."""
 
-from typing import Self
-
-from pydantic import Field, model_validator
-
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Probability
-from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_keys, model_blocks, values_table
+from rldrill.problems.exact import Probability
+from rldrill.problems.family import Question
+from rldrill.problems.models import model_blocks
 from rldrill.problems.parts import Part, Policy, Table
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
 REVISION = 1
 
 
-class Given(Givens):
+class Given(Sweeps):
     """A model, the discount, how many sweeps, and the values to start from (0 where none are given)."""
 
-    mdp: Model
     gamma: Probability
-    sweeps: int = Field(ge=1, le=1000)
-    start: dict[Name, Exact] | None = None
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        if self.start is not None:
-            check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
-        return self
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -44,16 +32,10 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model; values after the sweeps, then the policy that is greedy for them."""
-    sweeps = "one sweep" if given.sweeps == 1 else f"{given.sweeps} sweeps"
-    begin = (
-        (Paragraph("Value iteration starts from these values:"), values_table(given.start, "V_0"))
-        if given.start
-        else (Paragraph("Value iteration starts from $V_0(s) = 0$ for all states."),)
-    )
     blocks = (
         *model_blocks(given.mdp),
-        *begin,
-        Paragraph(f"{discount(given.gamma)} Sweeps are synchronous: each uses only the values of the sweep before."),
+        *begin(given, "Value iteration"),
+        Paragraph(f"{discount(given.gamma)} {SYNCHRONOUS}"),
     )
     k = given.sweeps
     return Question(
@@ -61,7 +43,7 @@ def question(given: Given) -> Question:
         (
             Part(
                 "a",
-                f"What is $V_{{{k}}}(s)$, the value of every state after {sweeps}?",
+                f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}?",
                 Table(f"V_{{{k}}}", given.mdp.states),
             ),
             Part("b", f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),

@@ -7,17 +7,15 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.mathematics import Grid, Math, mathematics, number
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid
 from rldrill.problems.parts import Matrix as MatrixKind
 from rldrill.problems.parts import Part
 
 TITLE = "LQR gain"
 SOURCE = "Bertsekas 2017, section 3.1"
 REVISION = 1
-
-MatrixField = tuple[tuple[Exact, ...], ...]
 
 
 class Given(Givens):
@@ -34,12 +32,9 @@ class Given(Givens):
         for name, matrix, rows, columns in (
             ("A", self.A, n, n), ("B", self.B, n, m), ("R", self.R, m, m), ("P", self.P, n, n),
         ):  # fmt: skip
-            if len(matrix) != rows or any(len(line) != columns for line in matrix):
-                shape = f"{len(matrix)}×{len(matrix[0])}"
-                raise ValueError(f"{name} is {shape}, but with A {n}×{n} and {m} inputs it must be {rows}×{columns}")
+            check_shape(name, matrix, rows, columns, f"with A {n}×{n} and {m} inputs ")
         for name, matrix in (("R", self.R), ("P", self.P)):
-            if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
-                raise ValueError(f"{name} must be symmetric")
+            check_symmetric(name, matrix)
         return self
 
 
@@ -50,18 +45,13 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(A=((a,),), B=((b,),), R=((r,),), P=((p,),))
     inputs = level - 1
     A = tuple(tuple(rng.whole(-1, 2) for _ in range(2)) for _ in range(2))
-    B = tuple(tuple(rng.whole(0, 1 if level == 3 else 2) for _ in range(inputs)) for _ in range(2))
+    # An input without effect would make no question: no column of B is zero.
+    columns = tuple(rng.choice(((1, 0), (0, 1), (1, 1), (2, 1))) for _ in range(inputs))
+    B = tuple(tuple(Fraction(column[line]) for column in columns) for line in range(2))
     R = tuple(tuple(rng.whole(1, 3) if i == j else Fraction(0) for j in range(inputs)) for i in range(inputs))
     corner = rng.whole(0, 1)
     P = ((-rng.whole(2, 4), corner), (corner, -rng.whole(2, 4)))
     return Given(A=A, B=B, R=R, P=P)
-
-
-def matrix(lines: MatrixField) -> Math:
-    """A given matrix as mathematics; a 1×1 matrix is a number."""
-    if len(lines) == len(lines[0]) == 1:
-        return number(lines[0][0])
-    return Grid(tuple(tuple(number(entry) for entry in line) for line in lines))
 
 
 def question(given: Given) -> Question:
@@ -73,7 +63,7 @@ def question(given: Given) -> Question:
             "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$. The value from the next time on is "
             "$V_{t+1}(s) = s^⊤ P_{t+1} s$. At $t = 0$:"
         ),
-        *(Equation(mathematics(name), (matrix(lines),), ("=",)) for name, lines in named),
+        *(Equation(mathematics(name), (grid(lines),), ("=",)) for name, lines in named),
     )
     rows, columns = len(given.B[0]), len(given.A)
     return Question(

@@ -9,7 +9,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Part, Table, Vector
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import Episode, ValueRun, before_run, draw_episode, values_asked
+from rldrill.problems.runs import Episode, ValueRun, draw_episode, run_situation, values_asked
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Monte Carlo prediction"
@@ -62,7 +62,7 @@ def question(given: Given) -> Question:
         else "Every visit to a state counts: every-visit Monte Carlo."
     )
     blocks = (
-        *before_run(given, values_table(given.values)),
+        *run_situation(given, values_table(given.values)),
         Paragraph(
             f"{order} All returns are computed when the episode is over. Then the updates are made in the order of "
             "the visits, each with the value that is current then."

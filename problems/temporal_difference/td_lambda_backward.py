@@ -7,7 +7,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import Trajectory, ValueRun, before_run, values_asked
+from rldrill.problems.runs import Trajectory, ValueRun, run_situation, values_asked
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), backward view"
@@ -47,7 +47,7 @@ def question(given: Given) -> Question:
     """The run, the values before it, and the order of the updates; all visited states are asked for."""
     return Question(
         (
-            *before_run(given, values_table(given.values), trace_parameter(given.lam)),
+            *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
             Paragraph(
                 "TD(λ) learns during the run, in the backward view with accumulating traces, which are all $0$ before "
                 "it. After every transition first the traces of all states are updated, and then their values, with "

@@ -11,7 +11,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Part, Table, Vector
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import Episode, ValueRun, before_run, draw_episode
+from rldrill.problems.runs import Episode, ValueRun, draw_episode, run_situation
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
@@ -59,7 +59,7 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The λ-returns first, then the updated values."""
     blocks = (
-        *before_run(given, values_table(given.values), trace_parameter(given.lam)),
+        *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
         Paragraph(
             "TD(λ) learns in the forward view: the λ-returns are computed with the values before the run, "
             "and the updates are made after the run."

@@ -18,11 +18,13 @@ _COMMANDS = {
     "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi",
     "ξ": r"\xi", "∞": r"\infty", "∇": r"\nabla", "𝔼": r"\mathbb{E}", "·": r"\cdot", "×": r"\times", "±": r"\pm",
     "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
-    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "∫": r"\int",
+    "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "Π": r"\prod",
+    "∫": r"\int",
     "max": r"\max", "min": r"\min", "arg max": r"\operatorname*{arg\,max}", "ln": r"\ln", "exp": r"\exp",
-    "log": r"\log", "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
+    "log": r"\log", "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "∂": r"\partial", "Δ": r"\Delta", "ω": r"\omega",
+    "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
 }  # fmt: skip
-_PLAIN_WORDS = {"max", "min", "ln", "exp", "log"}
+_PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
 
 
 def latex(math: Math) -> str:
@@ -38,7 +40,7 @@ def latex(math: Math) -> str:
             base = latex(body) if isinstance(body, Glyph) and body.style != "word" else f"{{{latex(body)}}}"
             return base + _limits(below, above)
         case Fence(body, left, right):
-            return rf"\left{_COMMANDS.get(left, left)} {latex(body)} \right{_COMMANDS.get(right, right)}"
+            return rf"\left{_fence(left)} {latex(body)} \right{_fence(right)}"
         case Big(sign, below, above):
             return _COMMANDS.get(sign, rf"\operatorname*{{{sign}}}") + _limits(below, above)
         case Root(body):
@@ -47,7 +49,12 @@ def latex(math: Math) -> str:
             return rf"\{mark}{{{latex(body)}}}"
         case Grid(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
-            return rf"\left{left} \begin{{matrix}} {lines} \end{{matrix}} \right{right}"
+            return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"
+
+
+def _fence(sign: str) -> str:
+    """A bracket that grows; none at all is a full stop to LaTeX, and a bar is no relation here."""
+    return {"": ".", "|": "|"}.get(sign) or _COMMANDS.get(sign, sign)
 
 
 def _glyph(text: str, style: str) -> str:

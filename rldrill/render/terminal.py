@@ -11,7 +11,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from rldrill.problems.document import Block, Equation, Heading, Paragraph, Table
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Choice, Part
 from rldrill.render.stacked import stacked
 from rldrill.render.unicode import inline
 
@@ -78,6 +78,9 @@ def asked(part: Part, *, only: bool = False) -> Text:
     """The sentence that asks for a part, with its letter unless it is the only one."""
     text = Text() if only else Text(f"({part.label}) ", style="bold")
     text.append(inline(part.ask))
+    if isinstance(part.kind, Choice):
+        for letter, option in part.kind.options.items():
+            text.append(f"\n    ({letter}) {inline(option)}")
     if part.points != 1:
         text.append(f"  [{part.points} points]", style="dim")
     return text

@@ -22,6 +22,7 @@ _ABOVE = dict(
         strict=True,
     )
 )
+_DIFFERENTIALS = (Glyph("∂", "variable"), Glyph("d", "variable"))
 _MARKS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 
 
@@ -116,6 +117,7 @@ def _grouped(math: Math) -> str:
         or (isinstance(math, Script) and not isinstance(math.body, Fraction))
         or (isinstance(math, Row) and len(math.items) == 2 and isinstance(math.items[1], Fence)
             and isinstance(math.items[0], Glyph) and math.items[0].style in ("word", "variable"))
+        or (isinstance(math, Row) and len(math.items) == 2 and math.items[0] in _DIFFERENTIALS)
     )  # fmt: skip
     return text if single else f"({text})"
 

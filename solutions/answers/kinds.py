@@ -5,8 +5,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
-from flint import fmpq, fmpq_mat
-
 from rldrill.problems import parts
 from rldrill.problems.document import Equation, joined
 from rldrill.problems.mathematics import (
@@ -33,6 +31,7 @@ from rldrill.solutions.answers.text import (
 )
 from rldrill.solutions.exact import Value, decimal, to_sympy
 from rldrill.solutions.formula.typesetting import grid, typeset_value
+from rldrill.solutions.matrices import is_matrix, matrix
 
 KindT = TypeVar("KindT", bound=parts.Kind)
 #: A cell of a typed answer: a number as it was read, or a word.
@@ -175,9 +174,7 @@ class MatrixAnswer(Answer[parts.Matrix]):
     """A matrix, row by row."""
 
     def _lines(self, value: Any) -> list[list[Any]]:
-        if isinstance(value, fmpq_mat):
-            return [list(line) for line in value.tolist()]
-        return [list(line) for line in value]
+        return [list(line) for line in (value.tolist() if is_matrix(value) else value)]
 
     def cells(self, value: Any) -> dict[str, Any]:
         return {
@@ -191,10 +188,8 @@ class MatrixAnswer(Answer[parts.Matrix]):
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         entries = list(cells.values())
-        if all(isinstance(entry, fmpq) for entry in entries):
-            return fmpq_mat(self.kind.rows, self.kind.columns, entries)
         width = self.kind.columns
-        return tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
+        return matrix(entries[start : start + width] for start in range(0, len(entries), width))
 
     def write(self, value: Any) -> str:
         return f"[{'; '.join(', '.join(map(text_of, line)) for line in self._lines(value))}]"

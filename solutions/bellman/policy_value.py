@@ -11,11 +11,6 @@ from rldrill.solutions.oracle import Answers, at, chances, lookahead, tensors
 from rldrill.solutions.sheet.bellman import BELLMAN_V, TRANSPOSED
 from rldrill.solutions.work import Work
 
-
-def _pays_at_the_end(given: Given) -> bool:
-    return any(row.next in given.mdp.terminal and row.reward for row in given.mdp.transitions)
-
-
 ONE_BACKUP = slip(
     "one-backup",
     "One backup from zero is only the expected reward; the values must solve all equations at once.",
@@ -23,7 +18,7 @@ ONE_BACKUP = slip(
 TERMINAL_VALUE = slip(
     "terminal-value",
     "A terminal state is worth 0: the reward for reaching it is already earned on the way there.",
-    when=_pays_at_the_end,
+    when=lambda given: knowns.pays_at_the_end(given.mdp),
 )
 MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED)
 
@@ -38,7 +33,7 @@ def solve(given: Given, work: Work) -> None:
     }
     fixed = dict.fromkeys(mdp.terminal, ZERO)
     if work.makes(TERMINAL_VALUE):
-        fixed |= {row.next: exact(row.reward) for row in mdp.transitions if row.next in mdp.terminal}
+        fixed |= knowns.last_rewards(mdp)
     if work.makes(ONE_BACKUP):
         start = fixed | dict.fromkeys(mdp.states, ZERO)
         values = {state: work.step(BELLMAN_V, s=state, V=start, **known) for state in mdp.states}

@@ -6,7 +6,7 @@ from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.oracle import Answers, at, lookahead, tensors
 from rldrill.solutions.sheet.dynamic_programming import (
     FORGOT_GAMMA,
@@ -16,11 +16,6 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-
-def _pays_at_the_end(given: Given) -> bool:
-    return any(row.next in given.mdp.terminal and row.reward for row in given.mdp.transitions)
-
-
 IN_PLACE = slip(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
@@ -28,7 +23,7 @@ IN_PLACE = slip(
 TERMINAL_TWICE = slip(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
-    when=_pays_at_the_end,
+    when=lambda given: knowns.pays_at_the_end(given.mdp),
 )
 MISCONCEPTIONS = (IN_PLACE, TERMINAL_TWICE, MEAN_FOR_MAX, FORGOT_GAMMA)
 
@@ -39,7 +34,7 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     ends = dict.fromkeys(mdp.terminal, ZERO)
     if work.makes(TERMINAL_TWICE):
-        ends |= {row.next: exact(row.reward) for row in mdp.transitions if row.next in ends}
+        ends |= knowns.last_rewards(mdp)
     values = dict.fromkeys(mdp.states, ZERO) if given.start is None else knowns.values(given.start)
     values |= ends
     for sweep in range(1, given.sweeps + 1):
@@ -50,7 +45,7 @@ def solve(given: Given, work: Work) -> None:
             current = old | values if work.makes(IN_PLACE) else old
             values[state] = work.step(VALUE_ITERATION, s=state, V=current, into=numbered(V, sweep), **known)
     values = ends | work.answer("a", {state: values[state] for state in mdp.states})
-    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states})
+    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:

@@ -2,16 +2,18 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from math import prod
 from typing import Any
 
 import sympy
-from flint import fmpq, fmpq_mat
+from flint import fmpq
 from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign, simplest
 from rldrill.solutions.formula.notation import Counting, Over, Quantity
+from rldrill.solutions.matrices import is_matrix, stacked
 
 
 class _Code(StrPrinter):
@@ -39,12 +41,27 @@ class _Code(StrPrinter):
         base, exponent = expression.args
         if exponent == -1:
             return f"inverse({self._print(base)})"
+        if exponent == sympy.S.Half:
+            return f"root({self._print(base)})"
+        if exponent.is_Integer and exponent.is_negative:
+            return f"inverse(({self._print(base)})**{-exponent})"
         return f"(({self._print(base)})**({self._print(exponent)}))"
 
     def _print_Quantity(self, expression: Any) -> str:
         return f"{expression.code}[{', '.join(map(self._print, expression.args))}]"
 
     _print_Function = _print_Quantity
+
+    def _print_Abs(self, expression: Any) -> str:
+        return f"abs({self._print(expression.args[0])})"
+
+    def _circular(self, expression: Any) -> str:
+        return f"{expression.func.__name__}({self._print(expression.args[0])})"
+
+    _print_sin = _print_cos = _print_tan = _circular
+
+    def _print_Pi(self, expression: Any) -> str:  # noqa: ARG002
+        return "pi"
 
     def _print_exp(self, expression: Any) -> str:
         return f"exp({self._print(expression.args[0])})"
@@ -57,6 +74,9 @@ class _Code(StrPrinter):
 
     def _print_SumOver(self, expression: Over) -> str:
         return f"total({self._over(expression)})"
+
+    def _print_ProductOver(self, expression: Over) -> str:
+        return f"product({self._over(expression)})"
 
     def _print_MaxOver(self, expression: Over) -> str:
         return f"largest({self._over(expression)})"
@@ -73,15 +93,34 @@ class _Code(StrPrinter):
         return f"range({self._print(first)}, {self._print(last)} + 1)"
 
     def _print_Indicator(self, expression: Any) -> str:
-        left, right = map(self._print, expression.args)
-        return f"(1 if {left} == {right} else 0)"
+        names = [self._print(argument) for argument in expression.args]
+        same = [f"{left} == {right}" for left, right in zip(names[::2], names[1::2], strict=True)]
+        return f"(1 if {' and '.join(same)} else 0)"
+
+    def _print_Member(self, expression: Any) -> str:
+        element, domain = map(self._print, expression.args)
+        return f"({element} in {domain})"
+
+    def _print_Cases(self, expression: Any) -> str:
+        condition, then, otherwise = map(self._print, expression.args)
+        return f"(({then}) if {condition} else ({otherwise}))"
+
+    def _print_Size(self, expression: Any) -> str:
+        return f"len({self._print(expression.args[0])})"
 
     def _print_Transposed(self, expression: Any) -> str:
         return f"({self._print(expression.args[0])}).transpose()"
 
+    def _print_Blocks(self, expression: Any) -> str:
+        return f"stacked({', '.join(map(self._print, expression.args))})"
+
 
 def _total(values: Sequence[Value]) -> Value:
-    return sum(values, ZERO)
+    return sum(values[1:], values[0]) if values else ZERO  # matrices cannot be added to 0
+
+
+def _product(values: Sequence[Value]) -> Value:
+    return prod(values, start=ONE)
 
 
 def _mean(values: Sequence[Value]) -> Value:
@@ -90,17 +129,39 @@ def _mean(values: Sequence[Value]) -> Value:
 
 def _inverse(value: Value) -> Value:
     try:
-        return value.inv() if isinstance(value, fmpq_mat) else ONE / value
+        return value.inv() if is_matrix(value) else ONE / value
     except ZeroDivisionError:
         raise NoSolution("it would divide by zero, or invert a singular matrix") from None
 
 
+def _root(value: Value) -> Value:
+    return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
+
+
 def _exp(value: Value) -> Value:
-    return sympy.exp(sympy.sympify(value))
+    return sympy.exp(sympy.sympify(value, strict=True))
 
 
 def _log(value: Value) -> Value:
-    return sympy.log(sympy.sympify(value))
+    return sympy.log(sympy.sympify(value, strict=True))
+
+
+@cache
+def _sine(angle: Value) -> Value:
+    return simplest(sympy.sin(sympy.sympify(angle, strict=True)))
+
+
+@cache
+def _cosine(angle: Value) -> Value:
+    return simplest(sympy.cos(sympy.sympify(angle, strict=True)))
+
+
+@cache
+def _tangent(angle: Value) -> Value:
+    value = simplest(sympy.tan(sympy.sympify(angle, strict=True)))
+    if value is sympy.zoo:
+        raise NoSolution("the tangent of a right angle does not exist")
+    return value
 
 
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
@@ -111,12 +172,20 @@ def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
 
 _NAMES = {
     "total": _total,
+    "product": _product,
+    "root": _root,
+    "len": len,
     "mean": _mean,
     "largest": largest,
     "arg_max": arg_max,
     "inverse": _inverse,
     "exp": _exp,
     "log": _log,
+    "sin": _sine,
+    "cos": _cosine,
+    "tan": _tangent,
+    "pi": sympy.pi,
+    "stacked": stacked,
     "Rational": fmpq,
     "range": range,
 }

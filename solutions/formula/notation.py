@@ -113,7 +113,7 @@ class Over(Expr):
 
     def __new__(cls, body: Expr, index: sympy.Symbol, domain: Expr) -> "Over":
         """Build it without evaluating anything."""
-        return Expr.__new__(cls, sympy.sympify(body), index, domain)
+        return Expr.__new__(cls, sympy.sympify(body, strict=True), index, domain)
 
     @property
     def body(self) -> Expr:
@@ -145,6 +145,10 @@ class SumOver(Over):
     """Σ over a finite set."""
 
 
+class ProductOver(Over):
+    """Π over a finite set."""
+
+
 class MaxOver(Over):
     """The greatest value over a finite set."""
 
@@ -162,8 +166,8 @@ class Counting(Expr):
 
     def __new__(cls, first: Expr, last: Expr, shown: Expr | None = None) -> "Counting":
         """Build it without evaluating anything."""
-        last = sympy.sympify(last)
-        return Expr.__new__(cls, sympy.sympify(first), last, last if shown is None else shown)
+        last = sympy.sympify(last, strict=True)
+        return Expr.__new__(cls, sympy.sympify(first, strict=True), last, last if shown is None else shown)
 
     @property
     def free_symbols(self) -> set[sympy.Symbol]:
@@ -171,14 +175,43 @@ class Counting(Expr):
         return self.args[0].free_symbols | self.args[1].free_symbols
 
 
+class Size(Expr):
+    """How many elements a finite set has."""
+
+
 class Indicator(Expr):
-    """1 where two things are the same, else 0."""
+    """1 where two things are the same, else 0; of four things, where the first two are and the last two are."""
+
+
+class Member(Expr):
+    """Whether something belongs to a finite set; stands in ``Cases``."""
+
+
+class Cases(Expr):
+    """One of two values: if the condition (an ``Indicator``, a ``Member``) holds, and otherwise."""
+
+    def __new__(cls, condition: Expr, then: Expr, otherwise: Expr) -> "Cases":
+        """Build it without evaluating anything."""
+        return Expr.__new__(cls, condition, sympy.sympify(then), sympy.sympify(otherwise))
 
 
 class Transposed(Expr):
     """The transpose of a matrix."""
 
     is_commutative = False
+
+
+class Blocks(Expr):
+    """A matrix of entries or blocks: how many rows of them there are, then all, row by row.
+
+    Among matrices, 0 and 1 stand for as much of the zero or identity matrix as fits.
+    """
+
+    is_commutative = False
+
+    def __new__(cls, rows: int, *blocks: Any) -> "Blocks":
+        """Build it without evaluating anything."""
+        return Expr.__new__(cls, sympy.sympify(rows), *map(sympy.sympify, blocks))
 
 
 class MaxOf(Expr):

@@ -4,13 +4,14 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy
-from flint import fmpq_mat
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.exact import ordered, to_sympy
 from rldrill.solutions.formula.compiling import evaluate, needs
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
+    Blocks,
+    Cases,
     Indicator,
     MatrixLeaf,
     MaxOf,
@@ -18,11 +19,14 @@ from rldrill.solutions.formula.notation import (
     MeanOver,
     Negative,
     Over,
+    ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
     label,
 )
+from rldrill.solutions.matrices import is_matrix
 
 Known = Mapping[str, Any]
 
@@ -37,8 +41,11 @@ def put_in(expression: Expr, known: Known) -> Expr:
         return _quantity(expression, known)
     if isinstance(expression, Over):
         return _over(expression, known)
-    if isinstance(expression, Indicator):
+    if isinstance(expression, Indicator | Size):
         return sympy.Integer(evaluate(expression, known))
+    if isinstance(expression, Cases):
+        condition, then, otherwise = expression.args
+        return put_in(then if evaluate(condition, known) else otherwise, known)
     if expression.is_Symbol:
         return leaf(known[expression.name]) if expression.name in known else expression
     if not expression.args:
@@ -67,7 +74,7 @@ def leaf(value: Any) -> Expr:
     """An exact value, a matrix or a name as a leaf of an expression."""
     if isinstance(value, str):
         return label(value)
-    if isinstance(value, fmpq_mat):
+    if is_matrix(value):
         return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
     return computed(ordered(to_sympy(value)))
 
@@ -102,6 +109,8 @@ def _over(expression: Over, known: Known) -> Expr:
     terms = [put_in(expression.body, {**known, expression.index.name: item}) for item in items]
     if isinstance(expression, SumOver):
         return _sum(terms)
+    if isinstance(expression, ProductOver):
+        return _product(terms)
     if isinstance(expression, MaxOver):
         return MaxOf(*terms)
     if isinstance(expression, MeanOver):
@@ -119,7 +128,7 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    kept = [term for term in _flat(Add, terms) if not term.is_zero]
+    kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
     if not kept:
         return sympy.S.Zero
     return kept[0] if len(kept) == 1 else Add(*kept, evaluate=False)
@@ -164,7 +173,28 @@ def evaluated(expression: Expr) -> Expr:
         return total
     if expression.is_Pow:
         return arguments[0] ** arguments[1]
+    if isinstance(expression, Blocks):
+        return _stacked(*arguments)
     return arguments[0].T if isinstance(expression, Transposed) else expression.func(*arguments)
+
+
+def _stacked(rows: Expr, *blocks: Any) -> Any:
+    width = len(blocks) // int(rows)
+    lines = [blocks[start : start + width] for start in range(0, len(blocks), width)]
+    heights = [max(getattr(block, "rows", 1) for block in line) for line in lines]
+    widths = [max(getattr(line[j], "cols", 1) for line in lines) for j in range(width)]
+    return sympy.Matrix.vstack(
+        *(
+            sympy.Matrix.hstack(*(_filled(block, height, across) for block, across in zip(line, widths, strict=True)))
+            for line, height in zip(lines, heights, strict=True)
+        )
+    )
+
+
+def _filled(block: Any, height: int, across: int) -> Any:
+    if isinstance(block, sympy.MatrixBase):
+        return block
+    return sympy.Matrix(height, across, lambda i, j: block if i == j else 0)
 
 
 def reduced(expression: Expr) -> Expr:

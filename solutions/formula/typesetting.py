@@ -29,6 +29,8 @@ from rldrill.solutions.exact import Value, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
     ArgMaxOver,
+    Blocks,
+    Cases,
     Counting,
     Indicator,
     Label,
@@ -36,9 +38,12 @@ from rldrill.solutions.formula.notation import (
     MaxOf,
     MaxOver,
     MeanOver,
+    Member,
     Negative,
     Over,
+    ProductOver,
     Quantity,
+    Size,
     SumOver,
     Transposed,
 )
@@ -72,7 +77,9 @@ def typeset(expression: Expr) -> Math:
     if expression is sympy.pi:
         return variable("π")
     if expression.is_Function:
-        return row(word(expression.func.__name__), Fence(listed(map(typeset, expression.args))))
+        return row(
+            word(expression.func.__name__), Fence(listed(typeset(_bare(argument)) for argument in expression.args))
+        )
     raise TypeError(f"{expression.func.__name__} has no typesetting")
 
 
@@ -192,7 +199,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
 def _factor(factor: Expr, *, last: bool) -> Math:
     if factor.is_Add or (factor.is_Number and factor.is_negative):
         return Fence(typeset(factor))
-    if isinstance(factor, SumOver | MaxOver) and not last:
+    if isinstance(factor, SumOver | ProductOver | MaxOver) and not last:
         return Fence(typeset(factor))
     return typeset(factor)
 
@@ -219,7 +226,7 @@ def _body(expression: Expr) -> Math:
 
 
 def _over(expression: Over) -> Math:
-    signs = {SumOver: "Σ", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
+    signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
     if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
         return row(Big("arg max", typeset(expression.index)), _braces(body.args))
@@ -241,8 +248,23 @@ def _max_of(expression: MaxOf) -> Math:
 
 
 def _indicator(expression: Indicator) -> Math:
-    left, right = map(typeset, expression.args)
-    return row(Glyph("1", "number"), Fence(row(left, relation("="), right)))
+    return row(Glyph("1", "number"), Fence(_condition(expression)))
+
+
+def _condition(expression: Expr) -> Math:
+    sign = relation("∈" if isinstance(expression, Member) else "=")
+    sides = [typeset(argument) for argument in expression.args]
+    return listed(row(left, sign, right) for left, right in zip(sides[::2], sides[1::2], strict=True))
+
+
+def _cases(expression: Cases) -> Math:
+    condition, then, otherwise = expression.args
+    lines = (typeset(then), row(word("if"), _condition(condition))), (typeset(otherwise), word("otherwise"))
+    return Grid(lines, "{", "")
+
+
+def _size(expression: Size) -> Math:
+    return Fence(typeset(expression.args[0]), "|", "|")
 
 
 def _transposed(expression: Transposed) -> Math:
@@ -257,8 +279,16 @@ def _transposed(expression: Transposed) -> Math:
 def _matrix(expression: MatrixLeaf) -> Math:
     matrix = expression.args[0]
     if expression.scalar:
-        return Fence(typeset(matrix[0])) if matrix[0].is_negative else typeset(matrix[0])
+        entry = matrix[0]
+        return Fence(typeset_value(entry)) if entry.is_negative or entry.is_Add else typeset_value(entry)
     return grid([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
+
+
+def _blocks(expression: Blocks) -> Math:
+    rows, *blocks = expression.args
+    width = len(blocks) // int(rows)
+    written = [typeset(_bare(block)) for block in blocks]
+    return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 
 def grid(lines: Sequence[Sequence[Value]]) -> Grid:
@@ -282,9 +312,14 @@ _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
     Indicator: _indicator,
+    Member: _condition,
+    Cases: _cases,
+    Size: _size,
     Transposed: _transposed,
     MatrixLeaf: _matrix,
+    Blocks: _blocks,
     Negative: lambda expression: Fence(typeset(expression.args[0])),
+    sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
     sympy.log: _logarithm,
 }

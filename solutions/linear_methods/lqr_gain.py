@@ -1,20 +1,14 @@
 """The gain from the sheet's formula, in matrices of rationals."""
 
 import numpy as np
-from flint import fmpq_mat
 
-from rldrill.problems.linear_methods.lqr_gain import Given, MatrixField
-from rldrill.solutions.exact import exact
+from rldrill.problems.linear_methods.lqr_gain import Given
+from rldrill.solutions.matrices import given as matrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED_A)
-
-
-def matrix(lines: MatrixField) -> fmpq_mat:
-    """A given matrix as one to compute with."""
-    return fmpq_mat(len(lines), len(lines[0]), [exact(entry) for line in lines for entry in line])
 
 
 def solve(given: Given, work: Work) -> None:

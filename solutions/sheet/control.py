@@ -1,11 +1,75 @@
-"""Section 5 of the sheet: TD control."""
+"""Section 5 of the sheet: TD control; beyond it, what else there is to learn from a choice of actions."""
 
 from typing import Any
 
-from sympy import evaluate
+from sympy import Expr, evaluate, exp, log, sqrt
 
+from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import A, Actions, MaxOver, MeanOver, Q, S, a, alpha, gamma, r, t
+from rldrill.solutions.formula.notation import (
+    A,
+    Actions,
+    ArgMaxOver,
+    Cases,
+    Choices,
+    Counting,
+    Indicator,
+    MaxOver,
+    MeanOver,
+    Member,
+    ProductOver,
+    Q,
+    S,
+    Size,
+    SumOver,
+    T,
+    Vpi,
+    a,
+    alpha,
+    b,
+    called,
+    conditioned,
+    epsilon,
+    gamma,
+    i,
+    lam,
+    letter,
+    n,
+    pi,
+    quantity,
+    r,
+    s,
+    subscripted,
+    t,
+)
+
+_BEYOND = "Beyond the sheet."
+
+
+def _starred(head: str) -> Script:
+    return Script(variable(head), above=operator("*"))
+
+
+def _numbered_table(index: Math, *arguments: Math) -> Math:
+    return row(Script(variable("Q"), index), Fence(listed(arguments)))
+
+
+j = letter("j")
+c = letter("c")
+y = quantity("y", subscripted("y"))
+delta = quantity("delta", subscripted("δ"))
+e = quantity("e", called("e"))
+Best = quantity("best", called(_starred("a")))
+Greedy = quantity("greedy", called(_starred("A")))
+Qi = quantity("Qi", _numbered_table)
+Selected = quantity("selected", lambda time: Script(variable("a"), time, operator("*")))
+behaviour = quantity("behaviour", conditioned("b"))
+rho = quantity("rho", subscripted("ρ"))
+Ri = quantity("Ri", subscripted("R"))
+N = quantity("N", called("N"))
+U = quantity("U", called("U"))
+H = quantity("H", called("H"))
+rbar = quantity("rbar", subscripted(Accent(variable("r"), "bar")))
 
 
 def _next_action_is_known_here(given: Any) -> bool:
@@ -17,11 +81,34 @@ def _next_action_is_known_here(given: Any) -> bool:
     )
 
 
+def _last_action_is_known(given: Any) -> bool:
+    return bool(given.last_action_known)
+
+
+def _tied(given: Any) -> bool:
+    return len(given.best) > 1
+
+
+def _not_tied(given: Any) -> bool:
+    return not _tied(given)
+
+
+def _moved(target: Expr) -> Expr:
+    """The value of the pair just left, moved a step α towards a target."""
+    return Q(S(t), A(t)) + alpha * (target - Q(S(t), A(t)))
+
+
 with evaluate(False):
+    _SARSA_TARGET = r(t + 1) + gamma * Q(S(t + 1), A(t + 1))
+    _Q_LEARNING_TARGET = r(t + 1) + gamma * MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1)))
+    _WITHOUT_GAMMA = r(t + 1) + Q(S(t + 1), A(t + 1))
+    _MAX_WITHOUT_GAMMA = r(t + 1) + MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1)))
+    _MEAN_TARGET = r(t + 1) + gamma * MeanOver(Q(S(t + 1), a), a, Actions(S(t + 1)))
+
     SARSA = Formula(
         "sarsa",
         Q(S(t), A(t)),
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * Q(S(t + 1), A(t + 1)) - Q(S(t), A(t))),
+        _moved(_SARSA_TARGET),
         title="Sarsa",
         source="Sutton & Barto 2018, eq. 6.7",
         hint="The target takes the value of the action that is taken in the next state, best or not.",
@@ -30,27 +117,91 @@ with evaluate(False):
     MAX_FOR_TAKEN = misread(
         SARSA,
         "max-for-action-taken",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        _moved(_Q_LEARNING_TARGET),
         "Sarsa takes the value of the action taken in the next state; the greatest is Q-learning's.",
     )
     STATE_FOR_NEXT = misread(
         SARSA,
         "state-for-next-state",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * Q(S(t), A(t + 1)) - Q(S(t), A(t))),
+        _moved(r(t + 1) + gamma * Q(S(t), A(t + 1))),
         "The next action is valued in the next state s′, where it is taken, not in the state that is left.",
         when=_next_action_is_known_here,
     )
     SARSA_FORGOT_GAMMA = misread(
         SARSA,
         "forgot-gamma",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + Q(S(t + 1), A(t + 1)) - Q(S(t), A(t))),
+        _moved(_WITHOUT_GAMMA),
         "The value of the next pair of state and action is discounted by γ.",
+    )
+
+    SARSA_TARGET = Formula(
+        "sarsa-target",
+        y(t),
+        _SARSA_TARGET,
+        title="Target of Sarsa",
+        source="Sutton & Barto 2018, eq. 6.7",
+        hint="Reward plus γ times the value of the action that is taken in the next state, best or not.",
+    )
+    SARSA_TARGET_FORGOT_GAMMA = misread(
+        SARSA_TARGET,
+        "sarsa-forgot-gamma",
+        _WITHOUT_GAMMA,
+        "In Sarsa's target too the value of the next pair of state and action is discounted by γ.",
+    )
+
+    TOWARDS_TARGET = Formula(
+        "towards-target",
+        Q(S(t), A(t)),
+        _moved(y(t)),
+        title="Update towards a target",
+        source="Sutton & Barto 2018, eq. 2.4",
+        hint="Move the old value a step α towards the target.",
+        sign="←",
+    )
+    SARSA_TD_ERROR = Formula(
+        "sarsa-td-error",
+        delta(t),
+        _SARSA_TARGET - Q(S(t), A(t)),
+        title="TD error of Sarsa",
+        source="Sutton & Barto 2018, section 12.7",
+        hint="Sarsa's target minus the old value of the pair just left.",
+    )
+    ACTION_TRACE = Formula(
+        "action-eligibility-trace",
+        e(s, a),
+        gamma * lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+        title="Eligibility trace of an action",
+        source="Sutton & Barto 2018, section 12.7; 1998, section 7.5",
+        hint="Let every trace decay by γλ, then add 1 to the trace of the pair just visited.",
+        sign="←",
+    )
+    TRACE_WITHOUT_LAMBDA = misread(
+        ACTION_TRACE,
+        "decay-without-lambda",
+        gamma * e(s, a) + Indicator(s, S(t), a, A(t)),
+        "Traces decay by the product γλ, not by γ alone.",
+    )
+    TRACE_WITHOUT_GAMMA = misread(
+        ACTION_TRACE,
+        "decay-without-gamma",
+        lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+        "Traces decay by the product γλ, not by λ alone.",
+    )
+    SARSA_LAMBDA = Formula(
+        "sarsa-lambda",
+        Q(s, a),
+        Q(s, a) + alpha * delta(t) * e(s, a),
+        title="Sarsa(λ)",
+        source="Sutton & Barto 2018, section 12.7; 1998, section 7.5",
+        hint="Every pair moves by α times the one TD error δ, in proportion to its own trace.",
+        sign="←",
+        note="For all pairs of state and action, after their traces.",
     )
 
     Q_LEARNING = Formula(
         "q-learning",
         Q(S(t), A(t)),
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        _moved(_Q_LEARNING_TARGET),
         title="Q-learning",
         source="Sutton & Barto 2018, eq. 6.8",
         hint="The target takes the best action value of the next state, whatever is done there.",
@@ -59,19 +210,354 @@ with evaluate(False):
     TAKEN_FOR_MAX = misread(
         Q_LEARNING,
         "action-taken-for-max",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * Q(S(t + 1), A(t + 1)) - Q(S(t), A(t))),
+        _moved(_SARSA_TARGET),
         "Q-learning takes the greatest action value of the next state; the action taken there is Sarsa's.",
-        when=lambda given: given.last_action_known,
+        when=_last_action_is_known,
     )
     MEAN_FOR_MAX = misread(
         Q_LEARNING,
         "mean-for-max",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + gamma * MeanOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        _moved(_MEAN_TARGET),
         "Q-learning takes the greatest action value of the next state, not the mean.",
     )
     FORGOT_GAMMA = misread(
         Q_LEARNING,
         "forgot-gamma",
-        Q(S(t), A(t)) + alpha * (r(t + 1) + MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1))) - Q(S(t), A(t))),
+        _moved(_MAX_WITHOUT_GAMMA),
         "The value of the next state is discounted by γ.",
+    )
+
+    Q_LEARNING_TARGET = Formula(
+        "q-learning-target",
+        y(t),
+        _Q_LEARNING_TARGET,
+        title="Target of Q-learning",
+        source="Sutton & Barto 2018, eq. 6.8",
+        hint="Reward plus γ times the best action value of the next state, whatever is done there.",
+    )
+    Q_LEARNING_TARGET_FORGOT_GAMMA = misread(
+        Q_LEARNING_TARGET,
+        "q-learning-forgot-gamma",
+        _MAX_WITHOUT_GAMMA,
+        "In Q-learning's target too the value of the next state is discounted by γ.",
+    )
+
+    EPSILON_GREEDY = Formula(
+        "epsilon-greedy",
+        pi(a, s),
+        Cases(Indicator(a, Best(s)), 1 - epsilon + epsilon / Size(Actions(s)), epsilon / Size(Actions(s))),
+        title="ε-greedy policy",
+        source="Sutton & Barto 2018, section 5.4",
+        hint="Every action, the greedy one too, gets its share of ε; the greedy one gets 1 − ε on top.",
+    )
+    SHARE_FORGOTTEN = misread(
+        EPSILON_GREEDY,
+        "share-of-epsilon-forgotten",
+        Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / Size(Actions(s))),
+        "Exploring picks among all actions, so the greedy action gets its share ε/|A| too, on top of 1 − ε.",
+        when=_not_tied,
+    )
+    SHARED_AMONG_OTHERS = misread(
+        EPSILON_GREEDY,
+        "shared-among-the-others",
+        Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / (Size(Actions(s)) - 1)),
+        "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
+        when=_not_tied,
+    )
+
+    EPSILON_GREEDY_TIED = Formula(
+        "epsilon-greedy-tied",
+        pi(a, s),
+        Cases(
+            Member(a, Greedy(s)),
+            (1 - epsilon) / Size(Greedy(s)) + epsilon / Size(Actions(s)),
+            epsilon / Size(Actions(s)),
+        ),
+        title="ε-greedy policy with tied best actions",
+        source="Sutton & Barto 2018, sections 2.2 and 5.4",
+        hint="The best actions share 1 − ε evenly; on top, every action gets its share of ε.",
+        note=_BEYOND,
+    )
+    TIED_SHARE_FORGOTTEN = misread(
+        EPSILON_GREEDY_TIED,
+        "share-of-epsilon-forgotten-in-a-tie",
+        Cases(Member(a, Greedy(s)), (1 - epsilon) / Size(Greedy(s)), epsilon / Size(Actions(s))),
+        "Exploring picks among all actions, so the tied best actions get their shares ε/|A| too.",
+        when=_tied,
+    )
+    TIED_SHARED_AMONG_OTHERS = misread(
+        EPSILON_GREEDY_TIED,
+        "shared-among-those-not-best",
+        Cases(
+            Member(a, Greedy(s)),
+            (1 - epsilon) / Size(Greedy(s)),
+            epsilon / (Size(Actions(s)) - Size(Greedy(s))),
+        ),
+        "Exploring picks among all |A| actions, the tied best ones too, not among the others only.",
+        when=lambda given: _tied(given) and len(given.best) < len(given.values),
+    )
+    NOT_SPLIT = misread(
+        EPSILON_GREEDY_TIED,
+        "not-split-in-a-tie",
+        Cases(Member(a, Greedy(s)), 1 - epsilon + epsilon / Size(Actions(s)), epsilon / Size(Actions(s))),
+        "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
+        when=_tied,
+    )
+
+    EXPECTED_SARSA = Formula(
+        "expected-sarsa",
+        Q(S(t), A(t)),
+        _moved(r(t + 1) + gamma * SumOver(pi(a, S(t + 1)) * Q(S(t + 1), a), a, Actions(S(t + 1)))),
+        title="Expected Sarsa",
+        source="Sutton & Barto 2018, eq. 6.9",
+        hint="The target averages the next state's action values, each with its probability under the policy.",
+        sign="←",
+        note=_BEYOND,
+    )
+    MAX_FOR_EXPECTATION = misread(
+        EXPECTED_SARSA,
+        "max-for-expectation",
+        _moved(_Q_LEARNING_TARGET),
+        "Expected Sarsa averages over the policy's actions; the greatest value is Q-learning's.",
+    )
+    SAMPLE_FOR_EXPECTATION = misread(
+        EXPECTED_SARSA,
+        "sample-for-expectation",
+        _moved(_SARSA_TARGET),
+        "Expected Sarsa averages over all actions of the policy; the one that was taken is Sarsa's.",
+        when=_last_action_is_known,
+    )
+    UNWEIGHTED_EXPECTATION = misread(
+        EXPECTED_SARSA,
+        "unweighted-mean",
+        _moved(_MEAN_TARGET),
+        "Each action value counts with the probability π(a|s′) of its action; a plain mean does not.",
+    )
+    EXPECTED_FORGOT_GAMMA = misread(
+        EXPECTED_SARSA,
+        "forgot-gamma",
+        _moved(r(t + 1) + SumOver(pi(a, S(t + 1)) * Q(S(t + 1), a), a, Actions(S(t + 1)))),
+        "The expected value of the next state is discounted by γ.",
+    )
+
+    _SELECT = ArgMaxOver(Qi(i, S(t + 1), a), a, Actions(S(t + 1)))
+
+    DOUBLE_Q_ACTION = Formula(
+        "double-q-action",
+        Selected(t + 1),
+        _SELECT,
+        title="Double Q-learning: the action selected",
+        source="Sutton & Barto 2018, eq. 6.10",
+        hint="The table that is updated selects its best action of the next state.",
+        note=_BEYOND,
+    )
+    OTHER_TABLE_SELECTS = misread(
+        DOUBLE_Q_ACTION,
+        "other-table-selects",
+        ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
+        "The table that is updated selects the action; the other one only says what that action is worth.",
+    )
+    DOUBLE_Q_LEARNING = Formula(
+        "double-q-learning",
+        Qi(i, S(t), A(t)),
+        Qi(i, S(t), A(t)) + alpha * (r(t + 1) + gamma * Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+        title="Double Q-learning",
+        source="Sutton & Barto 2018, eq. 6.10",
+        hint="The table that is updated selects the next action; the other table says what it is worth.",
+        sign="←",
+        also=(Qi(i, S(t), A(t)) + alpha * (r(t + 1) + gamma * Qi(j, S(t + 1), _SELECT) - Qi(i, S(t), A(t))),),
+        note="i is the table that is updated, j the other one. " + _BEYOND,
+    )
+    SAME_TABLE_EVALUATES = misread(
+        DOUBLE_Q_LEARNING,
+        "same-table-evaluates",
+        Qi(i, S(t), A(t)) + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+        "The selected action is valued by the other table; with the same table it is plain Q-learning.",
+    )
+    DOUBLE_FORGOT_GAMMA = misread(
+        DOUBLE_Q_LEARNING,
+        "forgot-gamma",
+        Qi(i, S(t), A(t)) + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+        "The value of the next state is discounted by γ.",
+    )
+
+    _STEPS = Counting(0, T - 1)
+    _EPISODES = Counting(1, n)
+
+    IMPORTANCE_RATIO = Formula(
+        "importance-ratio",
+        rho(i),
+        ProductOver(pi(A(t), S(t)) / behaviour(A(t), S(t)), t, _STEPS),
+        title="Importance sampling ratio of an episode",
+        source="Sutton & Barto 2018, eq. 5.3",
+        hint="For every action taken divide its target probability by its behaviour probability, and multiply.",
+        note=_BEYOND,
+    )
+    RATIO_INVERTED = misread(
+        IMPORTANCE_RATIO,
+        "ratio-inverted",
+        ProductOver(behaviour(A(t), S(t)) / pi(A(t), S(t)), t, _STEPS),
+        "The target policy π stands above the line and the behaviour policy b, which acted, below it.",
+        when=lambda given: given.target_takes_all,
+    )
+    RATIOS_ADDED = misread(
+        IMPORTANCE_RATIO,
+        "ratios-added",
+        SumOver(pi(A(t), S(t)) / behaviour(A(t), S(t)), t, _STEPS),
+        "An episode has the product of its actions' probabilities, so their ratios are multiplied, not added.",
+        when=lambda given: any(len(episode.rewards) > 1 for episode in given.episodes),
+    )
+    ORDINARY_IMPORTANCE_SAMPLING = Formula(
+        "ordinary-importance-sampling",
+        Vpi(S(0)),
+        SumOver(rho(i) * Ri(i), i, _EPISODES) / n,
+        title="Ordinary importance sampling",
+        source="Sutton & Barto 2018, eq. 5.5",
+        hint="Weight every episode's return with its ratio, add, and divide by the number of episodes.",
+        note=_BEYOND,
+    )
+    WEIGHTED_FOR_ORDINARY = misread(
+        ORDINARY_IMPORTANCE_SAMPLING,
+        "weighted-for-ordinary",
+        SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
+        "The ordinary estimate divides by the number of episodes; the sum of the ratios is the weighted one's.",
+    )
+    RATIOS_FORGOTTEN = misread(
+        ORDINARY_IMPORTANCE_SAMPLING,
+        "ratios-forgotten",
+        SumOver(Ri(i), i, _EPISODES) / n,
+        "A plain mean estimates the value of the behaviour policy b; the ratios correct for that.",
+    )
+    WEIGHTED_IMPORTANCE_SAMPLING = Formula(
+        "weighted-importance-sampling",
+        Vpi(S(0)),
+        SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
+        title="Weighted importance sampling",
+        source="Sutton & Barto 2018, eq. 5.6",
+        hint="Weight every episode's return with its ratio, add, and divide by the sum of the ratios.",
+        note=_BEYOND,
+    )
+    ORDINARY_FOR_WEIGHTED = misread(
+        WEIGHTED_IMPORTANCE_SAMPLING,
+        "ordinary-for-weighted",
+        SumOver(rho(i) * Ri(i), i, _EPISODES) / n,
+        "The weighted estimate divides by the sum of the ratios; the number of episodes is the ordinary one's.",
+        when=lambda given: len(given.episodes) > 1,
+    )
+
+    _EARNED = SumOver(r(i) * Indicator(A(i), a), i, Counting(1, n))
+
+    ARM_ESTIMATE = Formula(
+        "arm-estimate",
+        Q(a),
+        _EARNED / SumOver(Indicator(A(i), a), i, Counting(1, n)),
+        title="Sample average of an arm",
+        source="Sutton & Barto 2018, eq. 2.1",
+        hint="Add the rewards of this arm's own pulls, and divide by how many those were.",
+        note=_BEYOND,
+    )
+    ALL_PULLS_COUNTED = misread(
+        ARM_ESTIMATE,
+        "all-pulls-counted",
+        _EARNED / n,
+        "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
+    )
+    GREEDY_ARM = Formula(
+        "greedy-arm",
+        A(n + 1),
+        ArgMaxOver(Q(a), a, Choices),
+        title="Greedy arm",
+        source="Sutton & Barto 2018, eq. 2.2",
+        hint="Take the arm whose estimate is greatest.",
+        note=_BEYOND,
+    )
+    UCB = Formula(
+        "ucb",
+        U(a),
+        Q(a) + c * sqrt(log(t) / N(a)),
+        title="Upper confidence bound of an arm",
+        source="Sutton & Barto 2018, eq. 2.10",
+        hint="To the estimate add c times the root of ln t divided by how often this arm was pulled.",
+        note=_BEYOND,
+    )
+    TIME_FOR_LOG = misread(
+        UCB,
+        "t-for-ln-t",
+        Q(a) + c * sqrt(t / N(a)),
+        "Under the root stands the logarithm ln t, not the time t itself.",
+        when=lambda given: given.kind == "ucb",
+    )
+    OWN_COUNT_FORGOTTEN = misread(
+        UCB,
+        "own-count-forgotten",
+        Q(a) + c * sqrt(log(t)),
+        "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
+        when=lambda given: given.kind == "ucb",
+    )
+    UCB_ARM = Formula(
+        "ucb-arm",
+        A(t),
+        ArgMaxOver(U(a), a, Choices),
+        title="Arm chosen by UCB",
+        source="Sutton & Barto 2018, eq. 2.10",
+        hint="Take the arm whose upper confidence bound is greatest, not the one whose estimate is.",
+        note=_BEYOND,
+    )
+
+    GRADIENT_BANDIT_POLICY = Formula(
+        "gradient-bandit-policy",
+        pi(a),
+        exp(H(a)) / SumOver(exp(H(b)), b, Choices),
+        title="Gradient bandit: probabilities",
+        source="Sutton & Barto 2018, eq. 2.11",
+        hint="Exponentiate every arm's preference, then divide by the sum of them all.",
+        note=_BEYOND,
+    )
+    BANDIT_WITHOUT_EXP = misread(
+        GRADIENT_BANDIT_POLICY,
+        "normalised-without-exp",
+        H(a) / SumOver(H(b), b, Choices),
+        "The preferences are exponentiated before they are normalised.",
+        when=lambda given: given.kind == "gradient" and sum(given.preferences.values()) != 0,
+    )
+    REWARD_BASELINE = Formula(
+        "reward-baseline",
+        rbar(n),
+        SumOver(r(i), i, Counting(1, n)) / n,
+        title="Gradient bandit: baseline",
+        source="Sutton & Barto 2018, section 2.8",
+        hint="The baseline is the mean of all rewards so far, whichever arm earned them.",
+        note=_BEYOND,
+    )
+    GRADIENT_BANDIT = Formula(
+        "gradient-bandit",
+        H(a),
+        Cases(
+            Indicator(a, A(n + 1)),
+            H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)),
+            H(a) - alpha * (r(n + 1) - rbar(n)) * pi(a),
+        ),
+        title="Gradient bandit: preferences",
+        source="Sutton & Barto 2018, eq. 2.12",
+        hint="A reward above the baseline raises the preference of the arm pulled, and lowers all others.",
+        sign="←",
+        note=_BEYOND,
+    )
+    BASELINE_FORGOTTEN = misread(
+        GRADIENT_BANDIT,
+        "baseline-forgotten",
+        Cases(
+            Indicator(a, A(n + 1)),
+            H(a) + alpha * r(n + 1) * (1 - pi(a)),
+            H(a) - alpha * r(n + 1) * pi(a),
+        ),
+        "What counts is how far the reward is above or below the baseline, not the reward itself.",
+        when=lambda given: given.kind == "gradient",
+    )
+    OTHERS_UNCHANGED = misread(
+        GRADIENT_BANDIT,
+        "others-unchanged",
+        Cases(Indicator(a, A(n + 1)), H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)), H(a)),
+        "The preferences of the arms that were not pulled move too, the other way.",
+        when=lambda given: given.kind == "gradient",
     )

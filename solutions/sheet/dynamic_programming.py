@@ -1,12 +1,129 @@
 """Section 3 of the sheet: dynamic programming."""
 
-from sympy import evaluate
+from sympy import Abs, evaluate
 
+from rldrill.problems.mathematics import Fence, Math, Script, operator, row, variable
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import Actions, ArgMaxOver, MaxOver, MeanOver, V, a, pi, s
+from rldrill.solutions.formula.notation import (
+    Actions,
+    ArgMaxOver,
+    MaxOver,
+    MeanOver,
+    P,
+    Q,
+    Qpi,
+    R,
+    States,
+    Successors,
+    SumOver,
+    V,
+    Vpi,
+    a,
+    called,
+    gamma,
+    letter,
+    pi,
+    quantity,
+    s,
+    s1,
+)
 from rldrill.solutions.sheet.bellman import LOOKAHEAD, WITHOUT_GAMMA
 
+
+def _values(mark: Math) -> Math:
+    return Script(variable("V"), mark)
+
+
+def _distance(first: Math, second: Math) -> Math:
+    return Script(Fence(row(first, operator("−"), second), "‖", "‖"), variable("∞"))
+
+
+k = letter("k")
+_V_STAR = Script(variable("V"), above=operator("*"))
+_V_0, _V_1 = (_values(variable(number)) for number in "01")
+
+pi1 = quantity("pi1", called("π′"))
+pi_star = quantity("pi", called(Script(variable("π"), above=operator("*"))))
+#: Two value functions, and how far they are from each other.
+First = quantity("V", called("V"))
+Second = quantity("V1", called("V′"))
+Norm = quantity("norm", lambda: _distance(variable("V"), variable("V′")))
+StartNorm = quantity("norm", lambda: _distance(_V_0, _V_STAR))
+SweepNorm = quantity("norm", lambda: _distance(_V_1, _V_0))
+#: ‖V_k − V*‖∞ and ‖V_{k+1} − V_k‖∞ by k.
+Distance = quantity("distance", lambda index: _distance(_values(index), _V_STAR))
+Change = quantity("change", lambda _: _distance(_V_1, _V_0))
+
 with evaluate(False):
+    _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
+    _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
+
+    POLICY_EVALUATION = Formula(
+        "policy-evaluation",
+        V(s),
+        SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)),
+        title="Iterative policy evaluation",
+        source="Sutton & Barto 2018, eq. 4.5",
+        hint="Average over the actions, then over where each leads, with the values that are current.",
+        sign="←",
+    )
+    EVALUATION_FORGOT_GAMMA = misread(
+        POLICY_EVALUATION,
+        "forgot-gamma",
+        SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1,
+    )
+    EVALUATION_MAX_FOR_MEAN = misread(
+        POLICY_EVALUATION,
+        "max-for-mean",
+        MaxOver(LOOKAHEAD, a, Actions(s)),
+        "Evaluation averages over the policy's actions; only value iteration takes the maximum.",
+        # Which action is best may depend on what is left open; and where there is no choice, there is no maximum.
+        when=lambda given: not given.parameters() and any(len(some) > 1 for some in given.mdp.actions.values()),
+    )
+
+    POLICY_IMPROVEMENT_THEOREM = Formula(
+        "policy-improvement-theorem",
+        Qpi(s, pi1(s)),
+        Vpi(s),
+        title="Policy improvement theorem",
+        source="Sutton & Barto 2018, eq. 4.7",
+        hint="Take π′ for one step and π from then on; compare with π from the start, in every state.",
+        sign="≥",
+        note="If this holds for all s, with deterministic π and π′, then π′ is at least as good as π.",
+    )
+
+    POLICY_ITERATION = Formula(
+        "policy-iteration",
+        V(s),
+        SumOver(P(s, pi(s), s1) * (R(s, pi(s), s1) + gamma * V(s1)), s1, Successors(s, pi(s))),
+        title="Policy iteration: evaluation",
+        source="Sutton & Barto 2018, section 4.3",
+        hint="Write one equation for every state, with the action that the policy takes there, and solve them together.",
+    )
+    POLICY_IMPROVEMENT = Formula(
+        "policy-iteration-improvement",
+        pi(s),
+        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        title="Policy iteration: improvement",
+        source="Sutton & Barto 2018, eq. 4.9",
+        hint="In every state take the action whose average of reward plus γ times the old policy's value is greatest.",
+        also=(ArgMaxOver(Qpi(s, a), a, Actions(s)),),
+    )
+    IMPROVEMENT_BY_VALUE = misread(
+        POLICY_IMPROVEMENT,
+        "by-next-value-alone",
+        ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+        "The reward on the way counts too: compare reward plus γ times the next value.",
+    )
+    IMPROVEMENT_BY_REWARD = misread(
+        POLICY_IMPROVEMENT,
+        "by-reward-alone",
+        ArgMaxOver(_REWARD, a, Actions(s)),
+        "What comes after the reward counts too: compare reward plus γ times the next value.",
+    )
+
     VALUE_ITERATION = Formula(
         "value-iteration",
         V(s),
@@ -31,9 +148,88 @@ with evaluate(False):
 
     GREEDY_FROM_V = Formula(
         "greedy-from-v",
-        pi(s),
+        pi_star(s),
         ArgMaxOver(LOOKAHEAD, a, Actions(s)),
         title="Optimal policy given V",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="Take the action whose average of reward plus γ times the next value is greatest.",
+    )
+    GREEDY_BY_VALUE = misread(
+        GREEDY_FROM_V,
+        "by-next-value-alone",
+        ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+        "The reward on the way counts too: compare reward plus γ times the next value.",
+    )
+    GREEDY_BY_REWARD = misread(
+        GREEDY_FROM_V,
+        "by-reward-alone",
+        ArgMaxOver(_REWARD, a, Actions(s)),
+        "What comes after the reward counts too: compare reward plus γ times the next value.",
+    )
+    GREEDY_FROM_Q = Formula(
+        "greedy-from-q",
+        pi_star(s),
+        ArgMaxOver(Q(s, a), a, Actions(s)),
+        title="Optimal policy given Q",
+        source="Sutton & Barto 2018, section 3.6",
+        hint="In every state take the action with the greatest value; no model is needed.",
+    )
+    SMALLEST_Q = misread(
+        GREEDY_FROM_Q,
+        "smallest-q",
+        ArgMaxOver(-Q(s, a), a, Actions(s)),
+        "Q is a return, so the greatest is best; only costs are minimised.",
+    )
+
+    MAX_NORM = Formula(
+        "max-norm",
+        Norm(),
+        MaxOver(Abs(First(s) - Second(s)), s, States),
+        title="Maximum norm",
+        source="Puterman 1994, section 6.2",
+        hint="Take the greatest difference of all states, without its sign.",
+    )
+    SUM_FOR_MAX = misread(
+        MAX_NORM,
+        "sum-for-max",
+        SumOver(Abs(First(s) - Second(s)), s, States),
+        "The distance of two value functions is their greatest difference in any one state, not the sum over all.",
+        when=lambda given: len(given.start) > 1,
+    )
+    CONTRACTION = Formula(
+        "contraction",
+        Distance(k),
+        gamma**k * Distance(0),
+        title="Contraction of value iteration",
+        source="Puterman 1994, section 6.2",
+        hint="Every sweep shrinks the greatest error to at most γ times what it was.",
+        sign="≤",
+    )
+    FORGOT_DISTANCE = misread(
+        CONTRACTION,
+        "forgot-initial-distance",
+        gamma**k,
+        "γᵏ says by how much the error shrinks; it is multiplied with the error at the start.",
+    )
+    ONE_POWER_SHORT = misread(
+        CONTRACTION,
+        "one-power-short",
+        gamma ** (k - 1) * Distance(0),
+        "V₀ has seen no sweep, so the first one shrinks the error already: k sweeps give γᵏ.",
+    )
+    ERROR_FROM_CHANGE = Formula(
+        "contraction-first-sweep",
+        Distance(0),
+        Change(0) / (1 - gamma),
+        title="Distance to V* from one sweep",
+        source="Puterman 1994, section 6.2",
+        hint="The error at the start is at most what the first sweep changed, divided by 1 − γ.",
+        sign="≤",
+    )
+    CHANGE_FOR_ERROR = misread(
+        ERROR_FROM_CHANGE,
+        "change-for-error",
+        Change(0),
+        "Later sweeps change the values too, by γ, γ², … times as much: together that is the change divided by 1 − γ.",
+        when=lambda given: given.optimum is None,
     )

@@ -1,11 +1,93 @@
-"""Section 1 of the sheet: returns."""
+"""Section 1 of the sheet: the Markov property, returns and the goal."""
 
-from sympy import evaluate
+from sympy import Pow, evaluate
 
+from rldrill.problems.mathematics import Fence, Math, Script, listed, operator, relation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import DOTS, INFINITY, Counting, G, SumOver, T, gamma, i, r, t
+from rldrill.solutions.formula.notation import (
+    DOTS,
+    INFINITY,
+    A,
+    Counting,
+    G,
+    MaxOver,
+    MeanOver,
+    P,
+    ProductOver,
+    S,
+    States,
+    SumOver,
+    T,
+    called,
+    conditioned,
+    gamma,
+    h,
+    i,
+    letter,
+    n,
+    pi,
+    quantity,
+    r,
+    s,
+    s1,
+    t,
+)
+
+
+def _is(event: Math, outcome: Math) -> Math:
+    return row(event, relation("="), outcome)
+
+
+tau = letter("tau", "τ")
+reward = letter("reward", "r")
+Episodes = letter("episodes", "E")
+_R_0 = Script(variable("R"), word("0"))
+expected_return = letter("expected_return", row(Script(operator("𝔼"), variable("π")), Fence(_R_0)))
+
+Is = quantity("is_", _is)
+Pair = quantity("pair", lambda *items: listed(items))
+Pr = quantity("Pr", conditioned(word("Pr")))
+#: How often three states were seen one after the other, or with what probability.
+N = quantity("N", called("N"))
+Start = quantity("start", called(word("Pr")))
+EpisodePr = quantity("episode_pr", called(word("Pr")))
+EpisodeReturn = quantity("episode_return", called(_R_0))
 
 with evaluate(False):
+    _NEXT = Pair(Is(S(t + 1), s), Is(r(t + 1), reward))
+
+    MARKOV_PROPERTY = Formula(
+        "markov-property",
+        Pr(_NEXT, S(0), A(0), r(1), DOTS, r(t), S(t), A(t)),
+        Pr(_NEXT, S(t), A(t)),
+        title="Markov property",
+        source="Sutton & Barto 2018, section 3.1",
+        hint="Given the present state and action, what came before them changes no probability.",
+    )
+
+    _SEEN = N(S(t - 1), S(t), S(t + 1))
+
+    RELATIVE_FREQUENCY = Formula(
+        "relative-frequency",
+        Pr(S(t + 1), S(t - 1), S(t)),
+        _SEEN * Pow(SumOver(N(S(t - 1), S(t), s1), s1, States), -1),
+        title="Probability of the next state, from a table",
+        source="Thrun, Burgard & Fox 2005, section 2.2",
+        hint="Divide by the total of the rows with the same history, not by the total of the table.",
+    )
+    JOINT_FOR_CONDITIONAL = misread(
+        RELATIVE_FREQUENCY,
+        "joint-for-conditional",
+        _SEEN * Pow(SumOver(SumOver(SumOver(N(h, s, s1), s1, States), s, States), h, States), -1),
+        "That is the joint probability of all three states; given the history, divide by the history's own total.",
+    )
+    HISTORY_LEFT_OUT = misread(
+        RELATIVE_FREQUENCY,
+        "history-left-out-below",
+        _SEEN * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
+        "Below the line only the rows with the same whole history count, not all rows with the same present state.",
+    )
+
     _ALL = Counting(0, T - t - 1, INFINITY)
 
     RETURN = Formula(
@@ -49,4 +131,102 @@ with evaluate(False):
     )
     RECURSION_UNDISCOUNTED = misread(
         RETURN_RECURSIVE, "no-discount", r(t + 1) + G(t + 1), "The return that follows is discounted by γ."
+    )
+
+    _FIRST = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
+
+    RETURN_UNROLLED = Formula(
+        "return-unrolled",
+        G(t),
+        _FIRST + gamma**n * G(t + n),
+        title="Return, n rewards and the rest",
+        source="Sutton & Barto 2018, eq. 3.9, applied n times",
+        hint="The return from n steps later is worth γⁿ of itself now.",
+    )
+    TAIL_FORGOTTEN = misread(
+        RETURN_UNROLLED,
+        "tail-forgotten",
+        _FIRST,
+        "The rewards go on for ever after the first ones; their return belongs to the sum.",
+        when=lambda given: bool(given.first),
+    )
+    TAIL_UNDISCOUNTED = misread(
+        RETURN_UNROLLED,
+        "tail-not-discounted",
+        _FIRST + G(t + n),
+        "The return from n steps later is discounted by γⁿ before it is added.",
+        when=lambda given: bool(given.first),
+    )
+
+    GEOMETRIC_SERIES = Formula(
+        "geometric-series",
+        G(t),
+        _FIRST * Pow(1 - gamma**n, -1),
+        title="Return of rewards that repeat after n steps",
+        source="Sutton & Barto 2018, eq. 3.10, for n rewards in turn",
+        hint="Add up one round; every further round is worth γⁿ times the one before, so divide by 1 − γⁿ.",
+    )
+    PLUS_FOR_MINUS = misread(
+        GEOMETRIC_SERIES,
+        "plus-for-minus",
+        _FIRST * Pow(1 + gamma**n, -1),
+        "The geometric series 1 + q + q² + … sums to 1/(1 − q), not to 1/(1 + q).",
+    )
+    ROUND_OF_ONE = misread(
+        GEOMETRIC_SERIES,
+        "round-of-one",
+        _FIRST * Pow(1 - gamma, -1),
+        "A round of n rewards comes again after n steps, so the series runs in γⁿ, not in γ.",
+        when=lambda given: len(given.repeated) > 1,
+    )
+
+    GOAL = Formula(
+        "goal",
+        expected_return,
+        SumOver(EpisodePr(tau) * EpisodeReturn(tau), tau, Episodes),
+        title="Goal",
+        source="Sutton & Barto 2018, section 3.3",
+        hint="Every episode τ that can happen counts with its probability.",
+        note="The agent looks for the policy π that maximises it from the start state.",
+    )
+    UNWEIGHTED = misread(
+        GOAL,
+        "unweighted-mean",
+        MeanOver(EpisodeReturn(tau), tau, Episodes),
+        "The episodes are not equally probable: each return counts with its episode's probability.",
+    )
+    BEST_EPISODE = misread(
+        GOAL,
+        "maximum-for-mean",
+        MaxOver(EpisodeReturn(tau), tau, Episodes),
+        "The expected return averages over what can happen; it is not the luckiest episode's return.",
+    )
+
+    EPISODE_PROBABILITY = Formula(
+        "episode-probability",
+        EpisodePr(tau),
+        Start(S(0)) * ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
+        title="Probability of an episode",
+        source="Sutton & Barto 2018, section 5.5",
+        hint="Multiply along the branch: the start, then for every step the action and where it leads.",
+    )
+    START_DROPPED = misread(
+        EPISODE_PROBABILITY,
+        "start-probability-dropped",
+        ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
+        "An episode is only as probable as its start state to begin with.",
+        when=lambda given: len(given.start) > 1,
+    )
+    POLICY_DROPPED = misread(
+        EPISODE_PROBABILITY,
+        "policy-probability-dropped",
+        Start(S(0)) * ProductOver(P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
+        "Each action on the way counts with the probability with which the policy takes it.",
+        when=lambda given: given.chooses,
+    )
+    LAST_BRANCH_DROPPED = misread(
+        EPISODE_PROBABILITY,
+        "last-branch-dropped",
+        Start(S(0)) * ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 2)),
+        "The last step of an episode has its probability too.",
     )

@@ -1,22 +1,108 @@
 """Section 7 of the sheet: linear methods."""
 
-from sympy import Pow, evaluate
+from collections.abc import Callable
+from typing import Any
 
+from sympy import Pow, evaluate, sqrt
+
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Fraction,
+    Math,
+    Script,
+    listed,
+    punctuation,
+    row,
+    variable,
+)
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import Quantity, Transposed, quantity, subscripted, t
+from rldrill.solutions.formula.notation import (
+    Blocks,
+    Counting,
+    Quantity,
+    SumOver,
+    T,
+    Transposed,
+    i,
+    letter,
+    quantity,
+    subscripted,
+    t,
+)
 
 
 def _matrix(code: str, head: str) -> type[Quantity]:
     return quantity(code, subscripted(head), matrix=True)
 
 
+def _reward_layout(time: Math) -> Math:
+    return row(variable("r"), Fence(listed((Script(variable("s"), time), Script(variable("a"), time)))))
+
+
 At = _matrix("At", "A")
 Bt = _matrix("Bt", "B")
 Pt = _matrix("Pt", "P")
+Qt = _matrix("Qt", "Q")
 Rt = _matrix("Rt", "R")
 Lt = _matrix("Lt", "L")
+St = _matrix("St", "s")
+Ut = _matrix("Ut", "a")
+rt = quantity("rt", _reward_layout)
+J = letter("J")
 
 with evaluate(False):
+    DYNAMICS = Formula(
+        "dynamics",
+        St(t + 1),
+        At(t) * St(t) + Bt(t) * Ut(t),
+        title="Linear dynamics",
+        source="Bertsekas 2017, section 3.1",
+        hint="A acts on the state and B on the action; add the two.",
+    )
+    ACTION_FIRST = misread(
+        DYNAMICS,
+        "action-before-dynamics",
+        At(t) * (St(t) + Bt(t) * Ut(t)),
+        "A acts on the state alone: the next state is A s + B a, not A (s + B a).",
+        when=lambda given: any(_unit(len(A)) != A for A in given.A),
+    )
+    LQR_REWARD = Formula(
+        "lqr-reward",
+        rt(t),
+        -(Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t)),
+        title="LQR reward",
+        source="Bertsekas 2017, section 3.1, with the sign of a reward",
+        hint="Work out the price of the state and that of the action, add them, and change the sign.",
+    )
+    COST_FOR_REWARD = misread(
+        LQR_REWARD,
+        "cost-for-reward",
+        Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t),
+        "A reward is the cost with a minus sign: −(sᵀQs + aᵀRa).",
+    )
+    REWARD_WITHOUT_R = misread(
+        LQR_REWARD,
+        "forgot-r",
+        -Transposed(St(t)) * Qt(t) * St(t),
+        "The action has its price too: aᵀRa belongs in the bracket.",
+    )
+    LQR_TOTAL = Formula(
+        "lqr-total",
+        J,
+        SumOver(rt(t), t, Counting(0, T)),
+        title="Total reward of a rollout",
+        source="Bertsekas 2017, section 3.1, with the sign of a reward",
+        hint="Add the rewards of all times, those of the first and the last time included.",
+    )
+    LQR_ACTION = Formula(
+        "lqr-action",
+        Ut(t),
+        -Lt(t) * St(t),
+        title="Linear state feedback",
+        source="Bertsekas 2017, section 3.1",
+        hint="Multiply the gain with the state, and change the sign.",
+    )
     LQR_GAIN = Formula(
         "lqr-gain",
         Lt(t),
@@ -44,4 +130,331 @@ with evaluate(False):
         Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * Transposed(At(t)),
         "A stands untransposed at the end; only B is transposed.",
         when=lambda given: len(given.A) > 1,  # a scalar is its own transpose
+    )
+    LQR_TERMINAL = Formula(
+        "lqr-terminal",
+        Pt(T),
+        -Qt(T),
+        title="Value matrix at the end",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="At the last time no action is worth its price, so the value is the reward of the state alone.",
+    )
+    NO_TERMINAL = misread(
+        LQR_TERMINAL,
+        "no-terminal-value",
+        Qt(T) - Qt(T),
+        "The state at the last time T is rewarded too: P_T is −Q_T, not 0.",
+    )
+    LQR_RICCATI = Formula(
+        "lqr-riccati",
+        Pt(t),
+        -Qt(t) + Transposed(At(t)) * Pt(t + 1) * At(t) - Transposed(At(t)) * Pt(t + 1) * Bt(t) * Lt(t),
+        title="Riccati recursion",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="Work out Aᵀ P first: it stands in both products.",
+        note="With S = −P it reads S = Q + AᵀSA − AᵀSBL.",
+    )
+
+
+def _unit(size: int) -> tuple[tuple[int, ...], ...]:
+    return tuple(tuple(int(row == column) for column in range(size)) for row in range(size))
+
+
+# The infinite horizon ------------------------------------------------------------------------------
+Ai = letter("Ai", "A", matrix=True)
+Bi = letter("Bi", "B", matrix=True)
+Qi = letter("Qi", "Q", matrix=True)
+Pi = letter("Pi", "P", matrix=True)
+Li = letter("Li", "L", matrix=True)
+modes = letter("modes", "T", matrix=True)
+Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
+closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
+a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
+p1, beta = letter("Pk", "P"), letter("betak", "β")
+
+with evaluate(False):
+    LQR_STATIONARY = Formula(
+        "lqr-stationary",
+        Pi,
+        -Qi + Transposed(Ai) * Pi * Ai - Transposed(Ai) * Pi * Bi * Li,
+        title="Riccati equation of the infinite horizon",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="Put the same P on both sides of the recursion.",
+        note="Several P solve it; the value's is the one that makes A − BL stable.",
+    )
+    LQR_BETA = Formula(
+        "lqr-quadratic",
+        beta,
+        b1**2 * q1 + (a1**2 - 1) * r1,
+        title="Scalar Riccati equation as a quadratic, B²P² + βP − QR = 0",
+        source="Bertsekas 2017, section 3.1, cleared of its denominator",
+        hint="Multiply the Riccati equation with B²P − R; the cubic terms cancel.",
+    )
+    LQR_ROOT = Formula(
+        "lqr-infinite",
+        p1,
+        -(beta + sqrt(beta**2 + 4 * b1**2 * q1 * r1)) / (2 * b1**2),
+        title="Scalar LQR over an infinite horizon",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="The roots have opposite signs; the value of a state is never positive.",
+        note="In the cost-to-go convention S = −P is the positive root of B²S² − βS − QR = 0.",
+    )
+    OTHER_ROOT = misread(
+        LQR_ROOT,
+        "other-root",
+        -(beta - sqrt(beta**2 + 4 * b1**2 * q1 * r1)) / (2 * b1**2),
+        "The value sᵀPs is never positive, so P is the negative root, which makes A − BL stable.",
+    )
+    LQR_MODES = Formula(
+        "lqr-modes",
+        Pi,
+        modes * Pm * Pow(modes, -1),
+        title="LQR of a system that falls apart into modes",
+        source="Golub & Van Loan 2013, section 7.1: similarity",
+        hint="Solve one scalar problem for each mode, and transform back.",
+    )
+    LQR_CLOSED_LOOP = Formula(
+        "lqr-closed-loop",
+        closed,
+        Ai - Bi * Li,
+        title="Closed loop",
+        source="Bertsekas 2017, section 3.1",
+        hint="Put a = −L s into the dynamics.",
+    )
+
+
+# Linearisation --------------------------------------------------------------------------------------
+def _derivative(of: str, by: str = "") -> Callable[..., Math]:
+    """Written ∂f₂/∂θ; with ``by``, ∂f₂/∂s₁ at the operating point."""
+
+    def layout(component: Math, variable_: Math) -> Math:
+        below = Script(variable(by), variable_) if by else variable_
+        quotient = Fraction(row(variable("∂"), Script(variable(of), component)), row(variable("∂"), below))
+        return row(quotient, _POINT) if by else quotient
+
+    return layout
+
+
+def _bar(head: str) -> Math:
+    return Accent(variable(head), "bar")
+
+
+def _gradient(by: str) -> Math:
+    return row(Script(variable("∇"), variable(by)), variable("f"), _POINT)
+
+
+def _entry(head: str) -> Callable[..., Math]:
+    return lambda line, column: Script(variable(head), row(line, column))
+
+
+_POINT = Fence(listed((_bar("s"), _bar("a"))))
+j = letter("j")
+partial = quantity("partial", _derivative("f"))
+partial_s = quantity("partialS", _derivative("f", "s"))
+partial_a = quantity("partialA", _derivative("f", "a"))
+Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
+f_value = quantity("fValue", subscripted("f"))
+f_point = quantity("fPoint", lambda component: row(Script(variable("f"), component), _POINT))
+f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
+f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
+grad_s, grad_a = letter("gradS", _gradient("s"), matrix=True), letter("gradA", _gradient("a"), matrix=True)
+sv, av = letter("sv", "s", matrix=True), letter("av", "a", matrix=True)
+s_bar, a_bar = letter("sbar", _bar("s"), matrix=True), letter("abar", _bar("a"), matrix=True)
+Cc = letter("Cc", "C", matrix=True)
+A_tilde = letter("Atilde", Accent(variable("A"), "tilde"), matrix=True)
+B_tilde = letter("Btilde", Accent(variable("B"), "tilde"), matrix=True)
+dt = letter("dt", row(variable("Δ"), variable("t")))
+unit = letter("unit", "I", matrix=True)
+Ad, Bd = (letter(f"{head}d", Script(variable(head), variable("Δ")), matrix=True) for head in "AB")
+
+with evaluate(False):
+    LINEARISE = Formula(
+        "linearise",
+        f_at,
+        f_bar + grad_s * (sv - s_bar) + grad_a * (av - a_bar),
+        title="Linearisation at an operating point",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Differentiate each component of f by each state and each action, then put the operating point in.",
+        sign="≈",
+    )
+    STATE_JACOBIAN = Formula(
+        "linearise-a",
+        Aij(i, j),
+        partial_s(i, j),
+        title="Matrix A of the linearisation, ∇f by the state",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Row i belongs to the component of f, column j to the state; differentiate first, then put numbers in.",
+    )
+    INPUT_JACOBIAN = Formula(
+        "linearise-b",
+        Bij(i, j),
+        partial_a(i, j),
+        title="Matrix B of the linearisation, ∇f by the action",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Row i belongs to the component of f, column j to the action.",
+    )
+    EULER_A = Formula(
+        "linearise-euler-a",
+        Ad,
+        unit + dt * Ai,
+        title="Euler step of A",
+        source="LaValle 2006, section 14.3.2",
+        hint="Differentiate s + Δt f(s, a) by s: the first term gives the identity.",
+    )
+    FORGOT_IDENTITY = misread(
+        EULER_A,
+        "forgot-identity",
+        dt * Ai,
+        "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
+    )
+    EULER_B = Formula(
+        "linearise-euler-b",
+        Bd,
+        dt * Bi,
+        title="Euler step of B",
+        source="LaValle 2006, section 14.3.2",
+        hint="Differentiate s + Δt f(s, a) by a: the first term does not depend on a.",
+    )
+    VELOCITY_AT_POINT = Formula(
+        "linearise-f",
+        f_value(i),
+        f_point(i),
+        title="The dynamics at the operating point",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Put the operating point into every component of f.",
+    )
+    AFFINE_TERM = Formula(
+        "linearise-affine",
+        Cc,
+        f_bar - Ai * s_bar - Bi * a_bar,
+        title="Constant term of the linearisation",
+        source="Åström & Murray 2008, section 5.4, multiplied out",
+        hint="Multiply the linearisation out and collect what holds neither s nor a.",
+    )
+    C_IS_F = misread(
+        AFFINE_TERM,
+        "c-is-f",
+        f_bar,
+        "C is what is left at s = 0 and a = 0: A s̄ and B ā are taken off f(s̄, ā).",
+    )
+    AUGMENTED_A = Formula(
+        "linearise-augmented-a",
+        A_tilde,
+        Blocks(2, Ai, Cc, 0, 1),
+        title="C pulled into the state, (s, 1)",
+        source="Boyd, EE363, lecture 1",
+        hint="The state gets a last entry that is always 1; C is the column that multiplies it.",
+    )
+    AUGMENTED_B = Formula(
+        "linearise-augmented-b",
+        B_tilde,
+        Blocks(2, Bi, 0),
+        title="B for the state (s, 1)",
+        source="Boyd, EE363, lecture 1",
+        hint="The action does not change the last entry, which stays 1.",
+    )
+
+
+# Differential dynamic programming -------------------------------------------------------------------
+def _sub(head: str, *below: str) -> Math:
+    return Script(variable(head), row(*map(variable, below)))
+
+
+def _component(*by: str) -> Callable[..., Math]:
+    return lambda index: Script(variable("f"), row(index, punctuation(","), *map(variable, by)))
+
+
+def _letters(head: str, code: str) -> Any:
+    """The derivatives of a function by s and a: first s and a, then ss, as, aa."""
+    return tuple(
+        letter(f"{code}{''.join(by)}", _sub(head, *by), matrix=True)
+        for by in (("s",), ("a",), ("s", "s"), ("a", "s"), ("a", "a"))
+    )
+
+
+Q_s, Q_a, Q_ss, Q_as, Q_aa = _letters("Q", "Q_")
+r_s, r_a, r_ss, r_as, r_aa = _letters("r", "r_")
+f_s, f_a, *_ = _letters("f", "f_")
+V_s, _, V_ss, *_ = _letters("V′", "V_")
+V_i = quantity("Vi", lambda index: Script(variable("V′"), row(variable("s"), punctuation(","), index)))
+f_iss, f_ias, f_iaa = (
+    quantity(f"fi{''.join(by)}", _component(*by), matrix=True) for by in (("s", "s"), ("a", "s"), ("a", "a"))
+)
+Components = letter("components", "n")
+kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
+_DDP = "Tassa, Erez & Todorov 2012, section II, with rewards for costs"
+
+with evaluate(False):
+    DDP = Formula(
+        "ddp",
+        av,
+        a_bar + kd + Kd * (sv - s_bar),
+        title="Differential dynamic programming: the new action",
+        source=_DDP,
+        hint="Change the old action by k, and by K for every deviation from the old state.",
+        note="Linearise the dynamics, make the reward quadratic, solve the LQR problem, repeat; "
+        "iLQR leaves the second derivatives of f out.",
+    )
+    DDP_S = Formula(
+        "ddp-q-s",
+        Q_s,
+        r_s + Transposed(f_s) * V_s,
+        title="DDP: gradient of Q by the state",
+        source=_DDP,
+        hint="The chain rule: the reward's own gradient, and the next value's through f.",
+    )
+    DDP_A = Formula(
+        "ddp-q-a",
+        Q_a,
+        r_a + Transposed(f_a) * V_s,
+        title="DDP: gradient of Q by the action",
+        source=_DDP,
+        hint="The chain rule: the reward's own gradient, and the next value's through f.",
+    )
+    DDP_SS = Formula(
+        "ddp-q-ss",
+        Q_ss,
+        r_ss + Transposed(f_s) * V_ss * f_s + SumOver(V_i(i) * f_iss(i), i, Components),
+        title="DDP: Hessian of Q by the state",
+        source=_DDP,
+        hint="Differentiate the chain rule once more: f is curved too.",
+        note="iLQR leaves the sum out.",
+    )
+    DDP_AS = Formula(
+        "ddp-q-as",
+        Q_as,
+        r_as + Transposed(f_a) * V_ss * f_s + SumOver(V_i(i) * f_ias(i), i, Components),
+        title="DDP: mixed Hessian of Q",
+        source=_DDP,
+        hint="One derivative by the action, one by the state: fₐᵀ stands before, fₛ behind.",
+    )
+    DDP_AA = Formula(
+        "ddp-q-aa",
+        Q_aa,
+        r_aa + Transposed(f_a) * V_ss * f_a + SumOver(V_i(i) * f_iaa(i), i, Components),
+        title="DDP: Hessian of Q by the action",
+        source=_DDP,
+        hint="It must be negative (definite), or Q has no maximum.",
+    )
+    DDP_k = Formula(
+        "ddp-k",
+        kd,
+        -Pow(Q_aa, -1) * Q_a,
+        title="DDP: change of the action",
+        source=_DDP,
+        hint="The maximum of the quadratic Q in a, at the old state.",
+    )
+    K_WITH_PLUS = misread(
+        DDP_k,
+        "uphill-sign",
+        Pow(Q_aa, -1) * Q_a,
+        "At the maximum Qₐ + Qₐₐ δa = 0, so k = −Qₐₐ⁻¹ Qₐ: with its minus sign.",
+    )
+    DDP_K = Formula(
+        "ddp-gain",
+        Kd,
+        -Pow(Q_aa, -1) * Q_as,
+        title="DDP: gain",
+        source=_DDP,
+        hint="The same inverse as for k, times the mixed Hessian.",
     )

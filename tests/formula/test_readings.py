@@ -52,19 +52,22 @@ def known(data: st.DataObject) -> dict[str, Any]:
         return fmpq_mat(2, 2, [number() for _ in range(4)])
 
     fixed: dict[str, Any] = {
-        "s": "cool", "a": "slow", "s1": "warm", "b": "fast", "h": "warm", "z": "door", "i": 1,
+        "s": "cool", "a": "slow", "s1": "warm", "b": "fast", "j": 2, "h": "warm", "z": "door", "i": 1, "k": 3,
         "t": 1, "n": data.draw(st.integers(1, 4)), "T": data.draw(st.integers(2, 6)),
         "states": STATES, "choices": ACTIONS, "features": (1, 2), "hypotheses": STATES, "measurements": ("door",),
         "S": Anything(lambda t: STATES[t % 3]), "A": Anything(lambda t: ACTIONS[t % 2]),
         "actions": Anything(lambda _: ACTIONS), "successors": Anything(lambda _: STATES[:2]),
         "visits": Anything(lambda _: (1, 2)),
+        "best": Anything(lambda _: data.draw(st.sampled_from(ACTIONS))),
+        "greedy": Anything(lambda _: data.draw(st.sampled_from([("slow",), ("fast",), ACTIONS]))),
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
+    fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 
 def _number_or_quantity(code: str, number: Any) -> Any:
-    letters = ("alpha", "gamma", "lam", "epsilon")
+    letters = ("alpha", "gamma", "lam", "epsilon", "c")
     return number() if code in letters else Anything(number)
 
 

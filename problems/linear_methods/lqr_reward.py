@@ -1,0 +1,66 @@
+"""The rewards of a short rollout of a linear system under a linear feedback."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Parameter
+from rldrill.problems.family import Question
+from rldrill.problems.linear import LinearQuadratic, draw_system, situation
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.matrices import MatricesField, check_shape, grid
+from rldrill.problems.parts import Number, Part
+from rldrill.problems.phrases import in_open
+
+TITLE = "LQR reward"
+SOURCE = "Bertsekas 2017, section 3.1"
+REVISION = 1
+
+
+class Given(LinearQuadratic):
+    """A system, and the gain L (or one for every time 0 to horizon) of the actions a = −L s."""
+
+    L: MatricesField
+
+    @model_validator(mode="after")
+    def _gains_fit(self) -> Self:
+        if len(self.L) not in (1, self.horizon + 1):
+            raise ValueError(f"L holds {len(self.L)} matrices; give one, or {self.horizon + 1} for the times from 0")
+        for gain in self.L:
+            check_shape("L", gain, self.actions, len(self.start), f"with {len(self.start)} states ")
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Numbers and two times; then two states; then three times, perhaps with the price of the action open."""
+    states = 1 if level == 1 else 2
+    price = Parameter("rho") if level == 3 and rng.chance(rng.fraction("1/2")) else rng.whole(1, 3)
+    system = draw_system(rng, states, price)
+    gain = (tuple(rng.whole(0, 2) if states > 1 else rng.fraction("1/2", "1", "2") for _ in range(states)),)
+    start = tuple(rng.nonzero(-2, 3) for _ in range(states))
+    return Given(**system, L=gain, start=start, horizon=1 if level < 3 else 2)
+
+
+def question(given: Given) -> Question:
+    """The first reward, then the total."""
+    gains = (
+        Equation(mathematics(f"L_{'t' if len(given.L) == 1 else time}"), (grid(gain),), ("=",))
+        for time, gain in enumerate(given.L)
+    )
+    last = given.horizon
+    sum_ = " + ".join(f"r(s_{time}, a_{time})" for time in range(last + 1)) if last < 3 else (
+        f"r(s_0, a_0) + … + r(s_{{{last}}}, a_{{{last}}})"
+    )  # fmt: skip
+    return Question(
+        (
+            *situation(given),
+            Paragraph("The actions are $a_t = −L_t s_t$ at every one of these times, the last included:"),
+            *gains,
+        ),
+        (
+            Part("a", f"What is the first reward $r(s_0, a_0)${in_open(given)}?", Number()),
+            Part("b", f"What is the total reward $J = {sum_}${in_open(given)}?", Number(), points=2),
+        ),
+    )

@@ -1,0 +1,97 @@
+"""Matrices as problems give them: lists of rows, a plain number where they are 1×1."""
+
+from fractions import Fraction
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+
+from rldrill.problems.exact import Exact, Open, Scalar, shown
+from rldrill.problems.mathematics import Grid, Math, mathematics, number
+
+Rows = tuple[tuple[Scalar, ...], ...]
+
+
+def _rows(value: object) -> object:
+    return value if isinstance(value, list | tuple) else ((value,),)
+
+
+def _by_time(value: Any) -> object:
+    """One matrix for all times, or a list of matrices, one for every time."""
+    rows = _rows(value)
+    deep = rows and isinstance(rows[0], list | tuple) and rows[0] and isinstance(rows[0][0], list | tuple)
+    return rows if deep else (rows,)
+
+
+MatrixField = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
+#: A matrix in which a parameter may be left open.
+OpenMatrixField = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
+#: Matrices by time; a single one holds at all times.
+MatricesField = Annotated[tuple[MatrixField, ...], BeforeValidator(_by_time)]
+OpenMatricesField = Annotated[tuple[OpenMatrixField, ...], BeforeValidator(_by_time)]
+
+
+def check_shape(name: str, matrix: Rows, rows: int, columns: int, where: str = "") -> None:
+    """Refuse a matrix that has another shape.
+
+    Raises:
+        ValueError: it has; the sentence names it.
+    """
+    if len(matrix) != rows or any(len(line) != columns for line in matrix):
+        shape = f"{len(matrix)}×{len(matrix[0]) if matrix else 0}"
+        raise ValueError(f"{name} is {shape}, but {where}it must be {rows}×{columns}")
+
+
+def check_symmetric(name: str, matrix: Rows) -> None:
+    """Refuse a square matrix that is not its own transpose.
+
+    Raises:
+        ValueError: it is not.
+    """
+    if any(matrix[i][j] != matrix[j][i] for i in range(len(matrix)) for j in range(i)):
+        raise ValueError(f"{name} must be symmetric")
+
+
+def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
+    """Refuse a matrix of a quadratic cost that is not symmetric and positive definite (or semidefinite).
+
+    Raises:
+        ValueError: it is not. What depends on an open parameter is not checked.
+    """
+    check_symmetric(name, matrix)
+    rows = [[entry for entry in line if isinstance(entry, Fraction)] for line in matrix]
+    if any(len(line) != len(matrix) for line in rows):
+        return
+    if not _definite(rows, positive=positive):
+        raise ValueError(f"{name} must be positive {'definite' if positive else 'semidefinite'}")
+
+
+def _definite(rows: list[list[Fraction]], *, positive: bool) -> bool:
+    """Whether all pivots of the elimination are positive, or not negative with nothing beside a zero."""
+    rows = [list(line) for line in rows]
+    for k, pivot_row in enumerate(rows):
+        pivot = pivot_row[k]
+        if pivot < 0 or (positive and pivot == 0) or (pivot == 0 and any(pivot_row[k:])):
+            return False
+        if pivot:
+            for line in rows[k + 1 :]:
+                factor = line[k] / pivot
+                line[k:] = [entry - factor * above for entry, above in zip(line[k:], pivot_row[k:], strict=True)]
+    return True
+
+
+def diagonal(*entries: Scalar) -> Rows:
+    """A matrix with these on its diagonal and zeros elsewhere."""
+    size = range(len(entries))
+    return tuple(tuple(entries[i] if i == j else Fraction(0) for j in size) for i in size)
+
+
+def grid(lines: Rows) -> Math:
+    """A given matrix as mathematics; a 1×1 matrix is a number."""
+    if len(lines) == len(lines[0]) == 1:
+        return scalar(lines[0][0])
+    return Grid(tuple(tuple(scalar(entry) for entry in line) for line in lines))
+
+
+def scalar(entry: Scalar) -> Math:
+    """A given number, or a parameter, as mathematics."""
+    return number(entry) if isinstance(entry, Fraction) else mathematics(shown(entry))

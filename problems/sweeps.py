@@ -1,0 +1,38 @@
+"""Sweeps over all states of a model: what value iteration and policy evaluation have in common."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.exact import Exact
+from rldrill.problems.family import Givens
+from rldrill.problems.models import Model, Name, check_keys, values_table
+
+SYNCHRONOUS = "Sweeps are synchronous: each uses only the values of the sweep before."
+
+
+class Sweeps(Givens):
+    """A model, how many sweeps, and the values to start from (0 where none are given)."""
+
+    mdp: Model
+    sweeps: int = Field(ge=1, le=1000)
+    start: dict[Name, Exact] | None = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if self.start is not None:
+            check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
+        return self
+
+
+def begin(given: Sweeps, method: str) -> tuple[Block, ...]:
+    """Which values a method starts from."""
+    if given.start is None:
+        return (Paragraph(f"{method} starts from $V_0(s) = 0$ for all states."),)
+    return (Paragraph(f"{method} starts from these values:"), values_table(given.start, "V_0"))
+
+
+def counted(sweeps: int) -> str:
+    """How many sweeps, in words."""
+    return "one sweep" if sweeps == 1 else f"{sweeps} sweeps"

@@ -1,0 +1,62 @@
+"""Sweeps of iterative policy evaluation: from the old values, or with the newest."""
+
+import numpy as np
+
+from rldrill.problems.dynamic_programming.policy_evaluation import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.oracle import Answers, at, chances, tensors
+from rldrill.solutions.sheet.dynamic_programming import (
+    EVALUATION_FORGOT_GAMMA,
+    EVALUATION_MAX_FOR_MEAN,
+    POLICY_EVALUATION,
+)
+from rldrill.solutions.work import Work
+
+IN_PLACE = slip(
+    "in-place",
+    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
+    when=lambda given: not given.in_place,
+)
+SYNCHRONOUS = slip(
+    "synchronous",
+    "In place, a value found in this sweep is used at once for the states that follow.",
+    when=lambda given: given.in_place,
+)
+MISCONCEPTIONS = (IN_PLACE, SYNCHRONOUS, EVALUATION_MAX_FOR_MEAN, EVALUATION_FORGOT_GAMMA)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Sweep after sweep, one step for every state."""
+    mdp = given.mdp
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
+    ends = dict.fromkeys(mdp.terminal, ZERO)
+    values = (knowns.values(given.start) if given.start else dict.fromkeys(mdp.states, ZERO)) | ends
+    newest = work.makes(IN_PLACE) or (given.in_place and not work.makes(SYNCHRONOUS))
+    for sweep in range(1, given.sweeps + 1):
+        work.say(f"Sweep {sweep}:")
+        old = values
+        for state in mdp.states:
+            current = values if newest else old
+            value = work.step(POLICY_EVALUATION, s=state, V=current, into=numbered(V, sweep), **known)
+            values = values | {state: value}
+    work.answer("a", {state: values[state] for state in mdp.states})
+
+
+def oracle(given: Given) -> Answers:
+    """The policy's own chain of states as one matrix; a sweep in place goes through its lines one by one."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    n = len(given.mdp.states)
+    P, R = tensors(given.mdp, states)
+    pi = chances(given.chances, given.mdp, states)
+    chain = np.einsum("ij,ijk->ik", pi, P)
+    pay = np.einsum("ij,ijk,ijk->i", pi, P, np.where(np.isinf(R), 0.0, R))
+    values = np.array([at((given.start or {}).get(state, 0)) for state in states])
+    values[n:] = 0
+    for _ in range(given.sweeps):
+        source = values if given.in_place else values.copy()
+        for line in range(n):
+            values[line] = pay[line] + at(given.gamma) * chain[line] @ source
+    return {"a": values[:n]}

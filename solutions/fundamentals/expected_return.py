@@ -1,0 +1,63 @@
+"""Every episode with its probability and its return, then the mean of the returns."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.fundamentals.expected_return import Episode, Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at, chances, lookahead, tensors
+from rldrill.solutions.sheet.fundamentals import (
+    BEST_EPISODE,
+    EPISODE_PROBABILITY,
+    GOAL,
+    LAST_BRANCH_DROPPED,
+    POLICY_DROPPED,
+    RETURN,
+    START_DROPPED,
+    UNWEIGHTED,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (UNWEIGHTED, BEST_EPISODE, START_DROPPED, POLICY_DROPPED, LAST_BRANCH_DROPPED)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Probability and return of each episode of the tree, one by one."""
+    known: dict[str, Any] = knowns.model(given.mdp) | {
+        "start": knowns.values(given.start),
+        "pi": knowns.policy(given.chances),
+        "gamma": exact(given.gamma),
+    }
+    probabilities, returns = {}, {}
+    for number, episode in enumerate(given.episodes(), 1):
+        work.say(f"Episode {number}: {_told(episode)}.")
+        run = {
+            "T": len(episode.transitions),
+            "S": dict(enumerate((episode.start, *(row.next for row in episode.transitions)))),
+            "A": {time: row.action for time, row in enumerate(episode.transitions)},
+            "r": {time + 1: exact(row.reward) for time, row in enumerate(episode.transitions)},
+        }
+        probabilities[number] = work.step(EPISODE_PROBABILITY, tau=number, **run, **known)
+        returns[number] = work.step(RETURN, t=0, **run, gamma=known["gamma"])
+    work.say("Over all episodes:")
+    value = work.step(GOAL, episodes=tuple(probabilities), episode_pr=probabilities, episode_return=returns)
+    work.answer("a", value)
+
+
+def _told(episode: Episode) -> str:
+    steps = "; ".join(f"{row.action} leads to {row.next}" for row in episode.transitions)
+    return f"it starts in {episode.start}; {steps}"
+
+
+def oracle(given: Given) -> Answers:
+    """Backwards instead: the values of all states by as many sweeps as there are states, then the mean over starts."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    P, R = tensors(given.mdp, states)
+    pi = chances(given.chances, given.mdp, states)
+    V = np.zeros(len(states))
+    for _ in states:
+        worth = lookahead(P, R, V, at(given.gamma))
+        V = (pi * np.where(np.isinf(worth), 0.0, worth)).sum(axis=1)
+    return {"a": sum(at(chance) * V[states.index(state)] for state, chance in given.start.items())}

@@ -1,0 +1,40 @@
+"""A geometric series for the rewards that repeat, then the first rewards before it."""
+
+import numpy as np
+
+from rldrill.problems.fundamentals.return_infinite import Given
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.fundamentals import (
+    GEOMETRIC_SERIES,
+    PLUS_FOR_MINUS,
+    RETURN_UNROLLED,
+    ROUND_OF_ONE,
+    TAIL_FORGOTTEN,
+    TAIL_UNDISCOUNTED,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (TAIL_FORGOTTEN, TAIL_UNDISCOUNTED, PLUS_FOR_MINUS, ROUND_OF_ONE)
+
+
+def solve(given: Given, work: Work) -> None:
+    """One round over 1 − γⁿ; the return from the start has the first rewards and the discounted rest."""
+    k = len(given.first)
+    gamma = exact(given.gamma)
+    r = {time + 1: exact(reward) for time, reward in enumerate((*given.first, *given.repeated))}
+    tail = work.answer("a", work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r))
+    if k:
+        work.answer("b", work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}))
+
+
+def oracle(given: Given) -> Answers:
+    """The rewards one by one, until what is left is too small to count."""
+    gamma = at(given.gamma)
+    enough = 1 if gamma == 0 else int(min(2_000_000, -36 / np.log(gamma)))  # γ to that power is below 1e-15
+    repeated = np.resize([at(reward) for reward in given.repeated], enough)
+    tail = float(np.polynomial.polynomial.polyval(gamma, repeated))
+    value = tail
+    for reward in reversed(given.first):
+        value = at(reward) + gamma * value
+    return {"a": tail, "b": value} if given.first else {"a": tail}

@@ -1,0 +1,51 @@
+"""A rollout, one time after the other: action, reward, next state."""
+
+import numpy as np
+
+from rldrill.problems.linear import by_time
+from rldrill.problems.linear_methods.lqr_reward import Given
+from rldrill.solutions import linear, matrices
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.linear_methods import (
+    ACTION_FIRST,
+    COST_FOR_REWARD,
+    DYNAMICS,
+    LQR_ACTION,
+    LQR_REWARD,
+    LQR_TOTAL,
+    REWARD_WITHOUT_R,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (COST_FOR_REWARD, REWARD_WITHOUT_R, ACTION_FIRST)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The first reward is asked for on the way."""
+    known = linear.known(given)
+    known["Lt"] = {time: matrices.given(by_time(given.L, time)) for time in range(given.horizon + 1)}
+    known["St"] = {0: linear.start(given)}
+    known["Ut"], rewards = {}, {}
+    for time in range(given.horizon + 1):
+        known["Ut"] = known["Ut"] | {time: work.step(LQR_ACTION, t=time, **known)}
+        reward = linear.number(work.step(LQR_REWARD, t=time, **known))
+        rewards[time] = work.answer("a", reward) if time == 0 else reward
+        if time < given.horizon:
+            known["St"] = known["St"] | {time + 1: work.step(DYNAMICS, t=time, **known)}
+    work.answer("b", work.step(LQR_TOTAL, T=given.horizon, rt=rewards))
+
+
+def oracle(given: Given) -> Answers:
+    """States and actions from powers of the closed loop, rewards entry by entry."""
+    state = np.array([at(entry) for entry in given.start])
+    rewards = []
+    for time in range(given.horizon + 1):
+        now = linear.arrays(given, time)
+        feedback = -linear.array(by_time(given.L, time))
+        both = np.concatenate([state, feedback @ state])
+        weights = np.zeros((len(both), len(both)))
+        n = len(state)
+        weights[:n, :n], weights[n:, n:] = now["Q"], now["R"]
+        rewards.append(-float(np.einsum("i,ij,j", both, weights, both)))
+        state = np.hstack([now["A"], now["B"]]) @ both
+    return {"a": rewards[0], "b": sum(rewards)}

@@ -1,0 +1,169 @@
+"""Matrices of exact values: flint's where all entries are rational, else entry by entry."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeAlias
+
+from flint import fmpq, fmpq_mat
+
+from rldrill.problems.matrices import Rows
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_zero, simplest, tidy
+
+
+class ExactMatrix:
+    """A matrix of any exact values, with the operations of ``fmpq_mat``; made by ``matrix``."""
+
+    __slots__ = ("_rows",)
+
+    def __init__(self, rows: Iterable[Iterable[Value]]) -> None:
+        self._rows = tuple(map(tuple, rows))
+
+    def __repr__(self) -> str:
+        return f"<matrix {self.tolist()}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ExactMatrix) and self._rows == other._rows
+
+    def __hash__(self) -> int:
+        return hash(self._rows)
+
+    def __getitem__(self, place: tuple[int, int]) -> Value:
+        return self._rows[place[0]][place[1]]
+
+    def nrows(self) -> int:
+        """How many rows it has."""
+        return len(self._rows)
+
+    def ncols(self) -> int:
+        """How many columns it has."""
+        return len(self._rows[0])
+
+    def tolist(self) -> list[list[Value]]:
+        """Its rows."""
+        return [list(line) for line in self._rows]
+
+    def entries(self) -> list[Value]:
+        """All entries, row by row."""
+        return [entry for line in self._rows for entry in line]
+
+    def transpose(self) -> "AnyMatrix":
+        """Rows as columns."""
+        return matrix(zip(*self._rows, strict=True))
+
+    def __neg__(self) -> "AnyMatrix":
+        return matrix([-entry for entry in line] for line in self._rows)
+
+    def __add__(self, other: Any) -> "AnyMatrix":
+        return matrix(
+            [a + b for a, b in zip(mine, its, strict=True)]
+            for mine, its in zip(self._rows, other.tolist(), strict=True)
+        )
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> "AnyMatrix":
+        return self + -other
+
+    def __rsub__(self, other: Any) -> "AnyMatrix":
+        return -self + other
+
+    def __mul__(self, other: Any) -> "AnyMatrix":
+        return product(self, other) if is_matrix(other) else self._scaled(other)
+
+    def __rmul__(self, other: Any) -> "AnyMatrix":
+        return product(other, self) if is_matrix(other) else self._scaled(other)
+
+    def _scaled(self, factor: Value) -> "AnyMatrix":
+        return matrix([factor * entry for entry in line] for line in self._rows)
+
+    def inv(self) -> "AnyMatrix":
+        """The inverse, by elimination.
+
+        Raises:
+            ZeroDivisionError: there is none.
+        """
+        size = self.nrows()
+        rows = [[*line, *(ONE if i == j else ZERO for j in range(size))] for i, line in enumerate(self._rows)]
+        for k in range(size):
+            pivot = next((i for i in range(k, size) if not is_zero(rows[i][k])), None)
+            if pivot is None:
+                raise ZeroDivisionError("the matrix is singular")
+            rows[k], rows[pivot] = rows[pivot], rows[k]
+            head = rows[k][k]
+            rows[k] = [tidy(ONE * entry / head) for entry in rows[k]]
+            for i in range(size):
+                if i != k:
+                    factor = rows[i][k]
+                    rows[i] = [tidy(entry - factor * above) for entry, above in zip(rows[i], rows[k], strict=True)]
+        return matrix(line[size:] for line in rows)
+
+
+AnyMatrix: TypeAlias = Any  # fmpq_mat or ExactMatrix
+
+
+def is_matrix(value: object) -> bool:
+    """Whether a value is a matrix of either kind."""
+    return isinstance(value, fmpq_mat | ExactMatrix)
+
+
+def matrix(rows: Iterable[Iterable[Value]]) -> AnyMatrix:
+    """Rows of values as a matrix, of flint's kind if it can be."""
+    lines = [[tidy(simplest(entry)) for entry in line] for line in rows]
+    if all(isinstance(entry, fmpq) for line in lines for entry in line):
+        return fmpq_mat(len(lines), len(lines[0]), [entry for line in lines for entry in line])
+    return ExactMatrix(lines)
+
+
+def given(rows: Rows) -> AnyMatrix:
+    """A matrix of a problem's givens."""
+    return matrix([exact(entry) for entry in line] for line in rows)
+
+
+def column(values: Iterable[Value]) -> AnyMatrix:
+    """A column of values."""
+    return matrix([value] for value in values)
+
+
+def product(left: AnyMatrix, right: AnyMatrix) -> AnyMatrix:
+    """The product of two matrices, of which one at least is not flint's.
+
+    Raises:
+        ValueError: their shapes do not fit.
+    """
+    columns = list(zip(*right.tolist(), strict=True))
+    return matrix([_inner(line, column) for column in columns] for line in left.tolist())
+
+
+def _inner(line: Sequence[Value], column: Sequence[Value]) -> Value:
+    terms = (a * b for a, b in zip(line, column, strict=True) if a != 0 and b != 0)
+    return sum(terms, ZERO)
+
+
+def identity(size: int) -> fmpq_mat:
+    """The identity matrix."""
+    return fmpq_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+
+
+def stacked(rows: int, *blocks: Any) -> AnyMatrix:
+    """Blocks side by side and below one another, as one matrix.
+
+    Args:
+        rows: how many rows of blocks.
+        *blocks: the blocks, row by row: matrices and scalars; a 0 among matrices fills its place.
+    """
+    width = len(blocks) // rows
+    lines = [blocks[start : start + width] for start in range(0, len(blocks), width)]
+    heights = [max(block.nrows() if is_matrix(block) else 1 for block in line) for line in lines]
+    widths = [max(line[j].ncols() if is_matrix(line[j]) else 1 for line in lines) for j in range(width)]
+    result: list[list[Value]] = []
+    for line, height in zip(lines, heights, strict=True):
+        parts = [list(_entries(block, height, across)) for block, across in zip(line, widths, strict=True)]
+        result += [[entry for part in parts for entry in part[i]] for i in range(height)]
+    return matrix(result)
+
+
+def _entries(block: Any, height: int, across: int) -> Iterator[list[Value]]:
+    if is_matrix(block):
+        yield from block.tolist()
+    else:
+        for i in range(height):
+            yield [block if i == j else ZERO for j in range(across)]
