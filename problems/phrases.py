@@ -19,10 +19,28 @@ def step_size(alpha: Scalar) -> str:
     return f"The step size is $α = {shown(alpha)}$."
 
 
+def trace_parameter(lam: Scalar) -> str:
+    """The sentence that gives λ."""
+    if isinstance(lam, Parameter):
+        return f"The parameter ${shown(lam)}$ is left open."
+    return f"The parameter is $λ = {shown(lam)}$."
+
+
 def in_open(given: Givens) -> str:
     """What is added to a question whose answer is an expression in what is left open."""
     left_open = given.parameters()
     return f", as an expression in ${shown(Parameter(left_open[0]))}$" if left_open else ""
+
+
+def check_one_open(given: Givens) -> None:
+    """Demand that one parameter is left open at most.
+
+    Raises:
+        ValueError: there are more, named in the sentence.
+    """
+    left_open = given.parameters()
+    if len(left_open) > 1:
+        raise ValueError(f"{joined(list(left_open))} are left open; give a number for all but one")
 
 
 def terminal_note(terminal: tuple[str, ...]) -> tuple[Paragraph, ...]:

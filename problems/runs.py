@@ -9,10 +9,10 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Probability, Scalar, StepSize, shown
+from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.phrases import discount, step_size, terminal_note
+from rldrill.problems.phrases import check_one_open, discount, step_size, terminal_note
 from rldrill.problems.settings import draw_setting
 
 
@@ -38,17 +38,36 @@ class Trajectory(Givens):
         return self
 
 
+class Episode(Trajectory):
+    """A run to its end: the last state is terminal."""
+
+    states: tuple[Name, ...] = Field(min_length=2, max_length=301)
+
+    @model_validator(mode="after")
+    def _ends(self) -> Self:
+        if self.states[-1] not in self.terminal:
+            raise ValueError(f"an episode ends in a terminal state; list {self.states[-1]!r}, its last, as terminal")
+        return self
+
+
+def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Episode:
+    """An episode through these states to the terminal one, with small whole rewards that are not 0."""
+    rewards = tuple(rng.nonzero(-4, 8) for _ in states)
+    return Episode(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+
+
 class ValueRun(Givens):
     """A run, the state values before it, the step size and the discount."""
 
     trajectory: Trajectory
     values: dict[Name, Exact]
     alpha: StepSize
-    gamma: Probability
+    gamma: Discount
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
         check_values(self.values, self.trajectory)
+        check_one_open(self)
         return self
 
     @property
@@ -165,20 +184,30 @@ def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q
     )
 
 
+def seen(run: Trajectory) -> tuple[Block, ...]:
+    """What an agent was seen to do, and where that ends."""
+    return (
+        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(run),
+        *terminal_note(run.terminal),
+    )
+
+
+def run_situation(given: ValueRun | ActionRun, *values: Table, more: str = "") -> tuple[Block, ...]:
+    """A run, and the values before it; ``more`` is said after the step size and the discount."""
+    told = f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    return (*seen(given.trajectory), Paragraph(told.rstrip()), *values)
+
+
+def values_asked(given: ValueRun) -> str:
+    """What a question asks for where every visited state changes."""
+    visited = given.visited
+    return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
+
+
 def run_blocks(given: ValueRun | ActionRun, values: Table, method: str) -> tuple[Block, ...]:
     """The situation of a question about updates along a run: the run, the values before it, and the method."""
     return (
         *run_situation(given, values),
         Paragraph(f"{method} updates after every transition, with the values that are current then."),
-    )
-
-
-def run_situation(given: ValueRun | ActionRun, *values: Table) -> tuple[Block, ...]:
-    """A run, and the values before it."""
-    return (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
-        trajectory_table(given.trajectory),
-        *terminal_note(given.trajectory.terminal),
-        Paragraph(f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)}"),
-        *values,
     )

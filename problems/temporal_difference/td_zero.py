@@ -6,7 +6,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import Trajectory, ValueRun, run_blocks
+from rldrill.problems.runs import Trajectory, ValueRun, run_blocks, values_asked
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(0)"
@@ -40,9 +40,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The run, the values before it; all visited states are asked for."""
-    visited = given.visited
-    asked = f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
     return Question(
         run_blocks(given, values_table(given.values), "TD(0)"),
-        (Part("a", f"What is {asked} after the run{in_open(given)}?", Table("V", visited)),),
+        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Table("V", given.visited)),),
     )

@@ -145,7 +145,7 @@ def _product(factors: list[Expr]) -> Expr:
 
 
 def _power(base: Expr, exponent: Expr) -> Expr:
-    if exponent == 1:
+    if 1 in (base, exponent):
         return base
     if exponent == 0:
         return sympy.S.One

@@ -129,6 +129,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.9",
         hint="Begin with the last return, which is the last reward, and go back in time.",
     )
+    RECURSION_UNDISCOUNTED = misread(
+        RETURN_RECURSIVE, "no-discount", r(t + 1) + G(t + 1), "The return that follows is discounted by γ."
+    )
 
     _FIRST = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 

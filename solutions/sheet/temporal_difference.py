@@ -1,11 +1,110 @@
 """Section 4 of the sheet: temporal difference learning."""
 
-from sympy import evaluate
+from sympy import Pow, evaluate
 
+from rldrill.problems.mathematics import Fence, Script, variable
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import DOTS, Counting, Gn, S, SumOver, V, alpha, gamma, i, n, r, t
+from rldrill.solutions.formula.notation import (
+    DOTS,
+    INFINITY,
+    Counting,
+    G,
+    Gn,
+    Indicator,
+    S,
+    SumOver,
+    T,
+    V,
+    alpha,
+    called,
+    gamma,
+    i,
+    lam,
+    n,
+    quantity,
+    r,
+    s,
+    subscripted,
+    t,
+)
+
+#: The λ-return, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
+Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
+e = quantity("e", called("e"))
+N = quantity("count", called("n"))
+Visits = quantity("visits", called("T"))
+Vn = quantity("Vn", subscripted("V"))
+w = quantity("w", subscripted("w"))
 
 with evaluate(False):
+    TD_LAMBDA = Formula(
+        "td-lambda",
+        V(S(t)),
+        V(S(t)) + alpha * (Glam(t) - V(S(t))),
+        title="TD(λ) update, forward view",
+        source="Sutton & Barto 2018, eq. 12.4, for a table",
+        hint="Move the old value a step α towards the λ-return.",
+        sign="←",
+    )
+    FORGOT_ALPHA = misread(
+        TD_LAMBDA,
+        "forgot-alpha",
+        V(S(t)) + (Glam(t) - V(S(t))),
+        "The value moves only a step α towards the λ-return; without α it is replaced by it.",
+    )
+    NOT_SUBTRACTED = misread(
+        TD_LAMBDA,
+        "old-value-not-subtracted",
+        V(S(t)) + alpha * Glam(t),
+        "α multiplies the difference between the λ-return and the old value, so the old value is subtracted in it.",
+    )
+    NOT_KEPT = misread(
+        TD_LAMBDA,
+        "old-value-not-kept",
+        alpha * (Glam(t) - V(S(t))),
+        "What α multiplies is the change: it is added to the old value.",
+    )
+
+    _WEIGHTED = SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, T - t - 1))
+    _CLOSING = lam ** (T - t - 1) * G(t)
+
+    LAMBDA_RETURN = Formula(
+        "lambda-return",
+        Glam(t),
+        (1 - lam) * _WEIGHTED + _CLOSING,
+        title="λ-return",
+        source="Sutton & Barto 2018, eqs. 12.2 and 12.3",
+        hint="Weight the n-step returns with (1 − λ)λⁿ⁻¹; the full return gets all the weight that is left.",
+        also=((1 - lam) * SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, INFINITY)),),
+        note="From the end T of the episode on every n-step return is the return, so their weights add up to λᵀ⁻ᵗ⁻¹.",
+    )
+    FORGOT_ONE_MINUS_LAMBDA = misread(
+        LAMBDA_RETURN,
+        "forgot-one-minus-lambda",
+        _WEIGHTED + _CLOSING,
+        "The factor 1 − λ makes the weights sum to 1.",
+        when=lambda given: given.bootstraps,
+    )
+    FORGOT_CLOSING = misread(
+        LAMBDA_RETURN,
+        "closing-return-left-out",
+        (1 - lam) * _WEIGHTED,
+        "The sum does not stop before the end: the full return has the weight λᵀ⁻ᵗ⁻¹.",
+    )
+    CLOSING_LIKE_OTHERS = misread(
+        LAMBDA_RETURN,
+        "closing-weight-forgotten",
+        (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING,
+        "The full return stands for all longer n-step returns too, so its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
+    )
+    POWER_ONE_LATE = misread(
+        LAMBDA_RETURN,
+        "power-one-late",
+        (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING,
+        "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
+        when=lambda given: given.bootstraps,
+    )
+
     _REWARDS = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 
     N_STEP_RETURN = Formula(
@@ -36,6 +135,56 @@ with evaluate(False):
         "n steps earn n rewards; the next reward is already inside the value.",
     )
 
+    _DECAYED = gamma * lam * e(s)
+    _VISIT = Indicator(s, S(t))
+
+    ELIGIBILITY_TRACE = Formula(
+        "eligibility-trace",
+        e(s),
+        _DECAYED + _VISIT,
+        title="Eligibility trace",
+        source="Sutton & Barto 2018, eq. 12.5, for a table",
+        hint="Every trace decays by γλ; then that of the visited state grows by 1.",
+        sign="←",
+    )
+    DECAY_WITHOUT_GAMMA = misread(
+        ELIGIBILITY_TRACE, "decay-without-gamma", lam * e(s) + _VISIT, "Traces decay by γλ, not by λ alone."
+    )
+    DECAY_WITHOUT_LAMBDA = misread(
+        ELIGIBILITY_TRACE, "decay-without-lambda", gamma * e(s) + _VISIT, "Traces decay by γλ, not by γ alone."
+    )
+    REPLACING = misread(
+        ELIGIBILITY_TRACE,
+        "replacing-trace",
+        _DECAYED * (1 - _VISIT) + _VISIT,
+        "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
+        when=lambda given: len(set(given.states)) < len(given.states),
+    )
+    INCREMENT_FIRST = misread(
+        ELIGIBILITY_TRACE,
+        "increment-before-decay",
+        gamma * lam * (e(s) + _VISIT),
+        "The trace decays first, and 1 is added after that: the newest visit counts in full.",
+    )
+
+    TD_LAMBDA_BACKWARD = Formula(
+        "td-lambda-backward",
+        V(s),
+        V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(S(t))),
+        title="TD(λ) update, backward view",
+        source="Sutton & Barto 2018, eqs. 12.6 and 12.7, for a table",
+        hint="One TD error, that of the transition, goes to every state in proportion to its trace.",
+        sign="←",
+        note="For all s. Some sheets print V(s) inside the TD error; it belongs to the state that was left, V(s_t).",
+    )
+    LITERAL_VALUE = misread(
+        TD_LAMBDA_BACKWARD,
+        "own-value-in-td-error",
+        V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
+        "The TD error belongs to the transition: the value subtracted in it is that of the state that was left.",
+        when=lambda given: len(given.visited) > 1,
+    )
+
     TD_ZERO = Formula(
         "td-zero",
         V(S(t)),
@@ -62,4 +211,113 @@ with evaluate(False):
         "sign-of-td-error",
         V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
         "The TD error is target minus old value, so that the value moves towards the target.",
+    )
+
+    MONTE_CARLO = Formula(
+        "monte-carlo",
+        V(S(t)),
+        V(S(t)) + alpha * (G(t) - V(S(t))),
+        title="Monte Carlo update",
+        source="Sutton & Barto 2018, eq. 6.1",
+        hint="Work out the return after the visit, then move the old value a step α towards it.",
+        sign="←",
+    )
+
+    VISIT_COUNT = Formula(
+        "visit-count",
+        N(S(t)),
+        N(S(t)) + 1,
+        title="Number of visits",
+        source="Sutton & Barto 2018, section 2.4",
+        hint="Count the visit before it is averaged in.",
+        sign="←",
+    )
+    SAMPLE_AVERAGE = Formula(
+        "sample-average",
+        V(S(t)),
+        V(S(t)) + Pow(N(S(t)), -1) * (G(t) - V(S(t))),
+        title="Sample average",
+        source="Sutton & Barto 2018, eq. 2.3",
+        hint="Count the visit first; then the step size is one over the number of visits.",
+        sign="←",
+        note="The Monte Carlo update with α = 1/n(s), where n(s) counts the visits of s, this one included.",
+    )
+    NOT_COUNTED = misread(
+        SAMPLE_AVERAGE,
+        "one-over-n-minus-1",
+        V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
+        "The visit that is being averaged in counts too: divide by n(s) after it.",
+        when=lambda given: given.alpha is None and given.visited_before,
+    )
+    COUNTED_TWICE = misread(
+        SAMPLE_AVERAGE,
+        "one-over-n-plus-1",
+        V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
+        "n(s) counts this visit already, so nothing is added to it.",
+        when=lambda given: given.alpha is None,
+    )
+
+    RECENCY_WEIGHT = Formula(
+        "recency-weight",
+        w(i),
+        alpha * (1 - alpha) ** (n - i),
+        title="Weight of the i-th of n returns",
+        source="Sutton & Barto 2018, eq. 2.6",
+        hint="A return enters with weight α, and every later return weakens it by the factor 1 − α.",
+    )
+    OLDEST_FIRST = misread(
+        RECENCY_WEIGHT,
+        "weights-reversed",
+        alpha * (1 - alpha) ** (i - 1),
+        "The newest return has the greatest weight, α; the older one is, the more often it was weakened by 1 − α.",
+        when=lambda given: given.alpha is not None and len(given.visits) > 1,
+    )
+    ONE_POWER_MORE = misread(
+        RECENCY_WEIGHT,
+        "weakened-once-too-often",
+        alpha * (1 - alpha) ** (n - i + 1),
+        "The newest return has not been weakened yet: its weight is α.",
+        when=lambda given: given.alpha is not None,
+    )
+    EQUAL_WEIGHTS = misread(
+        RECENCY_WEIGHT,
+        "equal-weights",
+        Pow(n, -1),
+        "Only the sample average weights all returns alike; a constant step size favours the newest.",
+        when=lambda given: given.alpha is not None,
+    )
+
+    CONSTANT_STEP_SIZE = Formula(
+        "constant-step-size",
+        Vn(n),
+        (1 - alpha) ** n * Vn(0) + SumOver(w(i) * G(i), i, Counting(1, n)),
+        title="Value after n updates with a constant step size",
+        source="Sutton & Barto 2018, eq. 2.6",
+        hint="Weight every return, and the first value with what is left: (1 − α)ⁿ.",
+        also=((1 - alpha) ** n * Vn(0) + SumOver(alpha * (1 - alpha) ** (n - i) * G(i), i, Counting(1, n)),),
+    )
+    START_FORGOTTEN = misread(
+        CONSTANT_STEP_SIZE,
+        "first-value-forgotten",
+        SumOver(w(i) * G(i), i, Counting(1, n)),
+        "With a constant step size the first value never leaves the average: its weight is (1 − α)ⁿ.",
+        when=lambda given: given.alpha is not None,
+    )
+
+    BATCH_MONTE_CARLO = Formula(
+        "batch-monte-carlo",
+        V(s),
+        Pow(N(s), -1) * SumOver(G(t), t, Visits(s)),
+        title="Batch Monte Carlo",
+        source="Sutton & Barto 2018, section 6.3",
+        hint="Average the returns that were seen after all visits of the state.",
+    )
+    BATCH_TD = Formula(
+        "batch-td",
+        V(s),
+        Pow(N(s), -1) * SumOver(r(t + 1) + gamma * V(S(t + 1)), t, Visits(s)),
+        title="Batch TD(0)",
+        source="Sutton & Barto 2018, section 6.3",
+        hint="Average the one-step targets after all visits of the state; begin with states that only lead to the end.",
+        note="These are the values of the most likely Markov process behind the data (the certainty equivalence).",
     )

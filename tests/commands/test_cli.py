@@ -161,7 +161,7 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
 def test_completion_offers_names_and_ids() -> None:
     from rldrill.commands.arguments import complete_ids, complete_names
 
-    assert complete_names("td") == ["td-zero"]
+    assert complete_names("td-z") == ["td-zero"]
     assert "temporal-difference" in complete_names("temp")
     assert complete_ids("td-zero/") == ["td-zero/1/", "td-zero/2/", "td-zero/3/"]
 

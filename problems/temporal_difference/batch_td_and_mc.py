@@ -1,0 +1,100 @@
+"""What batch TD(0) and batch Monte Carlo make of the same episodes."""
+
+from collections import Counter
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Exact, Parameter, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name
+from rldrill.problems.parts import Part
+from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.settings import draw_setting
+
+TITLE = "Batch TD(0) and batch Monte Carlo"
+SOURCE = "Sutton & Barto 2018, section 6.3"
+REVISION = 1
+
+
+class Observed(Givens):
+    """An episode as it was seen: state, reward, state, reward, …, end; and how many times it was seen."""
+
+    states: tuple[Name, ...] = Field(min_length=1, max_length=100)
+    rewards: tuple[Exact, ...]
+    times: int = Field(default=1, ge=1, le=100)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Observed":
+        if len(self.rewards) != len(self.states):
+            raise ValueError(
+                f"an episode of {len(self.states)} states earns as many rewards, the last one at its end, "
+                f"not {len(self.rewards)}"
+            )
+        return self
+
+
+class Given(Givens):
+    """The episodes, and the discount."""
+
+    episodes: tuple[Observed, ...] = Field(min_length=1, max_length=50)
+    gamma: Discount
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """The states that were seen, in the order of their first visit."""
+        return tuple(dict.fromkeys(state for episode in self.episodes for state in episode.states))
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two states, and one episode through both; then more of both; then three states with γ left open."""
+    setting = draw_setting(rng)
+    named = rng.sample(setting.states, 2 if level < 3 else 3)
+    paths = {
+        1: ((0, 1), (1,), (1,), (1,)),
+        2: ((0, 1), (0, 1), (0,), (1,), (1,), (1,), (1,), (1,)),
+        3: ((0, 1, 2), (0, 2), (1, 2), (1, 2), (2,), (2,)),
+    }[level]
+    high = 4 if level > 1 else 3
+    seen = Counter((tuple(named[place] for place in path), tuple(rng.whole(0, high) for _ in path)) for path in paths)
+    return Given(
+        episodes=tuple(
+            Observed(states=states, rewards=rewards, times=times) for (states, rewards), times in seen.items()
+        ),
+        gamma=Parameter("gamma") if level == 3 else rng.fraction("1") if level == 1 else rng.fraction("1/2", "1"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The episodes as Example 6.4 lists them; what each method converges to is a part."""
+    blocks = (
+        Paragraph("These episodes were seen: state, reward, state, reward and so on. Each ends after its last reward."),
+        Table(
+            header=("times", "episode"),
+            rows=tuple((f"${episode.times}$", run_text(episode)) for episode in given.episodes),
+        ),
+        Paragraph(discount(given.gamma)),
+        Paragraph(
+            "All the episodes are presented again and again as one batch. The values change only after each whole "
+            "batch, by the sum of all the updates in it, with a small constant step size, until they no longer change."
+        ),
+    )
+    tail = in_open(given)
+    key = TableKind("V", given.states)
+    what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
+    return Question(
+        blocks,
+        (
+            Part("a", f"What are {what} at the end if the updates are those of every-visit Monte Carlo{tail}?", key),
+            Part("b", f"What are {what} at the end if the updates are those of TD(0){tail}?", key),
+        ),
+    )
+
+
+def run_text(episode: Observed) -> str:
+    """An episode in a line: state, reward, state, reward, …"""
+    return ", ".join(
+        f"{state}, ${shown(reward)}$" for state, reward in zip(episode.states, episode.rewards, strict=True)
+    )

@@ -1,0 +1,88 @@
+"""The λ-return of an episode, from its n-step returns."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Exact, OpenProbability, Parameter
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name, values_table
+from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
+from rldrill.problems.runs import Episode, check_values, draw_episode, seen
+from rldrill.problems.settings import draw_setting
+
+TITLE = "λ-return"
+SOURCE = "Sutton & Barto 2018, section 12.1"
+REVISION = 1
+
+
+class Given(Givens):
+    """An episode, the current values, γ and λ, and the time from which the λ-return is asked."""
+
+    trajectory: Episode
+    values: dict[Name, Exact]
+    gamma: Discount
+    lam: OpenProbability
+    time: int = Field(default=0, ge=0)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        check_values(self.values, self.trajectory)
+        check_one_open(self)
+        if self.time >= len(self.trajectory.rewards):
+            raise ValueError(f"time is {self.time}, but the episode ends at {len(self.trajectory.rewards)}")
+        return self
+
+    @property
+    def in_parts(self) -> bool:
+        """Whether the returns that are averaged are a part of their own; they say nothing about an open λ."""
+        return self.bootstraps and not isinstance(self.lam, Parameter)
+
+    @property
+    def bootstraps(self) -> bool:
+        """Whether there are n-step returns before the end of the episode."""
+        return self.steps_left > 1
+
+    @property
+    def steps_left(self) -> int:
+        """The steps from the time asked for to the end."""
+        return len(self.trajectory.rewards) - self.time
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """An episode of two steps; then of three; then of four, with λ left open."""
+    setting = draw_setting(rng)
+    steps = level + 1
+    states = rng.shuffled(setting.states)[:steps]
+    return Given(
+        trajectory=draw_episode(rng, states, setting.terminal),
+        values={state: rng.nonzero(-4, 10) for state in setting.states if state in states},
+        gamma=rng.fraction("1/2", "1") if level == 3 else rng.fraction("1/2", "4/5"),
+        lam=Parameter("lambda") if level == 3 else rng.fraction("1/2", "1/4"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The returns that are averaged, then their average; in an open λ the average alone."""
+    t = given.time
+    blocks = (
+        *seen(given.trajectory),
+        Paragraph(f"The current values are these. {discount(given.gamma)} {trace_parameter(given.lam)}"),
+        values_table(given.values),
+    )
+    average = f"What is the λ-return $R_{{{t}}}^{{(λ)}}$ of this episode{in_open(given)}?"
+    if not given.in_parts:
+        return Question(blocks, (Part("a", average, Number()),))
+    entries = (*(f"R_{{{t}}}^{{({n})}}" for n in range(1, given.steps_left)), f"R_{{{t}}}")
+    shorter = [f"${entry}$" for entry in entries[:-1]]
+    many = f"n-step returns {', '.join(shorter)}" if len(shorter) > 1 else f"one-step return {shorter[0]}"
+    return Question(
+        blocks,
+        (
+            Part("a", f"What are the {many} and the return ${entries[-1]}$?", Vector(entries)),
+            Part("b", average, Number()),
+        ),
+    )

@@ -1,0 +1,72 @@
+"""The incremental mean, visit by visit; or with a constant step size the weighted sum of all returns."""
+
+import numpy as np
+
+from rldrill.problems.temporal_difference.sample_average import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.sheet.temporal_difference import (
+    CONSTANT_STEP_SIZE,
+    COUNTED_TWICE,
+    EQUAL_WEIGHTS,
+    NOT_COUNTED,
+    OLDEST_FIRST,
+    ONE_POWER_MORE,
+    RECENCY_WEIGHT,
+    SAMPLE_AVERAGE,
+    START_FORGOTTEN,
+    VISIT_COUNT,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (NOT_COUNTED, COUNTED_TWICE, OLDEST_FIRST, ONE_POWER_MORE, EQUAL_WEIGHTS, START_FORGOTTEN)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Count, then average in; or the weights first."""
+    if given.alpha is None:
+        _averaged(given, work)
+    else:
+        _weighted(given, work)
+
+
+def _averaged(given: Given, work: Work) -> None:
+    values = knowns.values(given.values)
+    counts = {state: exact(count) for state, count in given.counts.items()}
+    S = {visit: state for visit, (state, _) in enumerate(given.visits, start=1)}
+    G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
+    for visit, state in S.items():
+        counts = counts | {state: work.step(VISIT_COUNT, t=visit, S=S, count=counts)}
+        values = values | {state: work.step(SAMPLE_AVERAGE, t=visit, S=S, count=counts, G=G, V=values)}
+    work.answer("a", {state: values[state] for state in given.visited})
+
+
+def _weighted(given: Given, work: Work) -> None:
+    count, alpha = len(given.visits), exact(given.alpha or 0)
+    weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
+    carried = work.answer("a", weights[0] if count == 1 else weights)
+    w = dict(enumerate((carried,) if count == 1 else carried, start=1))
+    G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
+    start = exact(given.values[given.visited[0]])
+    work.answer("b", work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start}))
+
+
+def oracle(given: Given) -> Answers:
+    """The plain mean of old and new returns; with a constant step size the updates one by one, on unit vectors too."""
+    if given.alpha is None:
+        means = []
+        for state in given.visited:
+            count = given.counts[state]
+            new = [at(value) for visited, value in given.visits if visited == state]
+            means.append(np.mean([at(given.values[state])] * count + new))
+        return {"a": means}
+    start, returns = at(given.values[given.visited[0]]), np.array([at(value) for _, value in given.visits])
+    weights = [_updated(0.0, unit, at(given.alpha)) for unit in np.eye(len(returns))]
+    return {"a": weights, "b": _updated(start, returns, at(given.alpha))}
+
+
+def _updated(value: float, returns: Array, alpha: float) -> float:
+    for observed in returns:
+        value = (1 - alpha) * value + alpha * observed
+    return value

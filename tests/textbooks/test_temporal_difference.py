@@ -1,0 +1,97 @@
+"""Numbers of temporal difference learning, from books or worked out by hand in the comments."""
+
+from typing import Any
+
+from flint import fmpq
+
+import rldrill
+
+
+def solved(family: str, **given: Any) -> Any:
+    return rldrill.read({"family": family, "given": given}).solve()
+
+
+def test_example_6_4_of_sutton_and_barto() -> None:
+    # "You are the Predictor": A, 0, B, 0; six times B, 1; once B, 0. V(B) is 3/4 for both methods; batch TD(0) gives
+    # V(A) = 3/4, batch Monte Carlo V(A) = 0.
+    episodes = [
+        {"states": ["A", "B"], "rewards": [0, 0]},
+        {"states": ["B"], "rewards": [1], "times": 6},
+        {"states": ["B"], "rewards": [0]},
+    ]
+    answers = solved("batch-td-and-mc", episodes=episodes, gamma=1)
+    assert answers["a"] == {"A": fmpq(0), "B": fmpq(3, 4)}
+    assert answers["b"] == {"A": fmpq(3, 4), "B": fmpq(3, 4)}
+
+
+def test_exercise_5_5_of_sutton_and_barto() -> None:
+    # One state, one episode of ten steps with reward +1 each, γ = 1. First visit: the one return, 10. Every visit:
+    # the mean of the returns 10, 9, …, 1, which is 55/10.
+    run = {"states": [*["s"] * 10, "end"], "rewards": [1] * 10, "terminal": ["end"]}
+    first = solved("monte-carlo", trajectory=run, values={"s": 0}, alpha=1, gamma=1, visits="first")
+    assert first["a"] == tuple(range(10, 0, -1))
+    assert first["b"] == {"s": fmpq(10)}
+    visits = [["s", value] for value in range(10, 0, -1)]
+    assert solved("sample-average", values={"s": 0}, counts={"s": 0}, visits=visits)["a"] == {"s": fmpq(11, 2)}
+    episode = {"states": ["s"] * 10, "rewards": [1] * 10}
+    assert solved("batch-td-and-mc", episodes=[episode], gamma=1)["a"] == {"s": fmpq(11, 2)}
+
+
+def test_the_weights_of_figure_12_2_of_sutton_and_barto() -> None:
+    # The weights 1 − λ, (1 − λ)λ, (1 − λ)λ² and, for the full return, λ³ (T − t − 1 = 3), read off one by one:
+    # values 1, 0, 0 at the ends of the n-step returns leave one n-step return alone; so does a last reward of 1
+    # for the full return.
+    states = ["a", "b", "c", "d", "end"]
+    expected = {"b": fmpq(1, 4), "c": fmpq(3, 16), "d": fmpq(9, 64), "end": fmpq(27, 64)}
+    for alone, weight in expected.items():
+        run = {"states": states, "rewards": [0, 0, 0, int(alone == "end")], "terminal": ["end"]}
+        values = {state: int(state == alone) for state in states[:-1]}
+        assert solved("lambda-return", trajectory=run, values=values, gamma=1, lam="3/4")["b"] == weight
+
+
+def test_a_lambda_return_by_hand() -> None:
+    # γ = λ = 1/2. From time 0: one step 1 + 1/2·4 = 3, two steps 1 + 1/2·2 + 1/4·8 = 4, all 1 + 1 + 1/4·4 = 3;
+    # 1/2·3 + 1/4·4 + 1/4·3 = 13/4. With α = 1/2: V(a) = 2 + 1/2·(13/4 − 2) = 21/8.
+    run = {"states": ["a", "b", "c", "end"], "rewards": [1, 2, 4], "terminal": ["end"]}
+    known = {"trajectory": run, "values": {"a": 2, "b": 4, "c": 8}, "gamma": "1/2", "lam": "1/2"}
+    answers = solved("lambda-return", **known)
+    assert answers["a"] == (3, 4, 3)
+    assert answers["b"] == fmpq(13, 4)
+    assert solved("td-lambda-forward", **known, alpha="1/2", asked=[0])["b"] == {"a": fmpq(21, 8)}
+
+
+def test_traces_by_hand() -> None:
+    # γ = 1/2, λ = 4/5, so every step leaves 2/5. a: 1, 2/5, 4/25 + 1 = 29/25, 58/125; b: 0, 1, 2/5, 4/25 + 1 = 29/25.
+    traces = solved("eligibility-trace", states=["a", "b", "a", "b"], gamma="1/2", lam="4/5", asked=[0, 2, 3])
+    assert traces == {
+        "a": {"a": fmpq(1), "b": fmpq(0)},
+        "b": {"a": fmpq(29, 25), "b": fmpq(2, 5)},
+        "c": {"a": fmpq(58, 125), "b": fmpq(29, 25)},
+    }
+
+
+def test_the_backward_view_by_hand() -> None:
+    # α = λ = 1/2, γ = 1, V(a) = 4, V(b) = 2.
+    # a → b, r = 0: δ = 0 + 2 − 4 = −2; V(a) = 4 − 1 = 3.
+    # b → a, r = 3: δ = 3 + 3 − 2 = 4; e(a) = 1/2, e(b) = 1; V(a) = 3 + 1/2·1/2·4 = 4, V(b) = 2 + 1/2·4 = 4.
+    # a → end, r = 8: δ = 8 − 4 = 4; e(a) = 1/4 + 1 = 5/4, e(b) = 1/2; V(a) = 4 + 5/2 = 13/2, V(b) = 4 + 1 = 5.
+    run = {"states": ["a", "b", "a", "end"], "rewards": [0, 3, 8], "terminal": ["end"]}
+    known = {"trajectory": run, "values": {"a": 4, "b": 2}, "alpha": "1/2", "gamma": 1, "lam": "1/2"}
+    assert solved("td-lambda-backward", **known)["a"] == {"a": fmpq(13, 2), "b": fmpq(5)}
+
+
+def test_first_and_every_visit_by_hand() -> None:
+    # γ = 1/2, rewards 1, 2, 4: R2 = 4, R1 = 2 + 2 = 4, R0 = 1 + 2 = 3. α = 1/2, V(a) = 1, V(b) = 0; a, b, a.
+    # First visit: V(a) = 1 + 1/2·(3 − 1) = 2. Every visit: then V(a) = 2 + 1/2·(4 − 2) = 3. V(b) = 2.
+    run = {"states": ["a", "b", "a", "end"], "rewards": [1, 2, 4], "terminal": ["end"]}
+    known = {"trajectory": run, "values": {"a": 1, "b": 0}, "alpha": "1/2", "gamma": "1/2"}
+    assert solved("monte-carlo", **known, visits="first") == {"a": (3, 4, 4), "b": {"a": fmpq(2), "b": fmpq(2)}}
+    assert solved("monte-carlo", **known, visits="every")["b"] == {"a": fmpq(3), "b": fmpq(2)}
+
+
+def test_the_weights_of_equation_2_6_of_sutton_and_barto() -> None:
+    # α = 1/2, three returns: (1/2)³, (1/2)², 1/2, and (1/2)³ for the first value: 8/8 + 8/8 + 4/4 + 2/2 = 4.
+    visits = [["s", 8], ["s", 4], ["s", 2]]
+    answers = solved("sample-average", values={"s": 8}, visits=visits, alpha="1/2")
+    assert answers["a"] == (fmpq(1, 8), fmpq(1, 4), fmpq(1, 2))
+    assert answers["b"] == fmpq(4)
