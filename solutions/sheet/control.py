@@ -186,6 +186,7 @@ with evaluate(False):
         "decay-without-gamma",
         lam * e(s, a) + Indicator(s, S(t), a, A(t)),
         "Traces decay by the product γλ, not by λ alone.",
+        when=lambda given: given.gamma != 1,
     )
     SARSA_LAMBDA = Formula(
         "sarsa-lambda",
