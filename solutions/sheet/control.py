@@ -462,6 +462,7 @@ with evaluate(False):
         "all-pulls-counted",
         _EARNED / n,
         "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
+        when=lambda given: given.kind != "gradient",
     )
     GREEDY_ARM = Formula(
         "greedy-arm",
