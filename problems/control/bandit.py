@@ -83,12 +83,12 @@ _STORIES = (
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Estimates from five pulls; then bounds from six or seven; then a gradient step with a baseline."""
+    """Estimates from five pulls; then bounds from five or six; then a gradient step with a baseline."""
     story = rng.choice(_STORIES)
     arms = story.arms
     if level == 3:
-        pulls = tuple(Pull(rng.choice(arms), rng.whole(0, 8)) for _ in range(4))
-        low = rng.whole(0, 1)
+        pulls = tuple(Pull(rng.choice(arms), rng.whole(0, 8)) for _ in range(rng.choice((5, 6))))
+        low = rng.nonzero(-2, 2)
         preferences = dict.fromkeys(arms, low) | {rng.choice(arms): low + rng.fraction("1/2", "1", "2")}
         return Given(
             pulls=pulls,
@@ -97,7 +97,7 @@ def draw(level: int, rng: Draws) -> Given:
             pulled=Pull(rng.choice(arms), rng.whole(0, 9)),
             story=story.told,
         )
-    extra = tuple(rng.choice(arms) for _ in range(2 if level == 1 else rng.choice((3, 4))))
+    extra = tuple(rng.choice(arms) for _ in range(2 if level == 1 else rng.choice((2, 3))))
     order = (*arms, *rng.shuffled(extra))
     pulls = tuple(Pull(arm, rng.whole(0, 9)) for arm in order)
     return Given(pulls=pulls, c=None if level == 1 else rng.fraction("1", "2", "1/2"), story=story.told)

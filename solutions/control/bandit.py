@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.control.bandit import NEXT, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import decimal, exact
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
     ALL_PULLS_COUNTED,
@@ -57,6 +57,7 @@ def solve(given: Given, work: Work) -> None:
         "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.arms},
     }
     bounds = work.answer("b", {arm: work.step(UCB, a=arm, **known) for arm in given.arms})
+    work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
     work.answer("c", {NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.arms)})
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from rldrill.problems.control.importance_sampling import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     IMPORTANCE_RATIO,
@@ -30,7 +30,8 @@ MISCONCEPTIONS = (
 
 def solve(given: Given, work: Work) -> None:
     """Ratios; returns; the mean of their products, and with the ratios as weights."""
-    known = {"pi": knowns.policy(given.target), "behaviour": knowns.policy(given.behaviour)}
+    acted = knowns.policy(given.behaviour)
+    known = {"pi": dict.fromkeys(acted, ZERO) | knowns.policy(given.target), "behaviour": acted}
     runs = [knowns.trajectory(episode) | {"T": len(episode.rewards)} for episode in given.episodes]
     ratios = tuple(work.step(IMPORTANCE_RATIO, i=number, **run, **known) for number, run in enumerate(runs, 1))
     answer = work.answer("a", ratios if len(ratios) > 1 else ratios[0])

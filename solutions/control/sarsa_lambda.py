@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -96,7 +96,9 @@ def _traces(given: Given, work: Work, visits: list[Pair], known: dict[str, Any])
 
 
 def _before(given: Given) -> dict[Pair, Value]:
-    return {(state, action): exact(trace) for state, row in (given.traces or {}).items() for action, trace in row.items()}
+    return {
+        (state, action): exact(trace) for state, row in (given.traces or {}).items() for action, trace in row.items()
+    }
 
 
 def oracle(given: Given) -> Answers:
