@@ -209,13 +209,14 @@ def values_table(values: Mapping[str, Scalar], of: str = "V") -> Table:
     )
 
 
-def policy_table(policy: Policy) -> Table:
-    """A stochastic policy, one line for every state and action."""
+def policy_table(policy: Policy, **others: Policy) -> Table:
+    """A stochastic policy, one line for every state and action; other policies by their letters, beside it."""
+    policies = {"π": policy} | others
     return Table(
-        header=("$s$", "$a$", "$π(a|s)$"),
+        header=("$s$", "$a$", *(f"${letter}(a|s)$" for letter in policies)),
         rows=tuple(
-            (state, action, f"${shown(chance)}$")
-            for state, chances in policy.items()
-            for action, chance in chances.items()
+            (state, action, *(f"${shown(other[state].get(action, Fraction(0)))}$" for other in policies.values()))
+            for state in policy
+            for action in dict.fromkeys(action for other in policies.values() for action in other[state])
         ),
     )

@@ -26,6 +26,13 @@ def trace_parameter(lam: Scalar) -> str:
     return f"The parameter is $λ = {shown(lam)}$."
 
 
+def exploration(epsilon: Scalar | None) -> str:
+    """The sentence that gives the exploration rate."""
+    if epsilon is None or isinstance(epsilon, Parameter):
+        return "The exploration rate $ε$ is left open."
+    return f"The exploration rate is $ε = {shown(epsilon)}$."
+
+
 def in_open(given: Givens) -> str:
     """What is added to a question whose answer is an expression in what is left open."""
     left_open = given.parameters()

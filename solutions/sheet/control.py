@@ -186,6 +186,7 @@ with evaluate(False):
         "decay-without-gamma",
         lam * e(s, a) + Indicator(s, S(t), a, A(t)),
         "Traces decay by the product γλ, not by λ alone.",
+        when=lambda given: given.gamma != 1,
     )
     SARSA_LAMBDA = Formula(
         "sarsa-lambda",
@@ -461,6 +462,7 @@ with evaluate(False):
         "all-pulls-counted",
         _EARNED / n,
         "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
+        when=lambda given: given.kind != "gradient",
     )
     GREEDY_ARM = Formula(
         "greedy-arm",

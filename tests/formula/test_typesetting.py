@@ -8,12 +8,14 @@ from flint import fmpq
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import mathematics
 from rldrill.render.latex import latex
+from rldrill.render.stacked import stacked
 from rldrill.render.unicode import unicode, unicode_text
 from rldrill.solutions.exact import generator
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V
+from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
 from rldrill.solutions.work import Step, Work
@@ -58,6 +60,30 @@ def test_zero_terms_are_dropped_and_unknowns_stay() -> None:
         "R": {("cool", "slow", "cool"): fmpq(3), ("cool", "fast", "warm"): fmpq(5)},
     }  # fmt: skip
     assert unicode(typeset(put_in(BELLMAN_V.right, known))) == "3 + 1/2·V^π(cool)"
+
+
+def test_a_formula_with_two_cases() -> None:
+    # The step has the case that holds, without the other one.
+    known = {"s": "cool", "epsilon": fmpq(1, 5), "actions": {"cool": ("slow", "fast")}, "best": {"cool": "fast"}}
+    steps = [unicode(typeset(put_in(EPSILON_GREEDY.right, known | {"a": action}))) for action in ("fast", "slow")]
+    assert steps == ["1 − 1/5 + (1/5)/2", "(1/5)/2"]
+    assert [EPSILON_GREEDY.value(known | {"a": action}) for action in ("fast", "slow")] == [fmpq(9, 10), fmpq(1, 10)]
+    assert latex(typeset(EPSILON_GREEDY.right)).startswith(r"\left\{ \begin{matrix}")
+    assert latex(typeset(EPSILON_GREEDY.right)).endswith(r"\end{matrix} \right.")
+    assert stacked(typeset(EPSILON_GREEDY.right)) == (
+        "⎧1 − ε + ε/|A(s)|  if a = a*(s)",
+        "⎩        ε/|A(s)|     otherwise",
+    )
+
+
+def test_a_product_over_a_run() -> None:
+    known = {
+        "T": 2, "S": {0: "cool", 1: "warm"}, "A": {0: "fast", 1: "slow"},
+        "pi": {("fast", "cool"): fmpq(3, 4), ("slow", "warm"): fmpq(1, 4)},
+        "behaviour": {("fast", "cool"): fmpq(1, 2), ("slow", "warm"): fmpq(1, 3)},
+    }  # fmt: skip
+    assert unicode(typeset(put_in(IMPORTANCE_RATIO.right, known))) == "(3/4·1/4)/(1/2·1/3)"
+    assert IMPORTANCE_RATIO.value(known) == fmpq(9, 8)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,141 @@
+"""The importance sampling ratios of some episodes, and the ordinary and the weighted estimate of a state's value."""
+
+from fractions import Fraction
+from typing import Annotated, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Parameter, Probability, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name, Policy, PolicyField, check_chances, check_keys, policy_table, read_policy
+from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.phrases import discount, in_open, terminal_note
+from rldrill.problems.runs import Trajectory, trajectory_table
+from rldrill.problems.settings import Setting, draw_setting
+
+TITLE = "Importance sampling"
+SOURCE = "Sutton & Barto 2018, section 5.5"
+REVISION = 1
+
+
+class Given(Givens):
+    """Episodes from one state, the policy b that acted, the policy π that is evaluated, and the discount."""
+
+    episodes: tuple[Trajectory, ...] = Field(min_length=1, max_length=26)
+    target: PolicyField
+    behaviour: Annotated[dict[Name, dict[Name, Probability]], BeforeValidator(read_policy)]
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        for number, episode in enumerate(self.episodes, 1):
+            if episode.states[-1] not in episode.terminal:
+                raise ValueError(f"episodes[{number}]: an episode must end in a terminal state")
+            if len(episode.actions) != len(episode.rewards):
+                raise ValueError(f"episodes[{number}]: the action taken in every state that is left is needed")
+            if episode.states[0] != self.start:
+                raise ValueError(f"episodes[{number}]: all episodes must start in {self.start!r}")
+            for state, action in zip(episode.states, episode.actions, strict=False):
+                if not self.behaviour.get(state, {}).get(action):
+                    raise ValueError(f"behaviour: {action!r} is taken in {state!r}, where it has no probability")
+        for state, chances in self.behaviour.items():
+            check_chances(chances, state, tuple(chances), "the behaviour policy")
+        check_keys(self.target, tuple(self.behaviour), "the target policy", needed=tuple(self.behaviour))
+        for state, chances in self.target.items():
+            check_chances(chances, state, tuple(self.behaviour[state]), "the target policy")
+        return self
+
+    @property
+    def start(self) -> str:
+        """The state in which the episodes start."""
+        return self.episodes[0].states[0]
+
+    @property
+    def target_takes_all(self) -> bool:
+        """Whether the target policy could have taken all the actions taken."""
+        return all(
+            self.target[state].get(action, 0) != 0
+            for episode in self.episodes
+            for state, action in zip(episode.states, episode.actions, strict=False)
+        )
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One episode of two steps; then three; then three whose target policy is left open in one state."""
+    setting = draw_setting(rng)
+    first, second = rng.shuffled(setting.states)[:2]
+    behaviour = {state: _chances(rng, setting, ("1/2", "1/4", "3/4")) for state in (first, second)}
+    target: dict[str, Policy] = {state: _chances(rng, setting, ("1/4", "3/4", "1/3", "2/3")) for state in behaviour}
+    if level == 3:
+        left, right = setting.actions[:2]
+        target |= {first: {left: Parameter("p"), right: Parameter("1-p")}, second: target[second]}
+    lengths = {1: (2,), 2: rng.shuffled((1, 2, 2)), 3: rng.shuffled((1, 2, 2))}[level]
+    return Given(
+        episodes=tuple(_episode(rng, setting, (first, second)[:length]) for length in lengths),
+        target=target,
+        behaviour=behaviour,
+        gamma=Fraction(1) if level == 1 else rng.fraction("1/2", "1"),
+    )
+
+
+def _chances(rng: Draws, setting: Setting, left: tuple[str, ...]) -> dict[str, Fraction]:
+    chance = rng.fraction(*left)
+    return dict(zip(setting.actions, (chance, 1 - chance), strict=False))
+
+
+def _episode(rng: Draws, setting: Setting, states: tuple[str, ...]) -> Trajectory:
+    return Trajectory(
+        states=(*states, setting.terminal),
+        actions=tuple(rng.choice(setting.actions[:2]) for _ in states),
+        rewards=tuple(rng.nonzero(-4, 8) for _ in states),
+        terminal=(setting.terminal,),
+    )
+
+
+def question(given: Given) -> Question:
+    """Both policies and the episodes; the ratios, then the estimates."""
+    several = len(given.episodes) > 1
+    left_open = [name for name in given.parameters() if name != "gamma"]
+    runs: list[Block] = []
+    for number, episode in enumerate(given.episodes, 1):
+        runs += [Paragraph(f"Episode {number}:")] if several else []
+        runs.append(trajectory_table(episode))
+    blocks = (
+        Paragraph(
+            "The behaviour policy $b$ acted; the values of the target policy $π$ are wanted. They take an action $a$ "
+            "in state $s$ with these probabilities:"
+        ),
+        policy_table(given.target, b=given.behaviour),
+        *(Paragraph(f"The probability ${shown(Parameter(p))}$ is left open.") for p in left_open),
+        Paragraph(
+            f"The agent acted for {f'{len(given.episodes)} episodes' if several else 'one episode'} "
+            f"(a reward stands at the time at which it is received). {discount(given.gamma)}"
+        ),
+        *runs,
+        *terminal_note(tuple(dict.fromkeys(state for episode in given.episodes for state in episode.terminal))),
+    )
+    entries = tuple(f"ρ_{number}" for number in range(1, len(given.episodes) + 1))
+    value = f'$V^π("{given.start}")$'
+    if not several:
+        return Question(
+            blocks,
+            (
+                Part("a", f"What is the importance sampling ratio $ρ_1$ of the episode{in_open(given)}?", Number()),
+                Part("b", f"What is the ordinary estimate of {value} from this episode{in_open(given)}?", Number()),
+            ),
+        )
+    ratios = f"What are the importance sampling ratios {_listed(entries)} of the episodes, in this order"
+    return Question(
+        blocks,
+        (
+            Part("a", f"{ratios}{in_open(given)}?", Vector(entries)),
+            Part("b", f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
+            Part("c", f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
+        ),
+    )
+
+
+def _listed(entries: tuple[str, ...]) -> str:
+    return f"${entries[0]}, …, {entries[-1]}$" if len(entries) > 2 else f"${entries[0]}, {entries[-1]}$"

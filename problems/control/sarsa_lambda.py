@@ -1,0 +1,90 @@
+"""The eligibility traces and the action values after Sarsa(λ) updates along a run of transitions."""
+
+from fractions import Fraction
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
+from rldrill.problems.family import Question
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.parts import Part, Table
+from rldrill.problems.phrases import in_open
+from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_situation
+
+TITLE = "Sarsa(λ)"
+SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
+REVISION = 1
+
+
+class Given(ActionRun):
+    """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
+
+    lam: OpenProbability
+    traces: dict[Name, dict[Name, Exact]] | None = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        self.demand_last_action("Sarsa(λ)")
+        for state, row in (self.traces or {}).items():
+            check_keys({state: row}, tuple(self.values), "the trace", needed=())
+            check_keys(row, tuple(self.values[state]), f"the trace in {state!r}", needed=())
+        return self
+
+    @property
+    def eligible(self) -> tuple[tuple[str, str], ...]:
+        """The pairs that have a trace after the run: those visited, and those that had one before."""
+        before = [(state, action) for state, row in (self.traces or {}).items() for action in row if row[action]]
+        return tuple(dict.fromkeys((*self.updated, *before)))
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One transition with a trace from before; then three that come back to a pair; then the same with λ left open."""
+    visits = {1: "ab", 2: "abab", 3: "abac."}[level]
+    trajectory, values = draw_action_run(rng, visits, 2 if level == 1 else 3, same=level > 1)
+    traces = None
+    if level == 1:
+        traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))
+        traces = {
+            state: {action: Fraction((state, action) == traced) for action in row} for state, row in values.items()
+        }
+    return Given(
+        trajectory=trajectory,
+        values=values,
+        alpha=Fraction(1, 2),
+        gamma=Fraction(1) if level == 3 else rng.fraction("1/2", "1"),
+        lam=Parameter("lambda") if level == 3 else Fraction(1, 2),
+        traces=traces,
+    )
+
+
+def question(given: Given) -> Question:
+    """The run, the table and the traces before it; then traces and values of all pairs that have a trace."""
+    decay = "is left open" if isinstance(given.lam, Parameter) else f"is $λ = {shown(given.lam)}$"
+    begin = (
+        (Paragraph("The eligibility traces before the run are these:"), action_values_table(given.traces, "e(s, a)"))
+        if given.traces
+        else (Paragraph("Before the run all eligibility traces are $0$."),)
+    )
+    blocks = (
+        *run_situation(given, action_values_table(given.values)),
+        *begin,
+        Paragraph(
+            f"The trace parameter {decay}. Sarsa(λ) with accumulating traces updates after every transition: first "
+            "all traces, then all action values, with a TD error $δ_t$ from the values before this update."
+        ),
+    )
+    return Question(
+        blocks,
+        (
+            Part("a", f"What is the trace of these pairs after the run{in_open(given)}?", Table("e", given.eligible)),
+            Part(
+                "b",
+                f"What is the action value of these pairs after the run{in_open(given)}?",
+                Table("Q", given.eligible),
+                points=2,
+            ),
+        ),
+    )

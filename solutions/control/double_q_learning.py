@@ -1,0 +1,76 @@
+"""Double Q-learning along a run: one table selects the next action, the other one says what it is worth."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.control.double_q_learning import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.knowns import NO_ACTION
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import (
+    DOUBLE_FORGOT_GAMMA,
+    DOUBLE_Q_ACTION,
+    DOUBLE_Q_LEARNING,
+    OTHER_TABLE_SELECTS,
+    SAME_TABLE_EVALUATES,
+)
+from rldrill.solutions.work import Work
+
+BOTH_UPDATED = slip(
+    "both-tables-updated",
+    "Each transition updates one table only, the one that the coin says; the other stays as it is.",
+    when=lambda given: len(set(given.updates)) > 1 and bool(set(given.updated_in(1)) & set(given.updated_in(2))),
+)
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, DOUBLE_FORGOT_GAMMA, BOTH_UPDATED)
+
+
+def solve(given: Given, work: Work) -> None:
+    """For every transition the action selected, then the update of the one table."""
+    run = given.trajectory
+    known = knowns.action_run(given)
+    tables = {(1, *pair): value for pair, value in known["Q"].items()}
+    tables |= {(2, *pair): value for pair, value in known["Q"].items()}  # what nobody gave: nothing after the end
+    tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
+    for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
+        turns = (3 - turn, turn) if work.makes(BOTH_UPDATED) else (turn,)
+        tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in turns}
+        if turn not in given.updates[time + 1 :]:
+            part = "ab"[given.asked.index(turn)]
+            answer = work.answer(part, {pair: tables[turn, *pair] for pair in given.updated_in(turn)})
+            tables = tables | {(turn, *pair): value for pair, value in answer.items()}
+
+
+def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: dict[str, Any]) -> Any:
+    known = {**known, "i": table, "j": 3 - table, "t": time, "Qi": tables}
+    best = NO_ACTION
+    if known["actions"][known["S"][time + 1]] != (NO_ACTION,):
+        best, *_ = work.step(DOUBLE_Q_ACTION, **known)
+    return work.step(DOUBLE_Q_LEARNING, selected={time + 1: best}, **known)
+
+
+def oracle(given: Given) -> Answers:
+    """Both tables as one array with an axis for the table; the selection by the position of the greatest."""
+    run = given.trajectory
+    states = list(given.values)
+    actions = [list(row) for row in given.values.values()]
+    Q = np.full((2, len(states), max(map(len, actions))), -np.inf)
+    for number, table in enumerate((given.values, given.second)):
+        for row, state in enumerate(states):
+            for column, action in enumerate(actions[row]):
+                Q[number, row, column] = at(table[state][action])
+    for time, table in enumerate(given.updates):
+        mine, other = table - 1, 2 - table
+        row = states.index(run.states[time])
+        target = at(run.rewards[time])
+        if (after := run.states[time + 1]) not in run.terminal:
+            there = states.index(after)
+            target += at(given.gamma) * Q[other, there, np.round(Q[mine, there], 10).argmax()]
+        column = actions[row].index(run.actions[time])
+        Q[mine, row, column] = np.interp(at(given.alpha), [0, 1], [Q[mine, row, column], target])
+    return {
+        part: [Q[table - 1, states.index(s), actions[states.index(s)].index(a)] for s, a in given.updated_in(table)]
+        for part, table in zip("ab", given.asked, strict=False)
+    }

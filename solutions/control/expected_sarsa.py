@@ -1,0 +1,57 @@
+"""Expected Sarsa along a run: the policy in the next state, then the update, with the values then current."""
+
+import numpy as np
+
+from rldrill.problems.control.expected_sarsa import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ONE, Value, exact
+from rldrill.solutions.greedy import epsilon_greedy
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import (
+    EXPECTED_FORGOT_GAMMA,
+    EXPECTED_SARSA,
+    MAX_FOR_EXPECTATION,
+    SAMPLE_FOR_EXPECTATION,
+    UNWEIGHTED_EXPECTATION,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (MAX_FOR_EXPECTATION, SAMPLE_FOR_EXPECTATION, UNWEIGHTED_EXPECTATION, EXPECTED_FORGOT_GAMMA)
+
+
+def solve(given: Given, work: Work) -> None:
+    """One update for every transition."""
+    run = given.trajectory
+    known = knowns.action_run(given)
+    for time, pair in enumerate(zip(run.states[:-1], run.actions, strict=False)):
+        after = run.states[time + 1]
+        values = {action: known["Q"][after, action] for action in known["actions"][after]}
+        known["pi"] = {(action, after): chance for action, chance in _policy(given, work, after, values).items()}
+        known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
+    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
+
+
+def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> dict[str, Value]:
+    """The probabilities of the actions of a state that is entered."""
+    if state in given.trajectory.terminal:
+        return dict.fromkeys(values, ONE)
+    if given.policy is not None:
+        return {action: exact(given.policy[state].get(action, 0)) for action in values}  # type: ignore[arg-type]
+    assert given.epsilon is not None  # the givens have one or the other
+    return epsilon_greedy(work, state, values, exact(given.epsilon))
+
+
+def oracle(given: Given) -> Answers:
+    """The expectation as a mixture of the best value and the plain mean, or by the policy as a vector."""
+    run = given.trajectory
+    Q = {state: np.array([at(value) for value in row.values()]) for state, row in given.values.items()}
+    place = {state: list(row).index for state, row in given.values.items()}
+    for time, (state, after) in enumerate(zip(run.states, run.states[1:], strict=False)):
+        ahead = 0.0
+        if after not in run.terminal and given.policy is not None:
+            ahead = float(np.dot([at(given.policy[after].get(action, 0)) for action in given.values[after]], Q[after]))
+        elif after not in run.terminal and given.epsilon is not None:
+            ahead = (1 - at(given.epsilon)) * Q[after].max() + at(given.epsilon) * Q[after].mean()
+        cell = place[state](run.actions[time])
+        Q[state][cell] += at(given.alpha) * (at(run.rewards[time]) + at(given.gamma) * ahead - Q[state][cell])
+    return {"a": [Q[state][place[state](action)] for state, action in given.updated]}

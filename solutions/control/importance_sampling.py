@@ -1,0 +1,62 @@
+"""The ratio of every episode, then its return, then both estimates."""
+
+import numpy as np
+
+from rldrill.problems.control.importance_sampling import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import (
+    IMPORTANCE_RATIO,
+    ORDINARY_FOR_WEIGHTED,
+    ORDINARY_IMPORTANCE_SAMPLING,
+    RATIO_INVERTED,
+    RATIOS_ADDED,
+    RATIOS_FORGOTTEN,
+    WEIGHTED_FOR_ORDINARY,
+    WEIGHTED_IMPORTANCE_SAMPLING,
+)
+from rldrill.solutions.sheet.fundamentals import RETURN
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (
+    RATIO_INVERTED,
+    RATIOS_ADDED,
+    WEIGHTED_FOR_ORDINARY,
+    ORDINARY_FOR_WEIGHTED,
+    RATIOS_FORGOTTEN,
+)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Ratios; returns; the mean of their products, and with the ratios as weights."""
+    acted = knowns.policy(given.behaviour)
+    known = {"pi": dict.fromkeys(acted, ZERO) | knowns.policy(given.target), "behaviour": acted}
+    runs = [knowns.trajectory(episode) | {"T": len(episode.rewards)} for episode in given.episodes]
+    ratios = tuple(work.step(IMPORTANCE_RATIO, i=number, **run, **known) for number, run in enumerate(runs, 1))
+    answer = work.answer("a", ratios if len(ratios) > 1 else ratios[0])
+    ratios = answer if len(ratios) > 1 else (answer,)
+    returns = {}
+    for number, run in enumerate(runs, 1):
+        if len(runs) > 1:
+            work.say(f"The return of episode {number} is called $R_{number}$ from here on:")
+        returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
+    weighing = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
+    work.answer("b", work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
+    if len(runs) > 1:
+        work.answer("c", work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
+
+
+def oracle(given: Given) -> Answers:
+    """Ratios by logarithms, which add up; returns by polynomials in γ; numpy's weighted mean."""
+    target = {(s, a): at(chance) for s, row in given.target.items() for a, chance in row.items()}
+    ratios, returns = [], []
+    for episode in given.episodes:
+        pairs = list(zip(episode.states, episode.actions, strict=False))
+        wanted = np.prod([target.get(pair, 0.0) for pair in pairs])
+        acted = np.exp(sum(np.log(at(given.behaviour[state][action])) for state, action in pairs))
+        ratios.append(wanted / acted)
+        returns.append(np.polynomial.Polynomial([at(reward) for reward in episode.rewards])(at(given.gamma)))
+    ordinary = np.dot(ratios, returns) / len(returns)
+    weighted = np.average(returns, weights=ratios) if sum(ratios) else np.nan
+    return {"a": ratios if len(ratios) > 1 else ratios[0], "b": ordinary, "c": weighted}

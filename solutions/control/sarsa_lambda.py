@@ -1,0 +1,118 @@
+"""Sarsa(λ): the traces along the run, which depend on the visits alone; then the updates of all pairs."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.control.sarsa_lambda import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import (
+    ACTION_TRACE,
+    SARSA_LAMBDA,
+    SARSA_TD_ERROR,
+    TRACE_WITHOUT_GAMMA,
+    TRACE_WITHOUT_LAMBDA,
+)
+from rldrill.solutions.work import Work
+
+Pair = tuple[str, str]
+
+
+def _explores(given: Given, time: int) -> bool:
+    """Whether a state is first visited at this time, so with its values untouched, and left by another than the best
+    action, while other pairs have traces.
+    """
+    run = given.trajectory
+    state = run.states[time]
+    row = given.values[state]
+    traced = time > 0 or given.traces is not None
+    return traced and state not in run.states[:time] and row[run.actions[time]] < max(row.values())
+
+
+def _comes_back(given: Given) -> bool:
+    """Whether a pair is visited that has a trace."""
+    visits = list(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False))
+    traced = [pair for pair, trace in _before(given).items() if trace]
+    return len({*visits, *traced}) < len(visits) + len(traced)
+
+
+TRACES_CUT = slip(
+    "traces-cut",
+    "Sarsa(λ) keeps its traces when an exploratory action is taken; it is Watkins's Q(λ) that cuts them there.",
+    when=lambda given: any(_explores(given, time) for time in range(len(given.trajectory.rewards))),
+)
+REPLACING = slip(
+    "replacing-traces",
+    "Accumulating traces add 1 to what is left of the trace; replacing traces would set it to 1.",
+    when=_comes_back,
+)
+ONLY_VISITED = slip(
+    "only-the-visited-pair",
+    "Every pair with a trace is moved by the TD error, not only the pair that was just left.",
+    when=lambda given: len(given.eligible) > 1,
+)
+MISCONCEPTIONS = (TRACES_CUT, ONLY_VISITED, REPLACING, TRACE_WITHOUT_LAMBDA, TRACE_WITHOUT_GAMMA)
+
+
+def solve(given: Given, work: Work) -> None:
+    """All traces first; then for every transition the TD error, and every pair that has a trace."""
+    known = knowns.action_run(given) | {"lam": exact(given.lam)}
+    run = given.trajectory
+    visits = list(zip(run.states[:-1], run.actions, strict=False))
+    traces = _traces(given, work, visits, known)
+    traces[-1] = traces[-1] | work.answer("a", {pair: traces[-1][pair] for pair in given.eligible})
+    for time, visited in enumerate(visits):
+        error = work.step(SARSA_TD_ERROR, t=time, **known)
+        old, trace = known["Q"], traces[time]
+        known["Q"] = old | {
+            pair: work.step(SARSA_LAMBDA, s=pair[0], a=pair[1], t=time, alpha=known["alpha"], Q=old, e=trace,
+                            delta={time: error})
+            for pair in given.eligible
+            if trace[pair] != 0 and (pair == visited or not work.makes(ONLY_VISITED))
+        }  # fmt: skip
+    work.answer("b", {pair: known["Q"][pair] for pair in given.eligible})
+
+
+def _traces(given: Given, work: Work, visits: list[Pair], known: dict[str, Any]) -> list[dict[Pair, Value]]:
+    """The traces after every visit; those that are 0 and stay so are not written down."""
+    trace = dict.fromkeys(given.eligible, ZERO) | _before(given)
+    found = []
+    for time, visited in enumerate(visits):
+        if work.makes(TRACES_CUT) and _explores(given, time):
+            trace = dict.fromkeys(trace, ZERO)
+        if work.makes(REPLACING):
+            trace = trace | {visited: ZERO}
+        work.say(f"Traces after the visit to {visited[0]} at $t = {time}$:")
+        trace = trace | {
+            pair: work.step(ACTION_TRACE, s=pair[0], a=pair[1], t=time, e=trace, **known)
+            for pair in given.eligible
+            if pair == visited or trace[pair] != 0
+        }
+        found.append(trace)
+    return found
+
+
+def _before(given: Given) -> dict[Pair, Value]:
+    return {
+        (state, action): exact(trace) for state, row in (given.traces or {}).items() for action, trace in row.items()
+    }
+
+
+def oracle(given: Given) -> Answers:
+    """Traces as sums of powers over past visits; values as vectors, all pairs at once."""
+    run = given.trajectory
+    pairs = [(state, action) for state, row in given.values.items() for action in row]
+    Q = np.array([at(given.values[state][action]) for state, action in pairs])
+    before = np.array([at((given.traces or {}).get(state, {}).get(action, 0)) for state, action in pairs])
+    visits = [pairs.index(pair) for pair in zip(run.states, run.actions, strict=False)]
+    decay = at(given.gamma) * at(given.lam)
+    for time, reward in enumerate(run.rewards):
+        powers = decay ** np.arange(time, -1, -1)
+        e = before * decay ** (time + 1) + np.bincount(visits[: time + 1], powers, len(pairs))
+        ahead = 0.0 if run.states[time + 1] in run.terminal else Q[visits[time + 1]]
+        Q = Q + at(given.alpha) * (at(reward) + at(given.gamma) * ahead - Q[visits[time]]) * e
+    asked = [pairs.index(pair) for pair in given.eligible]
+    return {"a": e[asked], "b": Q[asked]}

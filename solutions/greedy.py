@@ -1,0 +1,20 @@
+"""ε-greedy choice, a step for every action; several solvers take it."""
+
+from collections.abc import Mapping
+
+from rldrill.solutions.exact import Value
+from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.sheet.control import EPSILON_GREEDY, EPSILON_GREEDY_TIED
+from rldrill.solutions.work import Work
+
+
+def epsilon_greedy(work: Work, state: str, values: Mapping[str, Value], epsilon: Value) -> dict[str, Value]:
+    """The probability of every action of a state; tied best actions share that of the greedy choice.
+
+    Raises:
+        NoSolution: which action is best depends on what is left open.
+    """
+    best = arg_max(tuple(values), tuple(values.values()))
+    formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
+    known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
+    return {action: work.step(formula, s=state, a=action, **known) for action in values}

@@ -1,0 +1,190 @@
+"""Identities between the rules of TD control, how closed forms are judged, and what wrong givens are told."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.errors import FileError
+from rldrill.solutions.answers.judging import Outcome, judge
+from rldrill.solutions.drawing import draw
+
+STATES = ("a", "b", "c")
+ACTIONS = ("x", "y", "z")
+numbers = st.fractions(-5, 5, max_denominator=4).map(str)
+rates = st.sampled_from(["1/2", "1/4", "1"])
+chances = st.integers(1, 9).map(lambda tenths: f"{tenths}/10")
+tables = st.fixed_dictionaries({state: st.fixed_dictionaries(dict.fromkeys(ACTIONS, numbers)) for state in STATES})
+
+
+@st.composite
+def runs(draw_: Any) -> dict[str, Any]:
+    """A run with its last action, a table, α and γ."""
+    length = draw_(st.integers(1, 4))
+    states = draw_(st.lists(st.sampled_from(STATES), min_size=length + 1, max_size=length + 1))
+    return {
+        "trajectory": {
+            "states": states,
+            "actions": [draw_(st.sampled_from(ACTIONS)) for _ in states],
+            "rewards": [draw_(numbers) for _ in states[1:]],
+        },
+        "values": draw_(tables),
+        "alpha": draw_(rates),
+        "gamma": draw_(st.sampled_from(["1/2", "9/10", "1"])),
+    }
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+identity = settings(deadline=None, max_examples=30)
+
+
+@given(runs())
+@identity
+def test_expected_sarsa_without_exploration_is_q_learning(run: dict[str, Any]) -> None:
+    assert solved("expected-sarsa", **run, epsilon=0)["a"] == solved("q-learning", **run)["a"]
+
+
+@given(runs())
+@identity
+def test_expected_sarsa_of_the_policy_that_was_followed_for_certain_is_sarsa(run: dict[str, Any]) -> None:
+    states, actions = run["trajectory"]["states"], run["trajectory"]["actions"]
+    habit = dict(zip(states, actions, strict=True))
+    run = run | {"trajectory": run["trajectory"] | {"actions": [habit[state] for state in states]}}
+    assert solved("expected-sarsa", **run, policy=habit)["a"] == solved("sarsa", **run)["a"]
+
+
+@given(runs())
+@identity
+def test_sarsa_lambda_with_lambda_0_is_sarsa(run: dict[str, Any]) -> None:
+    assert solved("sarsa-lambda", **run, lam=0)["b"] == solved("sarsa", **run)["a"]
+
+
+@given(runs())
+@identity
+def test_an_update_with_alpha_1_is_the_target(run: dict[str, Any]) -> None:
+    run = run | {"alpha": 1, "trajectory": {key: items[:2] for key, items in run["trajectory"].items()}}
+    run["trajectory"]["rewards"] = run["trajectory"]["rewards"][:1]
+    both = solved("sarsa-versus-q-learning", **run)
+    assert [both["a"]] == list(solved("sarsa", **run)["a"].values())
+    assert [both["b"]] == list(solved("q-learning", **run)["a"].values())
+
+
+@given(runs())
+@identity
+def test_double_q_learning_with_equal_tables_begins_as_q_learning(run: dict[str, Any]) -> None:
+    # One transition: after it the tables are no longer equal.
+    run = run | {"trajectory": {key: items[:2] for key, items in run["trajectory"].items()}}
+    run["trajectory"]["rewards"] = run["trajectory"]["rewards"][:1]
+    double = solved("double-q-learning", **run, second=run["values"], updates=[2])
+    assert double["a"] == solved("q-learning", **run)["a"]
+
+
+@given(st.dictionaries(st.sampled_from("uvwxyz"), numbers, min_size=2), chances)
+@identity
+def test_epsilon_greedy_sums_to_one_and_favours_the_best(values: dict[str, str], epsilon: str) -> None:
+    chance = solved("epsilon-greedy", values=values, epsilon=epsilon)["a"]
+    assert sum(chance.values()) == 1
+    best = max(values, key=lambda action: Fraction(values[action]))
+    assert chance[best] == max(chance.values())
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=15)
+def test_tied_probabilities_sum_to_one_for_every_epsilon(seed: int) -> None:
+    assert sum(draw("epsilon-greedy", 3, seed).answers["a"].values()) == 1
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=15)
+def test_importance_ratios_are_1_where_the_policies_agree(seed: int) -> None:
+    given_ = draw("importance-sampling", 2, seed).problem.data()["given"]
+    answers = solved("importance-sampling", **given_ | {"target": given_["behaviour"]})
+    assert set(answers["a"]) == {1}
+    assert answers["b"] == answers["c"]
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=15)
+def test_the_weighted_estimate_lies_among_the_returns(seed: int) -> None:
+    solution = draw("importance-sampling", 2, seed)
+    returns = [
+        solved("return", rewards=[str(reward) for reward in episode.rewards], gamma=str(solution.problem.given.gamma),
+               time=0)["a"]
+        for episode in solution.problem.given.episodes
+    ]  # fmt: skip
+    assert min(returns) <= solution.answers["c"] <= max(returns)
+
+
+def test_closed_forms_are_judged_as_written_and_as_decimals() -> None:
+    exercise = rldrill.read({"family": "bandit", "given": {"pulls": [["x", 4], ["x", 2], ["y", 1]], "c": 1}})
+    # t = 4: U(x) = 3 + √(ln 4 / 2) = 3.8326…, U(y) = 1 + √(ln 4) = 2.1774….
+    for typed in ("x: 3 + sqrt(log(4)/2), y: 1 + sqrt(ln 4)", "3.83, 2.18", "x: 3 + sqrt(ln 2), y: 2.177"):
+        assert judge(exercise.solution, "b", typed).outcome is Outcome.RIGHT, typed
+    forgot = judge(exercise.solution, "b", "3 + sqrt(ln 4), 1 + sqrt(ln 4)")
+    assert [mistake.name for mistake in forgot.misconceptions] == ["own-count-forgotten"]
+    steps = {"pulls": [["x", 1], ["y", 3]], "preferences": {"x": 1, "y": 0}, "alpha": "1/2", "pulled": ["y", 4]}
+    gradient = rldrill.read({"family": "bandit", "given": steps})
+    # π(x) = e/(1 + e) = 0.73106; H(x) = 1 − 1/2·2·0.73106 = 0.26894, H(y) = 1·0.73106.
+    for typed in ("x: 1 - e/(1+e), y: 1 - 1/(1+e)", "x: 0.269, y: 0.731"):
+        assert judge(gradient.solution, "b", typed).outcome is Outcome.RIGHT, typed
+
+
+def test_going_on_from_an_earlier_answer_is_right() -> None:
+    exercise = rldrill.read({"family": "epsilon-greedy",
+                             "given": {"values": {"x": 4, "y": 1}, "epsilon": "1/2", "valued": True}})  # fmt: skip
+    wrong = judge(exercise.solution, "a", "1/2, 1/4")
+    assert [mistake.name for mistake in wrong.misconceptions] == ["share-of-epsilon-forgotten"]
+    assert judge(exercise.solution, "b", "9/4", {"a": wrong.value}).outcome is Outcome.FOLLOW_THROUGH
+
+
+RUN: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
+    "values": {"a": {"x": 1}, "b": {"x": 2, "y": 3}},
+    "alpha": "1/2",
+    "gamma": "1/2",
+}
+EPISODE = {"states": ["s", "end"], "actions": ["x"], "rewards": [1], "terminal": ["end"]}
+SAMPLING: dict[str, Any] = {
+    "episodes": [EPISODE], "target": {"s": "x"}, "behaviour": {"s": {"x": 0.5, "y": 0.5}}, "gamma": 1
+}  # fmt: skip
+PULLS: dict[str, Any] = {"pulls": [["x", 1], ["y", 2]]}
+
+
+@pytest.mark.parametrize(
+    ("family", "given_", "fragment"),
+    [
+        ("sarsa-lambda", RUN | {"lam": 0.5}, "Sarsa(λ) needs the action taken in 'b'"),
+        ("sarsa-lambda", RUN | {"lam": 2}, "given.lam: 2 is not between 0 and 1"),
+        ("sarsa-versus-q-learning", RUN, "Sarsa needs the action taken in 'b'"),
+        ("expected-sarsa", RUN, "give either policy or epsilon"),
+        ("expected-sarsa", RUN | {"epsilon": 0.1, "policy": {"b": "x"}}, "give either policy or epsilon"),
+        ("expected-sarsa", RUN | {"policy": {"a": "x"}}, "the policy of 'b' is missing"),
+        ("expected-sarsa", RUN | {"policy": {"b": {"x": 0.5}}}, "probabilities in 'b' do not sum to 1"),
+        ("expected-sarsa", RUN | {"policy": {"b": "w"}}, "'w', which does not occur"),
+        ("double-q-learning", RUN | {"second": RUN["values"], "updates": [1, 2]}, "1 transitions need as many"),
+        ("double-q-learning", RUN | {"second": {"a": {"x": 1}}, "updates": [1]}, "the same states and actions"),
+        ("epsilon-greedy", {"values": {"x": 1}, "epsilon": 0.1}, "given.values"),
+        ("epsilon-greedy", {"values": {"x": 1, "y": 2}, "epsilon": -1}, "not between 0 and 1"),
+        ("importance-sampling", SAMPLING | {"behaviour": {"s": "y"}}, "'x' is taken in 's', where it has no prob"),
+        ("importance-sampling", SAMPLING | {"target": {"u": "x"}}, "the target policy of 's' is missing"),
+        ("importance-sampling", SAMPLING | {"target": {"s": {"x": 0.5}}}, "do not sum to 1"),
+        ("importance-sampling", SAMPLING | {"episodes": [EPISODE | {"terminal": []}]}, "must end in a terminal state"),
+        ("importance-sampling", SAMPLING | {"target": {"s": "y"}, "episodes": [EPISODE] * 2}, "no answer"),
+        ("bandit", {"pulls": [["x", 1]]}, "at least two arms"),
+        ("bandit", PULLS | {"c": 0}, "given.c"),
+        ("bandit", PULLS | {"alpha": 1}, "needs all of preferences, alpha and pulled"),
+        ("bandit", PULLS | {"c": 1, "alpha": 1, "preferences": {"x": 0, "y": 0}, "pulled": ["x", 1]}, "give one of"),
+        ("bandit", PULLS | {"alpha": 1, "preferences": {"x": 0, "z": 0}, "pulled": ["x", 1]}, "given for 'y'"),
+    ],
+)
+def test_wrong_givens_are_told_in_one_sentence(family: str, given_: dict[str, Any], fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        solved(family, **given_)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)

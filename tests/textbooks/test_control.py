@@ -1,0 +1,106 @@
+"""TD control and bandits: numbers from Sutton & Barto 2018, or worked out here by hand from its equations."""
+
+from typing import Any
+
+import pytest
+import sympy
+from flint import fmpq
+
+import rldrill
+
+
+def solved(family: str, **given: Any) -> Any:
+    return rldrill.read({"family": family, "given": given}).solve()
+
+
+def test_exercise_2_1() -> None:
+    # Two actions, ε = 0.5: the greedy action is selected with probability 0.5 + 0.5/2 = 0.75.
+    answer = solved("epsilon-greedy", values={"greedy": 1, "other": 0}, epsilon=0.5)["a"]
+    assert answer == {"greedy": fmpq(3, 4), "other": fmpq(1, 4)}
+
+
+def test_exercise_2_2() -> None:
+    # A = 1, 2, 2, 2, 3 and R = −1, 1, −2, 2, 0 give the averages −1, (1 − 2 + 2)/3 = 1/3 and 0.
+    answers = solved("bandit", pulls=[["1", -1], ["2", 1], ["2", -2], ["2", 2], ["3", 0]])
+    assert answers["a"] == {"1": -1, "2": fmpq(1, 3), "3": 0}
+    assert answers["b"] == {"next": ("2",)}
+
+
+@pytest.mark.parametrize("lefts", [1, 2, 5])
+def test_example_5_5(lefts: int) -> None:
+    # Infinite variance: π always goes left, b with probability 1/2, so k times left has the ratio 2^k. An episode
+    # that ends on the left pays 1; the weighted estimate is then 1 from its first left-only episode on.
+    left = {"states": ["s"] * lefts + ["end"], "actions": ["left"] * lefts, "rewards": [0] * (lefts - 1) + [1]}
+    right = {"states": ["s", "end"], "actions": ["right"], "rewards": [0]}
+    answers = solved(
+        "importance-sampling",
+        episodes=[left | {"terminal": ["end"]}, right | {"terminal": ["end"]}],
+        target={"s": "left"},
+        behaviour={"s": {"left": 0.5, "right": 0.5}},
+        gamma=1,
+    )
+    assert answers["a"] == (2**lefts, 0)
+    assert answers["b"] == fmpq(2**lefts, 2)
+    assert answers["c"] == 1
+
+
+def test_expected_sarsa_by_hand() -> None:
+    # Eq. 6.9 with α = γ = 1/2, ε = 1/2 and three actions: π is 2/3 for the best, 1/6 for the others.
+    # 2/3·6 + 1/6·3 + 1/6·(−3) = 4; Q(a, x) = 2 + 1/2·(1 + 1/2·4 − 2) = 5/2.
+    values = {"a": {"x": 2}, "b": {"x": 3, "y": 6, "z": -3}}
+    run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
+    answers = solved("expected-sarsa", trajectory=run, values=values, alpha=0.5, gamma=0.5, epsilon=0.5)
+    assert answers["a"] == {("a", "x"): fmpq(5, 2)}
+
+
+def test_double_q_learning_by_hand() -> None:
+    # Eq. 6.10 with α = γ = 1/2. Q₁ selects y in b (5 > 1), which Q₂ values with 2:
+    # Q₁(a, x) = 4 + 1/2·(1 + 1/2·2 − 4) = 3. Then Q₂ selects x in a, which Q₁ values with 3:
+    # Q₂(b, y) = 2 + 1/2·(−1 + 1/2·3 − 2) = 5/4.
+    answers = solved(
+        "double-q-learning",
+        trajectory={"states": ["a", "b", "a"], "actions": ["x", "y"], "rewards": [1, -1]},
+        values={"a": {"x": 4}, "b": {"x": 1, "y": 5}},
+        second={"a": {"x": 9}, "b": {"x": 7, "y": 2}},
+        updates=[1, 2], alpha=0.5, gamma=0.5,
+    )  # fmt: skip
+    assert answers["a"] == {("a", "x"): 3}
+    assert answers["b"] == {("b", "y"): fmpq(5, 4)}
+
+
+def test_sarsa_lambda_by_hand() -> None:
+    # Section 12.7 with one feature per pair; γ = 1, λ = α = 1/2. δ₀ = 1 + 4 − 2 = 3: Q(a, x) = 7/2.
+    # Then e(a, x) = 1/2, e(b, y) = 1 and δ₁ = 6 − 4 = 2: Q(a, x) = 7/2 + 1/2·2·1/2 = 4, Q(b, y) = 5.
+    answers = solved(
+        "sarsa-lambda",
+        trajectory={"states": ["a", "b", "end"], "actions": ["x", "y"], "rewards": [1, 6], "terminal": ["end"]},
+        values={"a": {"x": 2}, "b": {"y": 4}}, alpha=0.5, gamma=1, lam=0.5,
+    )  # fmt: skip
+    assert answers["a"] == {("a", "x"): fmpq(1, 2), ("b", "y"): 1}
+    assert answers["b"] == {("a", "x"): 4, ("b", "y"): 5}
+
+
+def test_both_targets_by_hand() -> None:
+    # Eqs. 6.7 and 6.8: 3 + 1/2·(−4) = 1 for the action taken, 3 + 1/2·8 = 7 for the best one.
+    run = {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [3]}
+    values = {"a": {"x": 5}, "b": {"x": 8, "y": -4}}
+    answers = solved("sarsa-versus-q-learning", trajectory=run, values=values, alpha=0.1, gamma=0.5)
+    assert (answers["a"], answers["b"], answers["c"]) == (1, 7, "A")
+
+
+def test_ucb_by_hand() -> None:
+    # Eq. 2.10 at t = 7 with c = 2: averages 3, 1, 5 after 2, 3, 1 pulls.
+    pulls = [["x", 2], ["y", 0], ["z", 5], ["x", 4], ["y", 1], ["y", 2]]
+    answers = solved("bandit", pulls=pulls, c=2)
+    log = sympy.log(7)
+    expected = {"x": 3 + 2 * sympy.sqrt(log / 2), "y": 1 + 2 * sympy.sqrt(log / 3), "z": 5 + 2 * sympy.sqrt(log)}
+    assert answers["b"] == expected
+    assert answers["c"] == {"next": ("z",)}
+
+
+def test_a_gradient_bandit_by_hand() -> None:
+    # Eq. 2.12: equal preferences of two arms, so π = 1/2; the baseline is (1 + 3)/2 = 2, the reward 6, α = 1/4.
+    # H(x) = 1 + 1/4·(6 − 2)·(1 − 1/2) = 3/2, H(y) = 1 − 1/4·(6 − 2)·1/2 = 1/2.
+    answers = solved("bandit", pulls=[["x", 1], ["y", 3]], preferences={"x": 1, "y": 1}, alpha="1/4", pulled=["x", 6])
+    assert answers["a"] == {"x": fmpq(1, 2), "y": fmpq(1, 2)}
+    assert answers["b"] == {"x": fmpq(3, 2), "y": fmpq(1, 2)}
