@@ -43,8 +43,9 @@ def _zero() -> Value:
 
 
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
-    """A policy as π(a|s), with the action first."""
-    return {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
+    """A policy as π(a|s), with the action first; actions that it does not name are never taken."""
+    named = {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
+    return defaultdict(_zero, named)
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:
