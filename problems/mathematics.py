@@ -185,7 +185,8 @@ def _sequence(tokens: Sequence[re.Match[str]], at: int, closing: str | None) -> 
         if token == closing or (token in ")]}" and closing is not None):
             return items, at
         if token in "_^":
-            script, at = _single(tokens, at + 1)
+            starred = token == "^" and at + 1 < len(tokens) and tokens[at + 1][0] == "*"
+            script, at = (operator("*"), at + 2) if starred else _single(tokens, at + 1)  # V^* is no product
             body = items.pop() if items else word("")
             below, above = (script, None) if token == "_" else (None, script)
             if isinstance(body, Script) and (body.below is None or below is None):

@@ -61,3 +61,12 @@ def chances(policy: Policy, model: Dynamics, states: tuple[str, ...]) -> Array:
         for action, chance in actions.items():
             result[states.index(state), names.index(action)] = at(chance)
     return result
+
+
+def best_actions(worth: Array, model: Dynamics) -> dict[str, set[str]]:
+    """The best actions of every state, from the worth of all, shape (states, actions)."""
+    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    return {
+        state: {names[index] for index in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
+        for state, row in zip(model.states, worth, strict=True)
+    }

@@ -7,7 +7,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered, pi
-from rldrill.solutions.oracle import Answers, at, lookahead, tensors
+from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.dynamic_programming import (
     FORGOT_GAMMA,
     GREEDY_FROM_V,
@@ -57,9 +57,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(given.sweeps):
         V = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:] * 0])
     worth = lookahead(P, R, V, at(given.gamma))[:n]
-    names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
-    best = {
-        state: {names[j] for j in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
-        for state, row in zip(given.mdp.states, worth, strict=True)
-    }
-    return {"a": V[:n], "b": best}
+    return {"a": V[:n], "b": best_actions(worth, given.mdp)}

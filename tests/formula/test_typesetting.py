@@ -80,6 +80,7 @@ def test_values_are_written_as_by_hand(value: object, text: str) -> None:
         ('V^π("smoking hot")', "V^π(smoking hot)"),
         ("a_t = −L_t s_t", "aₜ = −Lₜsₜ"),
         ("R_{0}^{(2)}", "R₀⁽²⁾"),
+        ("V^*(s) = 2*3", "V*(s) = 2·3"),
     ],
 )
 def test_the_notation_of_questions(source: str, text: str) -> None:
