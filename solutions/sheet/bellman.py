@@ -123,6 +123,7 @@ with evaluate(False):
         "own-value-for-next",
         SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
         "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
+        when=lambda given: hasattr(given, "mdp") or given.state in given.values,
     )
     V_FROM_Q = Formula(
         "v-from-q",
@@ -238,12 +239,14 @@ with evaluate(False):
         "mean-for-max",
         MeanOver(Qstar(s, a), a, Actions(s)),
         "The optimal policy takes the best action, so the optimal value is the greatest, not the mean.",
+        when=lambda given: not given.parameters(),
     )
     POLICY_FOR_MAX = misread(
         V_STAR_FROM_Q,
         "policy-for-max",
         SumOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
         "The optimal value does not depend on the given policy: it is the greatest action value.",
+        when=lambda given: not given.parameters(),
     )
     Q_STAR_FROM_V = Formula(
         "optimal-q-from-v",
