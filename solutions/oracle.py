@@ -63,6 +63,18 @@ def chances(policy: Policy, model: Dynamics, states: tuple[str, ...]) -> Array:
     return result
 
 
+def optimal_values(P: Array, R: Array, gamma: float, states: int) -> Array:
+    """The optimal values by sweeps until nothing changes; only the first states act, the others are terminal."""
+    V = np.zeros(len(P))
+    for _ in range(100_000):
+        after = np.concatenate([lookahead(P, R, V, gamma)[:states].max(axis=1), V[states:]])
+        change = np.abs(after - V).max()
+        V = after
+        if change < 1e-13:
+            break
+    return V
+
+
 def best_actions(worth: Array, model: Dynamics) -> dict[str, set[str]]:
     """The best actions of every state, from the worth of all, shape (states, actions)."""
     names = tuple(dict.fromkeys(action for _, action in model.outcomes))

@@ -2,8 +2,6 @@
 
 from fractions import Fraction
 
-import numpy as np
-
 from rldrill.problems.bellman.optimal_value import Given
 from rldrill.problems.document import joined
 from rldrill.problems.models import Policy, equiprobable
@@ -12,7 +10,7 @@ from rldrill.solutions.evaluation import TERMINAL_VALUE, evaluate_policy, of_sta
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.optimality import optimum
-from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
+from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
     Q_STAR_FORGOT_GAMMA,
@@ -94,13 +92,7 @@ def oracle(given: Given) -> Answers:
     states = (*mdp.states, *mdp.terminal)
     P, R = tensors(mdp, states)
     n = len(mdp.states)
-    V = np.zeros(len(states))
-    for _ in range(100_000):
-        after = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:]])
-        change = np.abs(after - V).max()
-        V = after
-        if change < 1e-13:
-            break
+    V = optimal_values(P, R, at(given.gamma), n)
     Q = lookahead(P, R, V, at(given.gamma))
     names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
     return {
