@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.family import Question
 from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, policy_blocks
 from rldrill.problems.parts import Part, Table
@@ -26,12 +26,14 @@ def draw(level: int, rng: Draws) -> Given:
     shape = Shape(states=2, actions=2, branches=1 if level == 1 else 2, denominators=(2,))
     mdp = draw_model(rng, setting, shape)
     open_ = {mdp.states[0]: (Parameter("p"), Parameter("1-p"))} if level == 3 else {}
+    sure: tuple[tuple[Scalar, Scalar], ...] = ((Fraction(1), Fraction(0)), (Fraction(0), Fraction(1)))
     policy: PolicyField = {}
     for state, actions in mdp.actions.items():
+        chances: tuple[Scalar, ...]
         if level == 2:
             chances = rng.split(2, (2, 4))
         else:
-            chances = open_.get(state) or rng.choice(((Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))))
+            chances = open_.get(state) or rng.choice(sure)
         policy[state] = {action: chance for action, chance in zip(actions, chances, strict=True) if chance != 0}
     return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3", "4/5"))
 

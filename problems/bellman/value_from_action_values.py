@@ -45,6 +45,7 @@ def draw(level: int, rng: Draws) -> Given:
     states = setting.states[: (1, 2, 4)[level - 1]]
     actions = setting.actions[: 3 if level == 2 else 2]
     values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
+    policy: PolicyField
     if level == 3:
         ways = ((Parameter("p"), Parameter("1-p")), (Parameter("1-p"), Parameter("p")))
         policy = {state: dict(zip(actions, rng.choice(ways), strict=True)) for state in states}

@@ -1,13 +1,14 @@
 """The expected return of a policy, from a start distribution and a small tree of chances."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter, shown
+from rldrill.problems.exact import OpenProbability, Parameter, Scalar, shown
 from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Model,
@@ -100,7 +101,7 @@ def draw(level: int, rng: Draws) -> Given:
         Transition(state, setting.actions[action], after, chance, rng.nonzero(-4, 9))
         for state, action, targets in branches
         for after, chance in zip(
-            targets, rng.split(len(targets), denominators) if len(targets) > 1 else (1,), strict=True
+            targets, rng.split(len(targets), denominators) if len(targets) > 1 else (Fraction(1),), strict=True
         )
     )
     mdp = Model(story=setting.story, transitions=rows, terminal=(end,))
@@ -113,9 +114,9 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _policy(level: int, rng: Draws, mdp: Model) -> PolicyField:
-    chances = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
+    chances: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
     return {
-        state: dict(zip(actions, chances if len(actions) > 1 else (1,), strict=True))
+        state: dict(zip(actions, chances if len(actions) > 1 else (Fraction(1),), strict=True))
         for state, actions in mdp.actions.items()
     }
 

@@ -1,5 +1,7 @@
 """The policy's mean of the action values, and their greatest."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.bellman.value_from_action_values import Given
@@ -21,7 +23,7 @@ MISCONCEPTIONS = (MAX_OF_Q, PLAIN_MEAN_OF_Q, MEAN_OF_Q_STAR, POLICY_FOR_MAX)
 
 def solve(given: Given, work: Work) -> None:
     """Both from the same table."""
-    known = {
+    known: dict[str, Any] = {
         "Q": {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()},
         "actions": {state: tuple(row) for state, row in given.values.items()},
         "pi": knowns.policy(given.policy),

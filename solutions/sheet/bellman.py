@@ -278,3 +278,9 @@ with evaluate(False):
         hint="Begin at the goal and go backwards: the best tail from the next state is already known.",
         note="Any part of an optimal policy is optimal for the subproblem that starts there.",
     )
+    TAIL_LEFT_OUT = misread(
+        PRINCIPLE_OF_OPTIMALITY,
+        "tail-left-out",
+        MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        "To the reward of the next step comes the best total from the state that it leads to.",
+    )
