@@ -29,11 +29,8 @@ def draw(level: int, rng: Draws) -> Given:
     sure: tuple[tuple[Scalar, Scalar], ...] = ((Fraction(1), Fraction(0)), (Fraction(0), Fraction(1)))
     policy: PolicyField = {}
     for state, actions in mdp.actions.items():
-        chances: tuple[Scalar, ...]
-        if level == 2:
-            chances = rng.split(2, (2, 4))
-        else:
-            chances = open_.get(state) or rng.choice(sure)
+        chosen = open_.get(state) or rng.choice(sure)
+        chances: tuple[Scalar, ...] = rng.split(2, (2, 4)) if level == 2 else chosen
         policy[state] = {action: chance for action, chance in zip(actions, chances, strict=True) if chance != 0}
     return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3", "4/5"))
 
