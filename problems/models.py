@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
+    Discount,
     Open,
     OpenProbability,
     Parameter,
@@ -182,6 +183,32 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
     check_keys(chances, actions, f"{of} in {state!r}", needed=())
     if not sums_to_one(list(chances.values())):
         raise ValueError(f"{of}'s probabilities in {state!r} do not sum to 1")
+
+
+class ModelAndPolicy(Givens):
+    """A model, a policy and the discount; without a policy every action is equally probable."""
+
+    mdp: Model
+    policy: PolicyField | None = None
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _policy_fits(self) -> Self:
+        if self.policy is not None:
+            check_policy(self.policy, self.mdp)
+        return self
+
+    @property
+    def chances(self) -> PolicyField:
+        """The policy, written out."""
+        return self.policy or equiprobable(self.mdp)
+
+
+def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
+    """The policy as a question gives it; nothing where there is nothing to choose."""
+    if all(len(actions) == 1 for actions in given.mdp.actions.values()):
+        return ()
+    return (Paragraph("The policy is:"), policy_table(given.chances))
 
 
 def transitions_table(model: Dynamics) -> Table:

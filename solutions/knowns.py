@@ -43,11 +43,9 @@ def _zero() -> Value:
 
 
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
-    """A policy as π(a|s), with the action first; what it does not name it never does."""
-    pi: dict[tuple[str, str], Value] = defaultdict(_zero)
-    for state, chances in given.items():
-        pi |= {(action, state): exact(chance) for action, chance in chances.items()}
-    return pi
+    """A policy as π(a|s), with the action first; actions that it does not name are never taken."""
+    named = {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
+    return defaultdict(_zero, named)
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rldrill.problems.exact import Parameter, Scalar
-from rldrill.problems.models import Dynamics, Policy
+from rldrill.problems.models import Dynamics, ModelAndPolicy, Policy
 
 #: Answers in floating point by part; tables and vectors in the order of the part's keys, policies by state.
 Answers: TypeAlias = Mapping[str, Any]
@@ -72,6 +72,26 @@ def policy_values(P: Array, R: Array, pi: Array, gamma: float) -> Array:
         if np.abs(after - V).max() < 1e-13:
             break
         V = after
+    return V
+
+
+def swept(given: ModelAndPolicy) -> tuple[Array, Array]:
+    """The values of all states under the given policy, and the worth of all actions then."""
+    states = (*given.mdp.states, *given.mdp.terminal)
+    P, R = tensors(given.mdp, states)
+    V = policy_values(P, R, chances(given.chances, given.mdp, states), at(given.gamma))
+    return V, lookahead(P, R, V, at(given.gamma))
+
+
+def optimal_values(P: Array, R: Array, gamma: float, states: int) -> Array:
+    """The optimal values by sweeps until nothing changes; only the first states act, the others are terminal."""
+    V = np.zeros(len(P))
+    for _ in range(100_000):
+        after = np.concatenate([lookahead(P, R, V, gamma)[:states].max(axis=1), V[states:]])
+        change = np.abs(after - V).max()
+        V = after
+        if change < 1e-13:
+            break
     return V
 
 

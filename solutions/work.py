@@ -125,17 +125,17 @@ class Work:
         self,
         formula: Formula,
         *,
-        into: type[Quantity] | None = None,
-        sign: str | None = None,
-        right: Expr | None = None,
+        into: Any = None,  # these three are Any so that **known may come from a mapping of anything
+        sign: Any = None,
+        right: Any = None,
         **known: Any,
     ) -> Value:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
 
         Args:
             formula: a formula of the sheet.
-            into: the quantity to name the result by, where it is not the formula's own (V₂ for V).
-            sign: the relation that holds here, where it is not the formula's own (an inequality that fails).
+            into: the quantity (a class of ``notation``) to name the result by, where it is not the formula's own (V₂ for V).
+            sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
             **known: the values by the formula's letters; quantities are mappings from their arguments.

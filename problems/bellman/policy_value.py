@@ -1,22 +1,10 @@
 """The exact value of every state of a small MDP under a policy."""
 
-from typing import Self
-
-from pydantic import model_validator
-
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter
-from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import (
-    Model,
-    PolicyField,
-    Transition,
-    check_policy,
-    equiprobable,
-    model_blocks,
-    policy_table,
-)
+from rldrill.problems.exact import Parameter
+from rldrill.problems.family import Question
+from rldrill.problems.models import Model, ModelAndPolicy, Transition, model_blocks, policy_blocks
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -26,23 +14,8 @@ SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
 REVISION = 1
 
 
-class Given(Givens):
+class Given(ModelAndPolicy):
     """A model, a policy and the discount; without a policy every action is equally probable."""
-
-    mdp: Model
-    policy: PolicyField | None = None
-    gamma: Discount
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        if self.policy is not None:
-            check_policy(self.policy, self.mdp)
-        return self
-
-    @property
-    def chances(self) -> PolicyField:
-        """The policy, written out."""
-        return self.policy or equiprobable(self.mdp)
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -90,13 +63,7 @@ def _left_open(rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
-    blocks: list[Block] = [
-        *model_blocks(given.mdp),
-    ]
-    if any(len(actions) > 1 for actions in given.mdp.actions.values()):
-        blocks += [Paragraph("The policy is:"), policy_table(given.chances)]
-    blocks.append(Paragraph(discount(given.gamma)))
     return Question(
-        tuple(blocks),
+        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
         (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),),
     )

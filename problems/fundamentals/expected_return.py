@@ -1,24 +1,24 @@
 """The expected return of a policy, from a start distribution and a small tree of chances."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, OpenProbability, Parameter, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import OpenProbability, Parameter, Scalar, shown
+from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Model,
+    ModelAndPolicy,
     Name,
     PolicyField,
     Transition,
     check_keys,
-    check_policy,
-    equiprobable,
     model_blocks,
-    policy_table,
+    policy_blocks,
     sums_to_one,
 )
 from rldrill.problems.parts import Number, Part
@@ -39,33 +39,23 @@ class Episode(NamedTuple):
     transitions: tuple[Transition, ...]
 
 
-class Given(Givens):
+class Given(ModelAndPolicy):
     """A start distribution, a model in which every episode ends soon, a policy and the discount.
 
     Without a policy every action is equally probable.
     """
 
     start: dict[Name, OpenProbability] = Field(min_length=1)
-    mdp: Model
-    policy: PolicyField | None = None
-    gamma: Discount
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_keys(self.start, self.mdp.states, "the start probability", needed=())
         if not sums_to_one(list(self.start.values())):
             raise ValueError("start: the probabilities do not sum to 1")
-        if self.policy is not None:
-            check_policy(self.policy, self.mdp)
         for count, _ in enumerate(self.episodes(), 1):
             if count > _MOST:
                 raise ValueError(f"mdp: there are more than {_MOST} different episodes; that is no small tree")
         return self
-
-    @property
-    def chances(self) -> PolicyField:
-        """The policy, written out."""
-        return self.policy or equiprobable(self.mdp)
 
     @property
     def chooses(self) -> bool:
@@ -111,7 +101,7 @@ def draw(level: int, rng: Draws) -> Given:
         Transition(state, setting.actions[action], after, chance, rng.nonzero(-4, 9))
         for state, action, targets in branches
         for after, chance in zip(
-            targets, rng.split(len(targets), denominators) if len(targets) > 1 else (1,), strict=True
+            targets, rng.split(len(targets), denominators) if len(targets) > 1 else (Fraction(1),), strict=True
         )
     )
     mdp = Model(story=setting.story, transitions=rows, terminal=(end,))
@@ -124,9 +114,9 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _policy(level: int, rng: Draws, mdp: Model) -> PolicyField:
-    chances = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
+    chances: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
     return {
-        state: dict(zip(actions, chances if len(actions) > 1 else (1,), strict=True))
+        state: dict(zip(actions, chances if len(actions) > 1 else (Fraction(1),), strict=True))
         for state, actions in mdp.actions.items()
     }
 
@@ -143,9 +133,6 @@ def question(given: Given) -> Question:
                 rows=(("$Pr(s_0 = s)$", *(f"${shown(chance)}$" for chance in given.start.values())),),
             ),
         ]
-    choice: list[Block] = []
-    if any(len(actions) > 1 for actions in given.mdp.actions.values()):
-        choice = [Paragraph("The policy is:"), policy_table(given.chances)]
-    blocks = (*model_blocks(given.mdp), *start, *choice, Paragraph(discount(given.gamma)))
+    blocks = (*model_blocks(given.mdp), *start, *policy_blocks(given), Paragraph(discount(given.gamma)))
     ask = f"What is the expected return $𝔼_π(R_0)${in_open(given)}?"
     return Question(blocks, (Part("a", ask, Number()),))

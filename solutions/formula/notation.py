@@ -81,10 +81,10 @@ def subscripted(head: str | Math, above: Callable[[Math], Math] | None = None) -
 
 def between_states(head: str) -> Callable[..., Math]:
     """Written as the sheet writes the model, with s, s′ below and a above."""
-    return lambda state, action, after: Script(variable(head), _beside(state, after), action)
+    return lambda state, action, after: Script(variable(head), beside(state, after), action)
 
 
-def _beside(first: Math, second: Math) -> Math:
+def beside(first: Math, second: Math) -> Math:
     """Two indices: letters touch, names and numbers are parted by a comma."""
     short = all(isinstance(item, Glyph) and item.style == "variable" for item in (first, second))
     return row(first, second) if short else row(first, punctuation(","), second)

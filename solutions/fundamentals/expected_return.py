@@ -33,7 +33,7 @@ def solve(given: Given, work: Work) -> None:
     probabilities, returns = {}, {}
     for number, episode in enumerate(given.episodes(), 1):
         work.say(f"Episode {number}: {_told(episode)}.")
-        run = {
+        run: dict[str, Any] = {
             "T": len(episode.transitions),
             "S": dict(enumerate((episode.start, *(row.next for row in episode.transitions)))),
             "A": {time: row.action for time, row in enumerate(episode.transitions)},

@@ -1,11 +1,16 @@
 """Section 2 of the sheet: the Bellman equations."""
 
+from typing import Any
+
 from sympy import evaluate
 
+from rldrill.problems.mathematics import Math
+from rldrill.problems.models import Transition
 from rldrill.solutions.formula.formula import Formula, misread
 from rldrill.solutions.formula.notation import (
     Actions,
     MaxOver,
+    MeanOver,
     P,
     Qpi,
     Qstar,
@@ -18,11 +23,31 @@ from rldrill.solutions.formula.notation import (
     Vstar,
     a,
     a1,
+    beside,
+    called,
     gamma,
     pi,
+    quantity,
     s,
     s1,
+    subscripted,
 )
+
+
+def _edge(here: Math, after: Math) -> Math:
+    return subscripted("R")(beside(here, after))
+
+
+Residual = quantity("residual", called("δ"))
+#: What an edge of a graph earns, where nothing is left to chance.
+EdgeReward = quantity("edge_reward", _edge)
+
+
+def _rows(given: Any) -> tuple[Transition, ...]:
+    """The transitions of a model or of a single state's actions."""
+    rows: tuple[Transition, ...] = (given.mdp if hasattr(given, "mdp") else given.dynamics).transitions
+    return rows
+
 
 with evaluate(False):
     #: What one action earns on average, and the ways to get it wrong; shared by all backups.
@@ -79,6 +104,27 @@ with evaluate(False):
         source="Sutton & Barto 2018, exercise 3.13",
         hint="The action is fixed: average only over where it leads.",
     )
+    Q_REWARD_UNWEIGHTED = misread(
+        BELLMAN_Q,
+        "reward-not-weighted",
+        SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vpi(s1), s1, Successors(s, a)),
+        "Each reward counts with the probability of its transition, as the value of the next state does.",
+        when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
+    )
+    Q_FORGOT_GAMMA = misread(
+        BELLMAN_Q,
+        "forgot-gamma-in-q",
+        SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a)),
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1,
+    )
+    Q_OWN_VALUE = misread(
+        BELLMAN_Q,
+        "own-value-for-next",
+        SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
+        "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
+        when=lambda given: hasattr(given, "mdp") or given.state in given.values,
+    )
     V_FROM_Q = Formula(
         "v-from-q",
         Vpi(s),
@@ -86,6 +132,77 @@ with evaluate(False):
         title="V from Q",
         source="Sutton & Barto 2018, exercise 3.12",
         hint="Average the action values with the policy's probabilities.",
+    )
+    MAX_OF_Q = misread(
+        V_FROM_Q,
+        "max-for-mean",
+        MaxOver(Qpi(s, a), a, Actions(s)),
+        "The value of a policy averages over its actions; only the optimal value takes the maximum.",
+    )
+    PLAIN_MEAN_OF_Q = misread(
+        V_FROM_Q,
+        "unweighted-mean",
+        MeanOver(Qpi(s, a), a, Actions(s)),
+        "Each action value counts with the probability π(a|s), not with the same weight.",
+        when=lambda given: any(len(set(row.values())) > 1 for row in given.policy.values()),
+    )
+    BELLMAN_RESIDUAL = Formula(
+        "bellman-residual",
+        Residual(s),
+        SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)) - V(s),
+        title="Bellman residual of V for a policy",
+        source="Sutton & Barto 2018, section 11.4",
+        hint="Work out the right side of the Bellman equation with the given V, and subtract what V says.",
+        note="It is 0 in every state exactly where V is the value of the policy.",
+    )
+    RESIDUAL_SIGN = misread(
+        BELLMAN_RESIDUAL,
+        "sign-of-residual",
+        V(s) - SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)),
+        "The residual is the right side of the equation minus V(s), not V(s) minus the right side.",
+    )
+    RESIDUAL_MAX = misread(
+        BELLMAN_RESIDUAL,
+        "max-for-mean",
+        MaxOver(LOOKAHEAD, a, Actions(s)) - V(s),
+        "The value of a policy averages over its actions; only the optimal value takes the maximum.",
+        when=lambda given: any(chance not in (0, 1) for row in given.chances.values() for chance in row.values()),
+    )
+    RESIDUAL_FORGOT_GAMMA = misread(
+        BELLMAN_RESIDUAL,
+        "forgot-gamma",
+        SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)) - V(s),
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1,
+    )
+    BELLMAN_OPTIMALITY_RESIDUAL = Formula(
+        "bellman-optimality-residual",
+        Residual(s),
+        MaxOver(LOOKAHEAD, a, Actions(s)) - V(s),
+        title="Bellman residual of V for the optimal value",
+        source="Sutton & Barto 2018, sections 3.6 and 11.4",
+        hint="Work out the right side of the optimality equation with the given V, and subtract what V says.",
+        note="It is 0 in every state exactly where V is the optimal value.",
+    )
+    OPTIMALITY_RESIDUAL_SIGN = misread(
+        BELLMAN_OPTIMALITY_RESIDUAL,
+        "sign-of-optimality-residual",
+        V(s) - MaxOver(LOOKAHEAD, a, Actions(s)),
+        "The residual is the right side of the equation minus V(s), not V(s) minus the right side.",
+    )
+    RESIDUAL_MEAN = misread(
+        BELLMAN_OPTIMALITY_RESIDUAL,
+        "mean-for-max",
+        MeanOver(LOOKAHEAD, a, Actions(s)) - V(s),
+        "The optimal value takes the best action; it does not average over the actions.",
+        when=lambda given: any(len(actions) > 1 for actions in given.mdp.actions.values()),
+    )
+    OPTIMALITY_RESIDUAL_FORGOT_GAMMA = misread(
+        BELLMAN_OPTIMALITY_RESIDUAL,
+        "forgot-gamma-in-optimality",
+        MaxOver(WITHOUT_GAMMA, a, Actions(s)) - V(s),
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1,
     )
     BELLMAN_OPTIMALITY_V = Formula(
         "bellman-optimality-v",
@@ -108,4 +225,62 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.20",
         hint="The first action is fixed; from the next state on the best action is taken.",
         note="It conditions on the state and on the action.",
+    )
+    V_STAR_FROM_Q = Formula(
+        "optimal-v-from-q",
+        Vstar(s),
+        MaxOver(Qstar(s, a), a, Actions(s)),
+        title="Optimal V from Q",
+        source="Sutton & Barto 2018, section 3.6",
+        hint="The optimal value of a state is that of its best action.",
+    )
+    MEAN_OF_Q_STAR = misread(
+        V_STAR_FROM_Q,
+        "mean-for-max",
+        MeanOver(Qstar(s, a), a, Actions(s)),
+        "The optimal policy takes the best action, so the optimal value is the greatest, not the mean.",
+        when=lambda given: not given.parameters(),
+    )
+    POLICY_FOR_MAX = misread(
+        V_STAR_FROM_Q,
+        "policy-for-max",
+        SumOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
+        "The optimal value does not depend on the given policy: it is the greatest action value.",
+        when=lambda given: not given.parameters(),
+    )
+    Q_STAR_FROM_V = Formula(
+        "optimal-q-from-v",
+        Qstar(s, a),
+        LOOKAHEAD_STAR,
+        title="Optimal Q from V",
+        source="Sutton & Barto 2018, eq. 3.17",
+        hint="The first action is fixed; from the next state on, V* counts the best that can follow.",
+    )
+    Q_STAR_FORGOT_GAMMA = misread(
+        Q_STAR_FROM_V,
+        "forgot-gamma-in-q",
+        SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1,
+    )
+    Q_STAR_OWN_VALUE = misread(
+        Q_STAR_FROM_V,
+        "own-value-for-next",
+        SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s)), s1, Successors(s, a)),
+        "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
+    )
+    PRINCIPLE_OF_OPTIMALITY = Formula(
+        "principle-of-optimality",
+        Vstar(s),
+        MaxOver(EdgeReward(s, s1) + Vstar(s1), s1, Successors(s)),
+        title="Principle of optimality",
+        source="Bertsekas 2017, section 2.1",
+        hint="Begin at the goal and go backwards: the best tail from the next state is already known.",
+        note="Any part of an optimal policy is optimal for the subproblem that starts there.",
+    )
+    TAIL_LEFT_OUT = misread(
+        PRINCIPLE_OF_OPTIMALITY,
+        "tail-left-out",
+        MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        "To the reward of the next step comes the best total from the state that it leads to.",
     )

@@ -1,0 +1,156 @@
+"""The best paths of a small graph without chance: from the start, and from every state on the way."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
+from typing import NamedTuple, Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name
+from rldrill.problems.parts import Number, Part, Policy
+from rldrill.problems.parts import Table as TableKind
+
+TITLE = "Principle of optimality"
+SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
+REVISION = 1
+
+
+class Edge(NamedTuple):
+    """A way from one state to the next, and what it earns; a cost is negative."""
+
+    state: Name
+    next: Name
+    reward: Exact
+
+
+class Given(Givens):
+    """A graph without cycles, where its paths start and end, and a state that some path is to go through."""
+
+    edges: tuple[Edge, ...] = Field(min_length=1, max_length=2000)
+    start: Name
+    goal: Name
+    through: Name | None = None
+    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if len({edge[:2] for edge in self.edges}) < len(self.edges):
+            raise ValueError("edges: an edge is given twice; give each once")
+        if self.goal in self.onward:
+            raise ValueError(f"edges: {self.goal!r} is the goal, so no edge can lead on from it")
+        for edge in self.edges:
+            if edge.next != self.goal and edge.next not in self.onward:
+                raise ValueError(f"edges: no edge leads on from {edge.next!r}, which is not the goal")
+        if self.start not in self.onward:
+            raise ValueError(f"start: no edge leads on from {self.start!r}")
+        try:
+            backwards = self.backwards
+        except CycleError as error:
+            raise ValueError(f"edges: a path can go round and round through {error.args[1][0]!r}") from None
+        if self.through is not None and self.through not in backwards:
+            raise ValueError(f"through: {self.through!r} is no state of the graph before the goal")
+        if self.through is not None and self.through not in self.reached:
+            raise ValueError(f"through: no path from {self.start!r} reaches {self.through!r}")
+        return self
+
+    @cached_property
+    def onward(self) -> dict[str, tuple[str, ...]]:
+        """The next states of every state."""
+        found: dict[str, list[str]] = {}
+        for edge in self.edges:
+            found.setdefault(edge.state, []).append(edge.next)
+        return {state: tuple(after) for state, after in found.items()}
+
+    @property
+    def forks(self) -> dict[str, tuple[str, ...]]:
+        """The next states of those states that have several."""
+        return {state: after for state, after in self.onward.items() if len(after) > 1}
+
+    @cached_property
+    def backwards(self) -> tuple[str, ...]:
+        """The states before the goal, each after all the states that it leads to.
+
+        Raises:
+            CycleError: there is no such order.
+        """
+        order = TopologicalSorter(self.onward).static_order()
+        return tuple(state for state in order if state != self.goal)
+
+    @property
+    def reached(self) -> frozenset[str]:
+        """The states that paths from the start come to."""
+        found = {self.start}
+        for state in reversed(self.backwards):
+            if state in found:
+                found.update(self.onward[state])
+        return frozenset(found)
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    story: str
+    states: tuple[str, ...]
+    goal: str
+
+
+_PLACES = (
+    _Place("A robot moves through a building to its charger.", ("door", "hall", "bend", "ramp"), "charger"),
+    _Place("A rover drives through a crater to its lander.", ("rim", "slope", "floor", "cave"), "lander"),
+    _Place("A drone carries a parcel across the town.", ("depot", "bridge", "park", "tower"), "house"),
+    _Place("A boat sails between islands to its harbour.", ("cape", "reef", "bay", "rock"), "harbour"),
+)
+#: The edges of each level, by the places of their states; the goal comes last.
+_EDGES = {
+    1: ((0, 1), (0, 2), (1, 2), (1, 3), (2, 3)),
+    2: ((0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (2, 4), (3, 4)),
+    3: ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (1, 4), (2, 3), (2, 4), (3, 4)),
+}
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Three states before the goal; then four; then more edges, and a path that must go through a state."""
+    place = rng.choice(_PLACES)
+    names = (*place.states[: 3 if level == 1 else 4], place.goal)
+    bait = 1 + rng.below(2)  # good to go to, bad to go on from: the greedy path is not the best one
+    edges = tuple(
+        Edge(names[here], names[after], rng.whole(-2, 5) + 4 * (after == bait) - 8 * (here == bait))
+        for here, after in _EDGES[level]
+    )
+    through = names[bait] if level == 3 else None
+    return Given(edges=edges, start=names[0], goal=place.goal, through=through, story=place.story)
+
+
+def question(given: Given) -> Question:
+    """The edges; the best total and the best next state from everywhere, and the best path through a state."""
+    negative = " (a cost, where it is negative)" if any(edge.reward < Fraction(0) for edge in given.edges) else ""
+    blocks = (
+        Paragraph(
+            f"{given.story} Nothing is left to chance: from each state one of these ways is taken, and it earns this "
+            f"reward{negative}. Rewards are added up without discount until {given.goal}, where it ends.".strip()
+        ),
+        Table(
+            header=("$s$", "$s'$", "$R_{s s'}$"),
+            rows=tuple((edge.state, edge.next, f"${shown(edge.reward)}$") for edge in given.edges),
+        ),
+    )
+    states = tuple(given.onward)
+    parts = [
+        Part(
+            "a",
+            f"What is $V^*(s)$, the greatest total reward of a path to {given.goal}, from every state $s$?",
+            TableKind("V^*", states),
+        ),
+    ]
+    if given.forks:
+        ask = "To which state does a best path lead next, from every state where there is a choice?"
+        parts.append(Part("b", ask, Policy(given.forks)))
+    if given.through is not None:
+        ask = f"What is the greatest total reward of a path from {given.start} to {given.goal} through {given.through}?"
+        parts.append(Part("c" if given.forks else "b", ask, Number()))
+    return Question(blocks, tuple(parts))

@@ -1,0 +1,121 @@
+"""Backwards from the goal: the best tail of every state from the best tails of the states after it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from rldrill.problems.bellman.principle_of_optimality import Given
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
+from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
+from rldrill.solutions.work import Work
+
+GREEDY_PATH = slip(
+    "greedy-path",
+    "The way that earns most at once need not begin the best path: what can be earned after it counts too.",
+)
+THROUGH_IGNORED = slip(
+    "through-ignored",
+    "That is the best path of all; the path that is asked for must go through the state that is named.",
+    when=lambda given: given.through not in (None, given.start),
+)
+HEAD_LEFT_OUT = slip(
+    "head-left-out",
+    "That is the best way on from the state that is named; the best way there earns something too.",
+    when=lambda given: given.through not in (None, given.start),
+)
+MISCONCEPTIONS = (GREEDY_PATH, TAIL_LEFT_OUT, THROUGH_IGNORED, HEAD_LEFT_OUT)
+
+Rewards = Mapping[tuple[str, str], Value]
+
+
+def solve(given: Given, work: Work) -> None:
+    """The best totals, then where they lead, then two best parts put together."""
+    R = {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
+    values = _totals(given, R, work)
+    values = {given.goal: ZERO} | work.answer("a", {state: values[state] for state in given.onward})
+    best = {state: _best(state, after, R, values, work) for state, after in given.onward.items()}
+    work.say(f"The best path from {given.start} is {_path(given.start, best)}.")
+    work.say("Each part of it is the best path from where that part begins: this is the principle of optimality.")
+    if given.forks:
+        work.answer("b", {state: best[state] for state in given.forks})
+    if given.through is not None:
+        work.answer("c" if given.forks else "b", _through(given, given.through, R, values, work))
+
+
+def _totals(given: Given, R: Rewards, work: Work) -> dict[str, Value]:
+    values: dict[str, Value] = {given.goal: ZERO}
+    for state in given.backwards:
+        after = given.onward[state]
+        if work.makes(GREEDY_PATH):
+            after = (_most_paid(state, after, R),)
+        known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": values}
+        values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
+    return values
+
+
+def _best(state: str, after: tuple[str, ...], R: Rewards, values: Mapping[str, Value], work: Work) -> tuple[str, ...]:
+    if work.makes(GREEDY_PATH):
+        return (_most_paid(state, after, R),)
+    tail = dict.fromkeys(after, ZERO) if work.misreads(PRINCIPLE_OF_OPTIMALITY) else values
+    return arg_max(after, [R[state, name] + tail[name] for name in after])
+
+
+def _most_paid(state: str, after: tuple[str, ...], R: Rewards) -> str:
+    return max(after, key=lambda name: R[state, name])
+
+
+def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
+    path = [start]
+    while path[-1] in best:
+        path.append(best[path[-1]][0])
+    return " → ".join(path)
+
+
+def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
+    """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
+    if work.makes(THROUGH_IGNORED):
+        return values[given.start]
+    if work.makes(HEAD_LEFT_OUT):
+        return values[through]
+    work.say(f"The part before {through} must be best too. With {through} for the goal:")
+    there: dict[str, Value] = {through: ZERO}
+    for state in given.backwards[given.backwards.index(through) + 1 :]:
+        after = tuple(name for name in given.onward[state] if name in there)
+        if after:
+            known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": there}
+            there = there | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
+    if given.start not in there:
+        raise NoSolution(f"no path from {given.start} goes through {through}")
+    total = there[given.start] + values[through]
+    work.say(f"Both parts together: ${there[given.start]} + ({values[through]}) = {total}$.")
+    return total
+
+
+def oracle(given: Given) -> Answers:
+    """Every path, one by one."""
+    rewards = {(edge.state, edge.next): at(edge.reward) for edge in given.edges}
+
+    def paths(state: str) -> list[tuple[float, tuple[str, ...]]]:
+        if state == given.goal:
+            return [(0.0, (state,))]
+        return [
+            (rewards[state, after] + total, (state, *path))
+            for after in given.onward[state]
+            for total, path in paths(after)
+        ]
+
+    every = {state: paths(state) for state in given.onward}
+    best = {state: max(total for total, _ in found) for state, found in every.items()}
+    answers: dict[str, Any] = {
+        "a": list(best.values()),
+        "b": {
+            state: {path[1] for total, path in found if abs(total - best[state]) < 1e-9}
+            for state, found in every.items()
+            if state in given.forks
+        },
+    }
+    if given.through is not None:
+        answers["c" if given.forks else "b"] = max(total for total, path in every[given.start] if given.through in path)
+    return answers

@@ -1,0 +1,85 @@
+"""Values of the grid worlds of the textbooks, as literals."""
+
+from typing import Any
+
+import pytest
+
+import rldrill
+
+# Sutton & Barto 2018, Example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
+# grid earns −1 and changes nothing; γ = 0.9.
+MOVES = {"north": (-1, 0), "south": (1, 0), "east": (0, 1), "west": (0, -1)}
+JUMPS = {(0, 1): ((4, 1), 10), (0, 3): ((2, 3), 5)}
+CELLS = [(row, column) for row in range(5) for column in range(5)]
+
+
+def name(cell: tuple[int, int]) -> str:
+    return f"r{cell[0]}c{cell[1]}"
+
+
+def gridworld() -> dict[str, Any]:
+    rows: list[list[Any]] = []
+    for cell in CELLS:
+        for move, (down, right) in MOVES.items():
+            after, reward = JUMPS.get(cell, ((cell[0] + down, cell[1] + right), 0))
+            if after not in CELLS:
+                after, reward = cell, -1
+            rows.append([name(cell), move, name(after), 1, reward])
+    return {"transitions": rows}
+
+
+def solved(family: str, **given: Any) -> Any:
+    return rldrill.read({"family": family, "given": given}).solve()
+
+
+def as_float(value: Any) -> float:
+    return int(value.p) / int(value.q)
+
+
+def test_figure_3_2_of_sutton_and_barto() -> None:
+    figure = [
+        3.3, 8.8, 4.4, 5.3, 1.5,
+        1.5, 3.0, 2.3, 1.9, 0.5,
+        0.1, 0.7, 0.7, 0.4, -0.4,
+        -1.0, -0.4, -0.4, -0.6, -1.2,
+        -1.9, -1.3, -1.2, -1.4, -2.0,
+    ]  # fmt: skip
+    values = solved("policy-value", mdp=gridworld(), gamma="0.9")["a"]
+    assert [as_float(values[name(cell)]) for cell in CELLS] == pytest.approx(figure, abs=0.0501)
+
+
+def test_figure_3_5_of_sutton_and_barto() -> None:
+    figure = [
+        22.0, 24.4, 22.0, 19.4, 17.5,
+        19.8, 22.0, 19.8, 17.8, 16.0,
+        17.8, 19.8, 17.8, 16.0, 14.4,
+        16.0, 17.8, 16.0, 14.4, 13.0,
+        14.4, 16.0, 14.4, 13.0, 11.7,
+    ]  # fmt: skip
+    answers = solved("optimal-value", mdp=gridworld(), gamma="0.9")
+    assert [as_float(answers["a"][name(cell)]) for cell in CELLS] == pytest.approx(figure, abs=0.0501)
+    # The figure's arrows: in A all four actions are best, to the right of A west alone, below A north alone.
+    assert answers["b"]["r0c1"] == tuple(MOVES)
+    assert answers["b"]["r0c2"] == ("west",)
+    assert answers["b"]["r1c1"] == ("north",)
+    assert set(answers["b"]["r4c4"]) == {"north", "west"}
+
+
+def test_the_utilities_of_russell_and_norvigs_4_by_3_world() -> None:
+    # AIMA, 3rd edition, figure 17.3: γ = 1, −0.04 for every step, +1 and −1 in the two ends.
+    world = {"grid": "...G\n.#.P\n....", "rewards": {"G": 1, "P": -1}, "step": "-0.04", "slip": "0.2"}
+    values = solved("optimal-value", mdp=world, gamma=1)["a"]
+    figure = {
+        "r1c1": 0.812, "r1c2": 0.868, "r1c3": 0.918, "r2c1": 0.762, "r2c3": 0.660,
+        "r3c1": 0.705, "r3c2": 0.655, "r3c3": 0.611, "r3c4": 0.388,
+    }  # fmt: skip
+    assert {state: as_float(value) for state, value in values.items()} == pytest.approx(figure, abs=0.000501)
+
+
+def test_the_example_of_the_bellman_equation_at_the_centre_of_figure_3_2() -> None:
+    # Sutton & Barto 2018, exercise 3.14: the centre, +0.7, from its neighbours +2.3, +0.4, −0.4 and +0.7:
+    # 1/4·0.9·(2.3 + 0.4 − 0.4 + 0.7) = 0.675.
+    moves = [["centre", move, f"{move} of it", 1, 0] for move in MOVES]
+    neighbours = {"north of it": "2.3", "west of it": "0.7", "south of it": "-0.4", "east of it": "0.4"}
+    pairs = solved("action-value", dynamics={"transitions": moves}, values=neighbours, gamma="0.9")["a"]
+    assert sum(map(as_float, pairs.values())) / 4 == pytest.approx(0.675)
