@@ -1,0 +1,99 @@
+"""Backup diagrams as Sutton & Barto draw them."""
+
+from rldrill.problems.pictures import Branch, Node
+from rldrill.render.pictures.scene import SIZE, Curve, Ellipse, Label, Path, Point, Scene, Shape, text_width
+
+_RADII = {"state": 5.0, "action": 3.0, "end": 4.5}
+_STEP = 30.0  # from one level down to the next
+_GAP = 10.0  # between what hangs side by side
+_LEAST = 18.0
+_ARC = 0.36  # where the arc crosses the branches
+
+
+def scene(root: Node) -> Scene:
+    """A backup diagram, its root above."""
+    lines: list[Shape] = []
+    nodes: list[Shape] = []
+    _draw(root, (0.0, 0.0), lines, nodes, root=True)
+    return Scene((*lines, *nodes))
+
+
+def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root: bool = False) -> None:
+    x, y = at
+    ends = []
+    for branch, across in zip(node.branches, _places(node), strict=True):
+        end = (x + across, y + _drop(node))
+        ends.append(end)
+        lines.append(Path((at, end), dashed=node.dots))
+        if branch.label:
+            nodes.append(_beside(branch, at, end, alone=len(node.branches) == 1))
+        _draw(branch.node, end, lines, nodes)
+    if node.maximum and len(ends) > 1:
+        lines.append(_arc(at, ends[0], ends[-1]))
+    nodes.append(_mark(node, at))
+    if node.label:
+        radius = _RADII[node.kind]
+        if node.branches:
+            nodes.append(Label((x + radius + 3, y - (2 if root else 0)), node.label, "left"))
+        else:
+            nodes.append(Label((x, y + radius + 3), node.label, "below"))
+
+
+def _mark(node: Node, at: Point) -> Shape:
+    (x, y), radius = at, _RADII[node.kind]
+    if node.kind == "end":
+        corners = ((x - radius, y - radius), (x + radius, y - radius), (x + radius, y + radius), (x - radius, y + radius))
+        return Path(corners, closed=True, fill=0.85)
+    return Ellipse(at, (radius, radius), 1.0 if node.kind == "state" else 0.0)
+
+
+def _beside(branch: Branch, start: Point, end: Point, *, alone: bool) -> Label:
+    """What stands beside a branch: outside of it, so that neighbours' labels lie apart."""
+    share = 0.62
+    x, y = start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+    if alone or end[0] >= start[0]:
+        return Label((x + 2.5, y), branch.label, "left", plate=True)
+    return Label((x - 2.5, y), branch.label, "right", plate=True)
+
+
+def _arc(top: Point, left: Point, right: Point) -> Curve:
+    first = (top[0] + _ARC * (left[0] - top[0]), top[1] + _ARC * (left[1] - top[1]))
+    last = (top[0] + _ARC * (right[0] - top[0]), top[1] + _ARC * (right[1] - top[1]))
+    bow = min(8.0, 0.35 * (last[0] - first[0]) + 2)
+    return Curve(first, (top[0], first[1] + 2 * bow), last)
+
+
+def _drop(node: Node) -> float:
+    """How far down the next level is: farther where branches are spread wide."""
+    places = _places(node)
+    spread = max(abs(place) for place in places) if places else 0.0
+    return max(_STEP, 0.55 * spread)
+
+
+def _places(node: Node) -> list[float]:
+    """Where the branches end, left and right of the node."""
+    extents = [_extent(branch) for branch in node.branches]
+    at = 0.0
+    places = []
+    for left, right in extents:
+        places.append(at + left)
+        at += left + right + _GAP
+    middle = (places[0] + places[-1]) / 2 if places else 0.0
+    return [place - middle for place in places]
+
+
+def _extent(branch: Branch) -> tuple[float, float]:
+    """How much room a branch with all below it takes, left and right of where it ends."""
+    node = branch.node
+    if not node.branches:
+        half = max(_LEAST, text_width(node.label)) / 2
+        left = right = half
+    else:
+        places = _places(node)
+        outer = [_extent(below) for below in node.branches]
+        left = max(-place + side[0] for place, side in zip(places, outer, strict=True))
+        right = max(place + side[1] for place, side in zip(places, outer, strict=True))
+        right = max(right, _RADII[node.kind] + 5 + text_width(node.label) if node.label else 0)
+    # A label may stand on either side of its branch.
+    beside = 0.7 * text_width(branch.label, SIZE) if branch.label else 0.0
+    return max(left, beside), max(right, beside)
