@@ -12,6 +12,7 @@ _ASIDE = 60
 _ROUNDS = 3
 _DOT = 30
 _HEAD = 55
+_SHOWN = 55  # per cent of a short curve that its label may hide
 
 
 def placed(drawing: Drawing, states: States, actions: tuple[Action, ...]) -> Drawing:
@@ -55,7 +56,10 @@ def _on_curve(line: Ints, text: str) -> tuple[Ints, Ints]:
         for dx, dy in ((0, 0), (0, -1), (0, 1), (1, 0), (-1, 0)):
             middles.append(line[step * COARSE // 8] + np.array([dx * (wide // 2 + 10), dy * (high // 2 + 10)]))
             costs.append(cost + (_ASIDE if dx or dy else 0))
-    return boxes_around(np.stack(middles), (wide, high)), np.array(costs, dtype=np.int64)
+    boxes = boxes_around(np.stack(middles), (wide, high))
+    points = _samples(line)
+    hidden = overlapping(boxes, np.concatenate([points, points], axis=1)).sum(axis=1) * 100 // len(points)
+    return boxes, np.array(costs, dtype=np.int64) + np.maximum(0, hidden - _SHOWN) * 6
 
 
 def _around_dot(dot: Ints, text: str) -> tuple[Ints, Ints]:
