@@ -50,6 +50,10 @@ class Timeline(Picture):
     rewards: tuple[str, ...]
     ended: bool = False
 
+    def reward_label(self, time: int) -> str:
+        """What stands on the arrow that leaves at a time: ``$r_1 = 3$``."""
+        return f"$r_{{{time + 1}}} = {self.rewards[time].strip('$')}$"
+
 
 @dataclass(frozen=True, slots=True)
 class GridPicture(Picture):

@@ -7,6 +7,7 @@ _RADII = {"state": 5.0, "action": 3.0, "end": 4.5}
 _STEP = 30.0  # from one level down to the next
 _GAP = 10.0  # between what hangs side by side
 _LEAST = 18.0
+_SHARE = 0.62  # where labels stand along a branch
 _ARC = 0.36  # where the arc crosses the branches
 
 
@@ -26,7 +27,7 @@ def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root
         ends.append(end)
         lines.append(Path((at, end), dashed=node.dots))
         if branch.label:
-            nodes.append(_beside(branch, at, end, alone=len(node.branches) == 1))
+            nodes.append(_beside(branch, at, end))
         _draw(branch.node, end, lines, nodes)
     if node.maximum and len(ends) > 1:
         lines.append(_arc(at, ends[0], ends[-1]))
@@ -47,13 +48,15 @@ def _mark(node: Node, at: Point) -> Shape:
     return Ellipse(at, (radius, radius), 1.0 if node.kind == "state" else 0.0)
 
 
-def _beside(branch: Branch, start: Point, end: Point, *, alone: bool) -> Label:
+def _beside(branch: Branch, start: Point, end: Point) -> Label:
     """What stands beside a branch: outside of it, so that neighbours' labels lie apart."""
-    share = 0.62
-    x, y = start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
-    if alone or end[0] >= start[0]:
-        return Label((x + 2.5, y), branch.label, "left", plate=True)
-    return Label((x - 2.5, y), branch.label, "right", plate=True)
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    x, y = start[0] + _SHARE * dx, start[1] + _SHARE * dy
+    # A slanting line comes closer to one corner of the label than to its middle.
+    clear = 3 + abs(dx / dy) * SIZE * 0.5
+    if dx >= 0:
+        return Label((x + clear, y), branch.label, "left", plate=True)
+    return Label((x - clear, y), branch.label, "right", plate=True)
 
 
 def _arc(top: Point, left: Point, right: Point) -> Curve:
@@ -72,7 +75,7 @@ def _drop(node: Node) -> float:
 
 def _places(node: Node) -> list[float]:
     """Where the branches end, left and right of the node."""
-    extents = [_extent(branch) for branch in node.branches]
+    extents = _extents(node)
     at = 0.0
     places = []
     for left, right in extents:
@@ -82,18 +85,22 @@ def _places(node: Node) -> list[float]:
     return [place - middle for place in places]
 
 
-def _extent(branch: Branch) -> tuple[float, float]:
-    """How much room a branch with all below it takes, left and right of where it ends."""
+def _extents(node: Node) -> list[tuple[float, float]]:
+    """How much room every branch takes with all below it, left and right of where it ends."""
+    count = len(node.branches)
+    return [_extent(branch, left=2 * index < count - 1) for index, branch in enumerate(node.branches)]
+
+
+def _extent(branch: Branch, *, left: bool) -> tuple[float, float]:
     node = branch.node
-    if not node.branches:
-        half = max(_LEAST, text_width(node.label)) / 2
-        left = right = half
+    if node.branches:
+        sides = list(zip(_places(node), _extents(node), strict=True))
+        before = max(-place + side[0] for place, side in sides)
+        after = max(place + side[1] for place, side in sides)
+        after = max(after, _RADII[node.kind] + 5 + text_width(node.label) if node.label else 0)
     else:
-        places = _places(node)
-        outer = [_extent(below) for below in node.branches]
-        left = max(-place + side[0] for place, side in zip(places, outer, strict=True))
-        right = max(place + side[1] for place, side in zip(places, outer, strict=True))
-        right = max(right, _RADII[node.kind] + 5 + text_width(node.label) if node.label else 0)
-    # A label may stand on either side of its branch.
-    beside = 0.7 * text_width(branch.label, SIZE) if branch.label else 0.0
-    return max(left, beside), max(right, beside)
+        before = after = max(_LEAST, text_width(node.label)) / 2
+    if branch.label:  # it stands outside of the branch
+        beside = text_width(branch.label) + 4
+        before, after = (max(before, beside), after) if left else (before, max(after, beside))
+    return before, after

@@ -19,13 +19,12 @@ def arm(picture: Arm) -> Scene:
     for index, (length, angle) in enumerate(zip(picture.lengths, picture.angles, strict=True), 1):
         lines.append(Path((at, _towards(at, heading, 30)), dashed=True, width=0.4))
         lines.append(Path(tuple(_towards(at, heading + angle * step / 12, 17) for step in range(13)), width=0.4))
-        side = angle / 2 if abs(angle) > 60 else (angle + 18 if angle >= 0 else angle - 18) if False else angle / 2
-        labels.append(Label(_towards(at, heading + side, 27), f"$θ_{index}$", plate=True))
+        labels.append(Label(_towards(at, heading + angle / 2, 27), f"$θ_{index}$", plate=True))
         heading += angle
         after = _towards(at, heading, length * scale)
         lines.append(Path((at, after), width=2.2))
         middle = _towards(at, heading, length * scale * 0.6)
-        labels.append(Label(_towards(middle, heading + 90, 9), f"$l_{index}$", plate=True))
+        labels.append(Label(_towards(middle, heading + (90 if angle >= 0 else -90), 9), f"$l_{index}$", plate=True))
         labels.append(Ellipse(at, (3, 3)))
         at = after
     labels.append(Ellipse(at, (2.5, 2.5), 0.0))
@@ -56,9 +55,9 @@ def pendulum(picture: Pendulum) -> Scene:
     arc = tuple(_swung(pivot, picture.angle * step / 24, 30) for step in range(25))
     shapes.append(Path(arc, width=0.4))
     shapes += [Ellipse(pivot, (2.4, 2.4)), Ellipse(weight, (6, 6), 0.5)]
-    shapes.append(Label(_swung(pivot, picture.angle / 2, 40), "$θ$", plate=True))
-    side = (max(_ROD, 62.0) + 14, 0.0)
-    shapes.append(Label(side, f"$θ = {_plain(picture.angle)}°$", "left"))
+    shapes.append(Label(_swung(pivot, picture.angle / 2, 39), "$θ$", plate=True))
+    box = Scene(tuple(shapes)).box
+    shapes.append(Label((box.right + 10, (box.top + box.bottom) / 2), f"$θ = {_plain(picture.angle)}°$", "left"))
     return Scene(tuple(shapes))
 
 

@@ -74,15 +74,13 @@ def bumps(picture: Bumps) -> Scene:
     at = across(picture.state)
     shapes.append(Path(((at, 0), (at, -_TALL)), dashed=True))
     shapes.append(Ellipse((at, 0), (2.2, 2.2), 0.0))
-    marks = {**{centre: f"${_plain(centre)}$" for centre in picture.centres}}
-    marks[picture.state] = f"$s = {_plain(picture.state)}$"
-    row_of: list[tuple[float, float]] = []
-    for value, label in sorted(marks.items()):
-        half = text_width(label) / 2
-        lower = any(right > across(value) - half for right, depth in row_of if depth == 0)
-        depth = 1 if lower else 0
-        row_of.append((across(value) + half + 2, depth))
-        shapes.append(Label((across(value), 5 + depth * (SIZE + 1)), label, "below"))
+    edge = 0.0
+    for centre in sorted(picture.centres):
+        label = f"${_plain(centre)}$"
+        if (left := across(centre) - text_width(label) / 2) >= edge:  # else there is no room for it
+            shapes.append(Label((across(centre), 5), label, "below"))
+            edge = left + text_width(label) + 2
+    shapes.append(Label((at, 6 + SIZE), f"$s = {_plain(picture.state)}$", "below"))
     return Scene(tuple(shapes))
 
 

@@ -94,7 +94,7 @@ def _step(line: Timeline, time: int) -> tuple[str, str, str, str]:
     last = time == len(line.states) - 1
     state = f"{'□' if line.ended and last else '○'} {inline(line.states[time])}"
     action = inline(line.actions[time]) if time < len(line.actions) else ""
-    reward = "" if last else inline(f"$r_{{{time + 1}}} = ${line.rewards[time]}")
+    reward = "" if last else inline(line.reward_label(time))
     if last and not action:
         return (f"t = {time}".ljust(len(state)), " " * len(state), state, " " * len(state))
     wide = max(len(action), len(reward), 3) + 3

@@ -6,7 +6,7 @@ from rldrill.problems.pictures import Branch, Node
 from rldrill.render.unicode import inline
 
 _SIGNS = {"state": "○", "action": "●", "end": "□"}
-_GAP = 2
+_GAP = 3
 
 
 @dataclass(frozen=True, slots=True)

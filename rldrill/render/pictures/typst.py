@@ -81,11 +81,6 @@ def _flat(math: Math) -> Math:
     return math
 
 
-def reward_label(line: Timeline, time: int) -> str:
-    """What stands on the arrow that leaves at a time."""
-    return f"$r_{{{time + 1}}} = ${line.rewards[time]}"
-
-
 def _timeline(line: Timeline) -> str:
     last = len(line.states) - 1
     steps = []
@@ -94,7 +89,7 @@ def _timeline(line: Timeline) -> str:
         parts = [f"time-state({time}, {ends}, [{small(state)}])"]
         if time < last or time < len(line.actions):
             action = f"[{small(line.actions[time])}]" if time < len(line.actions) else "none"
-            reward = f"[{small(reward_label(line, time))}]" if time < last else "none"
+            reward = f"[{small(line.reward_label(time))}]" if time < last else "none"
             parts.append(f"time-arrow({action}, {reward})")
         steps.append(f"box({{{'; '.join(parts)}}})")
     return f"#timeline({', '.join(steps)})\n"
