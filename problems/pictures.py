@@ -87,9 +87,10 @@ class Node:
 
 @dataclass(frozen=True, slots=True)
 class BackupDiagram(Picture):
-    """A backup diagram as Sutton & Barto draw it, root above."""
+    """A backup diagram as Sutton & Barto draw it, root above, and over it a title if there is one."""
 
     root: Node
+    title: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,7 +70,7 @@ class _Beside:
             return
         grid = RichTable.grid(padding=(0, _BETWEEN, 0, 0))
         for width in widths:
-            grid.add_column(no_wrap=True, width=width, vertical="middle")
+            grid.add_column(no_wrap=True, width=width)
         grid.add_row(*self.items)
         yield grid
 

@@ -11,12 +11,16 @@ _SHARE = 0.62  # where labels stand along a branch
 _ARC = 0.36  # where the arc crosses the branches
 
 
-def scene(root: Node) -> Scene:
-    """A backup diagram, its root above."""
+def scene(root: Node, title: str = "") -> Scene:
+    """A backup diagram, its root above, and over it the title."""
     lines: list[Shape] = []
     nodes: list[Shape] = []
     _draw(root, (0.0, 0.0), lines, nodes, root=True)
-    return Scene((*lines, *nodes))
+    drawn = Scene((*lines, *nodes))
+    if not title:
+        return drawn
+    box = drawn.box
+    return Scene((*drawn.shapes, Label(((box.left + box.right) / 2, box.top - 7), title, "above")))
 
 
 def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root: bool = False) -> None:

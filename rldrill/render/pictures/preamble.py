@@ -36,9 +36,9 @@ PREAMBLE = r"""
   let widths = bodies.map(body => measure(body).width)
   let room = size.width - gap * (bodies.len() - 1)
   if widths.sum() <= room {
-    grid(columns: widths, column-gutter: gap, align: horizon, ..bodies)
+    grid(columns: widths, column-gutter: gap, ..bodies)
   } else if widths.sum() * 0.8 <= room {
-    grid(columns: widths.map(width => width / widths.sum() * room), column-gutter: gap, align: horizon, ..bodies)
+    grid(columns: widths.map(width => width / widths.sum() * room), column-gutter: gap, ..bodies)
   } else { bodies.map(body => block(body)).join() }
 }))
 """

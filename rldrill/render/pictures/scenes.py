@@ -23,8 +23,8 @@ def scene_of(picture: Picture) -> Scene | None:
     match picture:
         case StateDiagram():
             return graph.scene(picture)
-        case BackupDiagram(root):
-            return backup.scene(root)
+        case BackupDiagram(root, title):
+            return backup.scene(root, title)
         case GridPicture():
             return plots.grid(picture)
         case Bars():

@@ -35,8 +35,8 @@ def lines(picture: Picture, width: int = 100) -> list[str]:
             return _timeline(picture, width)
         case GridPicture(rows):
             return _grid([[inline(cell) for cell in row] for row in rows])
-        case BackupDiagram(root):
-            return tree(root)
+        case BackupDiagram(root, title):
+            return [*([inline(title)] if title else []), *tree(root)]
         case Bars():
             return _bars(picture)
         case Bumps() | Arm() | Pendulum():
