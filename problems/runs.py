@@ -13,7 +13,11 @@ from rldrill.problems.exact import Discount, Exact, Probability, Scalar, StepSiz
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.phrases import discount, step_size, terminal_note
+from rldrill.problems.pictures import Timeline
 from rldrill.problems.settings import draw_setting
+
+#: Runs of at most so many states are drawn.
+_DRAWN = 12
 
 
 class Trajectory(Givens):
@@ -153,6 +157,27 @@ def trajectory_table(run: Trajectory) -> Table:
     return Table(header=("$t$", *(f"${t}$" for t in times)), rows=tuple(rows))
 
 
+def timeline(run: Trajectory) -> Timeline:
+    """A run as a picture."""
+    return Timeline(
+        run.states,
+        run.actions,
+        tuple(f"${shown(reward)}$" for reward in run.rewards),
+        ended=run.states[-1] in run.terminal,
+    )
+
+
+def seen(run: Trajectory) -> tuple[Block, ...]:
+    """What an agent was seen to do, and where that ends; a long run is a table."""
+    drawn = len(run.states) <= _DRAWN
+    told = "" if drawn else " (a reward stands at the time at which it is received)"
+    return (
+        Paragraph(f"An agent was seen to do this{told}:"),
+        timeline(run) if drawn else trajectory_table(run),
+        *terminal_note(run.terminal),
+    )
+
+
 def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q(s, a)") -> Table:
     """Action values or the like, a line for every state and a column for every action."""
     actions = tuple(dict.fromkeys(action for row in values.values() for action in row))
@@ -176,9 +201,7 @@ def run_blocks(given: ValueRun | ActionRun, values: Table, method: str) -> tuple
 def run_situation(given: ValueRun | ActionRun, *values: Table) -> tuple[Block, ...]:
     """A run, and the values before it."""
     return (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
-        trajectory_table(given.trajectory),
-        *terminal_note(given.trajectory.terminal),
+        *seen(given.trajectory),
         Paragraph(f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)}"),
         *values,
     )

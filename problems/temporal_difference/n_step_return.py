@@ -10,8 +10,8 @@ from rldrill.problems.exact import Discount, Exact, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.phrases import discount, in_open, terminal_note
-from rldrill.problems.runs import Trajectory, check_values, trajectory_table
+from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.runs import Trajectory, check_values, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "n-step return"
@@ -53,11 +53,9 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def question(given: Given) -> Question:
-    """The run as a table over time; each return is a part."""
+    """The run over time; each return is a part."""
     blocks = (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
-        trajectory_table(given.trajectory),
-        *terminal_note(given.trajectory.terminal),
+        *seen(given.trajectory),
         Paragraph(f"The current values are these. {discount(given.gamma)}"),
         values_table(given.values),
     )

@@ -7,7 +7,7 @@ from rldrill.render.pictures.scene import SIZE, Ellipse, Label, Path, Scene, Sha
 
 _GREYS = (0.82, 0.35, 0.6, 0.1)
 _CELL = 22.0
-_TALL = 62.0
+_TALL = 48.0
 _AXIS = 240.0
 
 
