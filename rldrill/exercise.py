@@ -94,10 +94,13 @@ class Exercise:
         return self.solution.formulas(part)
 
     def hint(self, part: str | None = None) -> Document:
-        """The formulas that are needed, and a sentence on each; a sentence where none is."""
+        """The formulas that are needed, and a sentence on each; two sentences where none is."""
         formulas = self.formulas(part)
         if not formulas:
-            return (Paragraph("No formula is needed here: go by what is given, and rule out one option after the other."),)
+            return (
+                Paragraph("No formula is needed here: go by what is given."),
+                Paragraph("Rule out one answer after the other."),
+            )
         return tuple(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
 
     def data(self, *, answers: bool = True) -> dict[str, Any]:

@@ -32,7 +32,7 @@ class Shown(Givens):
         return self
 
     @property
-    def letters(self) -> dict[str, str]:
+    def letters(self) -> dict[Backup, str]:
         """The letter of every option."""
         return dict(zip(self.options, "ABCDEFGHIJ", strict=False))
 

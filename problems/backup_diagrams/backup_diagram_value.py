@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.backups import LEGEND
 from rldrill.problems.document import Paragraph
@@ -32,8 +32,8 @@ class Given(Givens):
 
     dynamics: Dynamics
     policy: PolicyField | None = None
-    values: dict[Name, Exact] = {}
-    action_values: dict[Name, dict[Name, Exact]] = {}
+    values: dict[Name, Exact] = Field(default={})
+    action_values: dict[Name, dict[Name, Exact]] = Field(default={})
     gamma: Discount
 
     @model_validator(mode="after")
@@ -100,7 +100,9 @@ def draw(level: int, rng: Draws) -> Given:
     best = rng.chance(Fraction(1, 2))
     gamma = rng.fraction("1/2", "4/5", "9/10")
     if level == 1:
-        rows = tuple(Transition("s", action, f"s{sub}", Fraction(1), _reward(rng)) for action, sub in zip("ab", "₁₂", strict=True))
+        rows = tuple(
+            Transition("s", action, after, Fraction(1), _reward(rng)) for action, after in (("a", "s₁"), ("b", "s₂"))
+        )
         values = dict(zip(("s₁", "s₂"), rng.distinct(2, -4, 9), strict=True))
         policy = None if best else {"s": _chances(rng)}
         return Given(dynamics=Dynamics(transitions=rows), policy=policy, values=values, gamma=gamma)

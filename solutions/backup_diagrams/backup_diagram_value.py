@@ -79,7 +79,7 @@ def solve(given: Given, work: Work) -> None:
     best = given.policy is None
     if work.makes(MAX_FOR_MEAN) or work.makes(MEAN_FOR_MAX):
         best = not best
-    root, action = given.root
+    root, _ = given.root
     if given.action_values:
         work.answer("a", _action_value(given, work, known, best=best))
         return

@@ -1,7 +1,17 @@
 """Backup diagrams as Sutton & Barto draw them."""
 
 from rldrill.problems.pictures import Branch, Node
-from rldrill.render.pictures.scene import SIZE, Curve, Ellipse, Label, Path, Point, Scene, Shape, text_width
+from rldrill.render.pictures.scene import (
+    SIZE,
+    Curve,
+    Ellipse,
+    Label,
+    Path,
+    Point,
+    Scene,
+    Shape,
+    text_width,
+)
 
 _RADII = {"state": 5.0, "action": 3.0, "end": 4.5}
 _STEP = 30.0  # from one level down to the next
@@ -47,8 +57,7 @@ def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root
 def _mark(node: Node, at: Point) -> Shape:
     (x, y), radius = at, _RADII[node.kind]
     if node.kind == "end":
-        corners = ((x - radius, y - radius), (x + radius, y - radius), (x + radius, y + radius), (x - radius, y + radius))
-        return Path(corners, closed=True, fill=0.85)
+        return rectangle(Box(x - radius, y - radius, x + radius, y + radius), 0.85)
     return Ellipse(at, (radius, radius), 1.0 if node.kind == "state" else 0.0)
 
 

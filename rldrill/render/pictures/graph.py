@@ -13,7 +13,20 @@ from rldrill.problems.pictures import StateDiagram
 from rldrill.render.pictures.curves import Ints
 from rldrill.render.pictures.graph_labels import placed
 from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, search
-from rldrill.render.pictures.scene import SIZE, Curve, Ellipse, Label, Path, Point, Scene, Shape, arrowhead, text_width
+from rldrill.render.pictures.scene import (
+    SIZE,
+    Box,
+    Curve,
+    Ellipse,
+    Label,
+    Path,
+    Point,
+    Scene,
+    Shape,
+    arrowhead,
+    rectangle,
+    text_width,
+)
 
 #: Larger diagrams are left out: the table says it better.
 MOST_STATES, MOST_ARROWS = 6, 24
@@ -41,9 +54,7 @@ def scene(diagram: StateDiagram) -> Scene | None:
         return None
     actions = _actions(diagram)
     for air in _AIR:
-        found = [
-            placed(search(states, actions), states, actions) for states in _arranged(diagram, air)
-        ]
+        found = [placed(search(states, actions), states, actions) for states in _arranged(diagram, air)]
         best = min(found, key=lambda drawing: drawing.cost)
         if best.cost < HARD:
             return _scene(diagram, best)
@@ -86,8 +97,7 @@ def _scene(diagram: StateDiagram, drawing: Drawing) -> Scene:
         (x, y), (across, down) = _point(drawing.states.centres[index]), drawing.states.axes[index]
         a, b = across / UNIT, down / UNIT
         if name in diagram.terminal:
-            corners = ((x - a, y - b + 1), (x + a, y - b + 1), (x + a, y + b - 1), (x - a, y + b - 1))
-            marks.append(Path(corners, closed=True, fill=0.88))
+            marks.append(rectangle(Box(x - a, y - b + 1, x + a, y + b - 1), 0.88))
         else:
             marks.append(Ellipse((x, y), (a, b)))
         marks.append(Label((x, y), name))

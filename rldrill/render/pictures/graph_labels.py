@@ -10,7 +10,7 @@ from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, 
 _COVERED_LINE = 220
 _ASIDE = 60
 _ROUNDS = 3
-_DOT = 30
+_DOT, _AIR = 30, 12
 _HEAD = 55
 _SHOWN = 55  # per cent of a short curve that its label may hide
 
@@ -21,7 +21,7 @@ def placed(drawing: Drawing, states: States, actions: tuple[Action, ...]) -> Dra
     fine = [_samples(line) for line in drawing.lines] + [_samples(stem) for stem in drawing.stems]
     dots = boxes_around(np.stack(drawing.dots), (2 * _DOT, 2 * _DOT))
     heads = boxes_around(np.stack([curve[2] for curve in drawing.curves]), (_HEAD, _HEAD))
-    nodes = np.concatenate([states.boxes, dots])
+    nodes = np.concatenate([states.boxes, dots]) + np.array([-_AIR, -_AIR, _AIR, _AIR])
     owner = 0
     for number, action in enumerate(actions):
         for text in action.labels:
@@ -64,7 +64,7 @@ def _on_curve(line: Ints, text: str) -> tuple[Ints, Ints]:
 
 def _around_dot(dot: Ints, text: str) -> tuple[Ints, Ints]:
     wide, high = label_size(text)
-    side, up = wide // 2 + 40, high // 2 + 35
+    side, up = wide // 2 + 48, high // 2 + 45
     ways = [(0, -up), (0, up), (side, 0), (-side, 0), (side, -up * 2 // 3), (-side, -up * 2 // 3),
             (side, up * 2 // 3), (-side, up * 2 // 3), (side * 2 // 3, -up), (-side * 2 // 3, -up),
             (side * 2 // 3, up), (-side * 2 // 3, up)]  # fmt: skip

@@ -180,7 +180,8 @@ def _alone(states: States, lines: Ints, bends: Ints, target: int, size: tuple[in
     middles = boxes_around(lines[:, COARSE // 2], size)
     for index, (centre, (a, b)) in enumerate(zip(states.centres, states.axes, strict=True)):
         inner = lines[:, 1:-2] if index == target else lines
-        touched = within(inner, centre, (a + (10 if index == target else _CLEAR), b + (10 if index == target else _CLEAR)))
+        air = 10 if index == target else _CLEAR
+        touched = within(inner, centre, (a + air, b + air))
         cost = cost + touched.any(axis=1) * _THROUGH
     covered = overlapping(middles, states.boxes).sum(axis=1)
     return cost + covered * _TOUCHING
@@ -197,7 +198,7 @@ def _best(option: _Options, others: list[tuple[_Options, _Choice]]) -> tuple[_Ch
         cost = each.reshape(-1) + crossings(_pieces(flat), drawn) * _CROSSING
         cost = cost + _close(flat, dots, 90).any(axis=1) * _THROUGH
         cost = cost + overlapping(boxes_around(flat[:, COARSE // 2], size), boxes).sum(axis=1) * _TOUCHING
-        cost = cost + _close(points[None], flat[:, 2:-1:2].reshape(-1, 2), _APART)[0].reshape(len(flat), -1).sum(axis=1) * _ALONG
+        cost = cost + _alongside(flat[:, 2:-1:2], points) * _ALONG
         tables.append(cost.reshape(each.shape))
         place_cost = place_cost + tables[-1].min(axis=1)
     place = int(np.argmin(place_cost))
@@ -213,8 +214,7 @@ def _untangled(option: _Options, choice: _Choice, costs: list[Ints]) -> _Choice:
         lines = option.lines[index][place]
         beside = np.stack([option.lines[i][place, choice.bends[i]] for i in siblings])
         cost = cost + crossings(_pieces(lines), _pieces(beside).reshape(-1, 4)) * _CROSSING
-        near = _close(beside[:, 2:].reshape(1, -1, 2), lines[:, 2::2].reshape(-1, 2), _APART)[0]
-        cost = cost + near.reshape(len(lines), -1).sum(axis=1) * _ALONG
+        cost = cost + _alongside(lines[:, 2::2], beside[:, 2:].reshape(-1, 2)) * _ALONG
         boxes = np.concatenate(
             [boxes_around(b[None, COARSE // 2], option.sizes[i]) for b, i in zip(beside, siblings, strict=True)]
         )
@@ -225,7 +225,7 @@ def _untangled(option: _Options, choice: _Choice, costs: list[Ints]) -> _Choice:
 
 
 def _drawn(others: list[tuple[_Options, _Choice]]) -> tuple[Ints, Ints, Ints, Ints]:
-    """What is drawn already: pieces of lines, points along them, dots, and the boxes of labels in the middle of curves."""
+    """What is drawn already: pieces of lines, points along them, dots, and boxes of labels on their curves."""
     pieces = [np.zeros((0, 4), dtype=np.int64)]
     boxes = [np.zeros((0, 4), dtype=np.int64)]
     dots = [np.zeros((0, 2), dtype=np.int64)]
@@ -248,8 +248,15 @@ def _pieces(curves: Ints) -> Ints:
     return segments(curves[:, ::2])
 
 
+def _alongside(lines: Ints, points: Ints) -> Ints:
+    """How many points of each line come close to some of the others' points."""
+    near = _close(points[None], lines.reshape(-1, 2), _APART)[0]
+    return near.reshape(len(lines), -1).sum(axis=1, dtype=np.int64)
+
+
 def _close(lines: Ints, dots: Ints, limit: int) -> NDArray[np.bool_]:
     """Which lines come how close to which dots, shape (n, dots)."""
     across = lines[..., 0, None] - dots[:, 0]
     down = lines[..., 1, None] - dots[:, 1]
-    return (across * across + down * down < limit * limit).any(axis=1)
+    close: NDArray[np.bool_] = np.any(across * across + down * down < limit * limit, axis=1)
+    return close

@@ -3,7 +3,7 @@
 from math import cos, radians, sin
 
 from rldrill.problems.pictures import Arm, Pendulum
-from rldrill.render.pictures.scene import Ellipse, Label, Path, Point, Scene, Shape
+from rldrill.render.pictures.scene import Box, Ellipse, Label, Path, Point, Scene, Shape, rectangle
 
 _REACH = 110.0
 _ROD = 60.0
@@ -43,7 +43,7 @@ def pendulum(picture: Pendulum) -> Scene:
     shapes: list[Shape] = []
     if picture.cart:
         shapes += [
-            Path(((-22, -7), (22, -7), (22, 7), (-22, 7)), closed=True, fill=0.9),
+            rectangle(Box(-22, -7, 22, 7), 0.9),
             Ellipse((-13, 11), (4, 4)),
             Ellipse((13, 11), (4, 4)),
             Path(((-60, 15), (60, 15))),

@@ -3,7 +3,7 @@
 from math import exp
 
 from rldrill.problems.pictures import Bars, Bumps, GridPicture
-from rldrill.render.pictures.scene import SIZE, Ellipse, Label, Path, Scene, Shape, text_width
+from rldrill.render.pictures.scene import SIZE, Box, Ellipse, Label, Path, Scene, Shape, rectangle, text_width
 
 _GREYS = (0.82, 0.35, 0.6, 0.1)
 _CELL = 22.0
@@ -19,8 +19,7 @@ def grid(picture: GridPicture) -> Scene:
     for down, row in enumerate(picture.rows):
         for across, cell in enumerate(row):
             x, y = across * side, down * _CELL
-            corners = ((x, y), (x + side, y), (x + side, y + _CELL), (x, y + _CELL))
-            shapes.append(Path(corners, closed=True, fill=0.35 if cell == "#" else 1.0))
+            shapes.append(rectangle(Box(x, y, x + side, y + _CELL), 0.35 if cell == "#" else 1.0))
             if cell not in ("", "#"):
                 shapes.append(Label((x + side / 2, y + _CELL / 2), cell))
     return Scene(tuple(shapes))
@@ -37,7 +36,7 @@ def bars(picture: Bars) -> Scene:
         for row in range(count):
             left = middle + (row - count / 2) * wide
             share = picture.shares[row][index]
-            shapes.append(_bar(left + 2, left + wide - 2, _TALL * share, _GREYS[row % len(_GREYS)]))
+            shapes.append(rectangle(Box(left + 2, -_TALL * share, left + wide - 2, 0), _GREYS[row % len(_GREYS)]))
             shapes.append(Label((left + wide / 2, -_TALL * share - 2), picture.labels[row][index], "above"))
         shapes.append(Label((middle, 4), name, "below"))
     shapes.append(Path(((0, 0), (len(picture.names) * group, 0))))
@@ -45,14 +44,10 @@ def bars(picture: Bars) -> Scene:
     for row, series in enumerate(picture.series):
         if series:
             top = -_TALL - 20
-            shapes.append(Path(((at, top), (at + 8, top), (at + 8, top + 8), (at, top + 8)), True, _GREYS[row]))
+            shapes.append(rectangle(Box(at, top, at + 8, top + 8), _GREYS[row % len(_GREYS)]))
             shapes.append(Label((at + 11, top + 4), series, "left"))
             at += 11 + text_width(series) + 12
     return Scene(tuple(shapes))
-
-
-def _bar(left: float, right: float, height: float, grey: float) -> Path:
-    return Path(((left, 0), (right, 0), (right, -height), (left, -height)), closed=True, fill=grey)
 
 
 def bumps(picture: Bumps) -> Scene:

@@ -1,6 +1,7 @@
 """Scenes as Braille signs, two dots across and four down in each, with their labels written over them."""
 
 from collections.abc import Callable
+from itertools import pairwise
 from math import ceil, hypot
 
 from rldrill.render.pictures.scene import SHARES, Curve, Ellipse, Label, Path, Point, Scene
@@ -30,7 +31,7 @@ def raster(scene: Scene) -> list[str]:
                     _line(start, end, mark, dashed=dashed)
             case Curve(start, control, end):
                 corners = [_on(start, control, end, step / _AROUND) for step in range(_AROUND + 1)]
-                for one, two in zip(corners, corners[1:], strict=False):
+                for one, two in pairwise(corners):
                     _line(one, two, mark)
             case Ellipse((x, y), (across, down), fill):
                 for step in range(-4, 5):

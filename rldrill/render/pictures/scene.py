@@ -72,10 +72,7 @@ class Box:
     def overlaps(self, other: "Box") -> bool:
         """Whether the two have points inside in common."""
         return (
-            self.left < other.right
-            and other.left < self.right
-            and self.top < other.bottom
-            and other.top < self.bottom
+            self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )
 
 
@@ -136,6 +133,12 @@ SHARES = {"centre": (0.5, 0.5), "left": (0.0, 0.5), "right": (1.0, 0.5), "below"
 def _around(points: tuple[Point, ...]) -> Box:
     across, down = [x for x, _ in points], [y for _, y in points]
     return Box(min(across), min(down), max(across), max(down))
+
+
+def rectangle(box: Box, fill: float) -> Path:
+    """A rectangle of a grey."""
+    corners = ((box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom))
+    return Path(corners, closed=True, fill=fill)
 
 
 def arrowhead(before: Point, tip: Point, length: float = 5.0) -> Path:

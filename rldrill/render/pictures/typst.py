@@ -2,8 +2,8 @@
 
 from functools import cache
 
-from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.document import pieces
+from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.pictures.scene import SHARES, Curve, Ellipse, Label, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
@@ -31,7 +31,7 @@ def _shape(shape: Shape, origin: Point) -> str:
         case Path(points, closed, fill, width, dashed):
             (x, y), *rest = (_moved(point, origin) for point in points)
             steps = "".join(f"curve.line(({_pt(a)}, {_pt(b)})), " for a, b in rest)
-            close = "curve.close(mode: \"straight\"), " if closed else ""
+            close = 'curve.close(mode: "straight"), ' if closed else ""
             style = f"{_fill(fill)}stroke: {_stroke(width, dashed)}"
             return f"place(curve({style}, curve.move(({_pt(x)}, {_pt(y)})), {steps}{close}))"
         case Curve(start, control, end, width):
