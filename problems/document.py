@@ -51,6 +51,13 @@ class Equation(Block):
     label: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Beside(Block):
+    """Blocks side by side where the page is wide enough, else one under the other."""
+
+    blocks: tuple[Block, ...]
+
+
 Document: TypeAlias = tuple[Block, ...]
 
 _PIECES = re.compile(r"\$([^$]*)\$")

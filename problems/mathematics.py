@@ -185,6 +185,7 @@ def _sequence(tokens: Sequence[re.Match[str]], at: int, closing: str | None) -> 
         if token == closing or (token in ")]}" and closing is not None):
             return items, at
         if token in "_^":
+            # A star above is a star, as in V^*; elsewhere it multiplies.
             star = token == "^" and at + 1 < len(tokens) and tokens[at + 1][0] == "*"
             script, at = (operator("*"), at + 2) if star else _single(tokens, at + 1)
             body = items.pop() if items else word("")

@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from rldrill.problems.document import Block, Paragraph, Table, joined
+from rldrill.problems.document import Beside, Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
     Discount,
     Open,
@@ -21,6 +21,10 @@ from rldrill.problems.family import Givens
 from rldrill.problems.grids import read_grid
 from rldrill.problems.gymnasium import read_environment
 from rldrill.problems.phrases import terminal_note
+from rldrill.problems.pictures import Arrow, StateDiagram
+
+#: Models up to this size are drawn beside their table.
+_DRAWN_STATES, _DRAWN_TRANSITIONS = 4, 16
 
 
 def _name(value: object) -> object:
@@ -222,10 +226,25 @@ def transitions_table(model: Dynamics) -> Table:
 
 
 def model_blocks(model: Model) -> tuple[Block, ...]:
-    """A model as a question gives it: the story, the table of transitions, and what a terminal state is worth."""
+    """A model as a question gives it: the story, its transitions, and what a terminal state is worth."""
     told = f"{model.story} " if model.story else ""
-    opening = Paragraph(f"{told}This Markov decision process moves and pays like this:")
-    return (opening, transitions_table(model), *terminal_note(model.terminal))
+    table = transitions_table(model)
+    drawn = len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
+    arrows = "; with every arrow go its probability and its reward" if drawn else ""
+    opening = Paragraph(f"{told}This Markov decision process moves and pays like this{arrows}:")
+    return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
+
+
+def state_diagram(model: Model) -> StateDiagram:
+    """The model as a picture, with the same data as its table."""
+    return StateDiagram(
+        states=(*model.states, *model.terminal),
+        terminal=model.terminal,
+        arrows=tuple(
+            Arrow(t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$")
+            for t in model.transitions
+        ),
+    )
 
 
 def values_table(values: Mapping[str, Scalar], of: str = "V") -> Table:

@@ -9,6 +9,12 @@ from typing import Literal
 from rldrill.problems.document import Block
 
 
+class Picture(Block):
+    """A block that is drawn."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Arrow:
     """One transition of a state diagram: from a state by an action to a state."""
@@ -21,8 +27,11 @@ class Arrow:
 
 
 @dataclass(frozen=True, slots=True)
-class StateDiagram(Block):
-    """States as circles, actions as dots, probabilities and rewards on the arrows."""
+class StateDiagram(Picture):
+    """States as circles, actions as dots, probabilities and rewards on the arrows.
+
+    ``states`` holds the terminal ones too, in the order in which they are drawn.
+    """
 
     states: tuple[str, ...]
     terminal: tuple[str, ...]
@@ -30,16 +39,24 @@ class StateDiagram(Block):
 
 
 @dataclass(frozen=True, slots=True)
-class Timeline(Block):
-    """A run over time: states, and between them actions (if any) and rewards."""
+class Timeline(Picture):
+    """A run over time: states, and between them actions (if any) and rewards.
+
+    There may be an action in the last state, too; ``ended`` says that the last state is terminal.
+    """
 
     states: tuple[str, ...]
     actions: tuple[str, ...]
     rewards: tuple[str, ...]
+    ended: bool = False
+
+    def reward_label(self, time: int) -> str:
+        """What stands on the arrow that leaves at a time: ``$r_1 = 3$``."""
+        return f"$r_{{{time + 1}}} = {self.rewards[time].strip('$')}$"
 
 
 @dataclass(frozen=True, slots=True)
-class GridPicture(Block):
+class GridPicture(Picture):
     """A grid world: the label of every cell, row by row; ``#`` is a wall."""
 
     rows: tuple[tuple[str, ...], ...]
@@ -69,17 +86,19 @@ class Node:
 
 
 @dataclass(frozen=True, slots=True)
-class BackupDiagram(Block):
-    """A backup diagram as Sutton & Barto draw it, root above."""
+class BackupDiagram(Picture):
+    """A backup diagram as Sutton & Barto draw it, root above, and over it a title if there is one."""
 
     root: Node
+    title: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Bars(Block):
+class Bars(Picture):
     """Shares side by side, such as a belief before and after: for every name one bar in each series.
 
-    The shares are between 0 and 1; their labels are what stands above the bars.
+    ``shares`` and ``labels`` have a row for each series; shares are between 0 and 1, labels are what
+    stands above the bars. A single series may go without a name.
     """
 
     names: tuple[str, ...]
@@ -89,7 +108,7 @@ class Bars(Block):
 
 
 @dataclass(frozen=True, slots=True)
-class Bumps(Block):
+class Bumps(Picture):
     """Radial basis functions over a state axis, and the state that is asked about."""
 
     centres: tuple[float, ...]
@@ -99,7 +118,7 @@ class Bumps(Block):
 
 
 @dataclass(frozen=True, slots=True)
-class Arm(Block):
+class Arm(Picture):
     """A planar arm: its links, and the joints' angles in degrees, each relative to the link before."""
 
     lengths: tuple[float, ...]
@@ -107,7 +126,7 @@ class Arm(Block):
 
 
 @dataclass(frozen=True, slots=True)
-class Pendulum(Block):
+class Pendulum(Picture):
     """A pendulum at an angle in degrees from hanging down; ``cart`` puts it on a cart, standing up at 180."""
 
     angle: float

@@ -13,7 +13,11 @@ from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.phrases import check_one_open, discount, step_size, terminal_note
+from rldrill.problems.pictures import Timeline
 from rldrill.problems.settings import draw_setting
+
+#: Runs of at most so many states are drawn.
+_DRAWN = 12
 
 
 class Trajectory(Givens):
@@ -172,6 +176,27 @@ def trajectory_table(run: Trajectory) -> Table:
     return Table(header=("$t$", *(f"${t}$" for t in times)), rows=tuple(rows))
 
 
+def timeline(run: Trajectory) -> Timeline:
+    """A run as a picture."""
+    return Timeline(
+        run.states,
+        run.actions,
+        tuple(f"${shown(reward)}$" for reward in run.rewards),
+        ended=run.states[-1] in run.terminal,
+    )
+
+
+def seen(run: Trajectory) -> tuple[Block, ...]:
+    """What an agent was seen to do, and where that ends; a long run is a table."""
+    drawn = len(run.states) <= _DRAWN
+    told = "" if drawn else " (a reward stands at the time at which it is received)"
+    return (
+        Paragraph(f"An agent was seen to do this{told}:"),
+        timeline(run) if drawn else trajectory_table(run),
+        *terminal_note(run.terminal),
+    )
+
+
 def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q(s, a)") -> Table:
     """Action values or the like, a line for every state and a column for every action."""
     actions = tuple(dict.fromkeys(action for row in values.values() for action in row))
@@ -181,15 +206,6 @@ def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q
             (state, *(f"${shown(row[action])}$" if action in row else "–" for action in actions))
             for state, row in values.items()
         ),
-    )
-
-
-def seen(run: Trajectory) -> tuple[Block, ...]:
-    """What an agent was seen to do, and where that ends."""
-    return (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
-        trajectory_table(run),
-        *terminal_note(run.terminal),
     )
 
 

@@ -94,10 +94,14 @@ class Exercise:
         return self.solution.formulas(part)
 
     def hint(self, part: str | None = None) -> Document:
-        """The formulas that are needed, and a sentence on each."""
-        return tuple(
-            block for formula in self.formulas(part) for block in (formula.equation(), Paragraph(formula.hint))
-        )
+        """The formulas that are needed, and a sentence on each; two sentences where none is."""
+        formulas = self.formulas(part)
+        if not formulas:
+            return (
+                Paragraph("No formula is needed here: go by what is given."),
+                Paragraph("Rule out one answer after the other."),
+            )
+        return tuple(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
 
     def data(self, *, answers: bool = True) -> dict[str, Any]:
         """The problem as JSON has it; with ``answers`` also the exact answers and the steps."""

@@ -1,6 +1,7 @@
 """The formula sheet as pages, as Markdown and for the terminal, all from the same formulas."""
 
 from collections.abc import Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from rldrill.paper import Paper, page_setup
@@ -10,7 +11,7 @@ from rldrill.render.latex import latex
 from rldrill.render.typst import block, text
 from rldrill.render.unicode import inline, unicode_text
 from rldrill.solutions.formula.formula import Formula
-from rldrill.solutions.sheet import SECTIONS, section
+from rldrill.solutions.sheet import SECTIONS, Gallery, gallery, section
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -20,12 +21,17 @@ TITLE = "Reinforcement Learning: formula sheet"
 _HELPERS = r"""
 #let section(title) = block(width: 100%, sticky: true, above: 1.5em, below: 0.8em, stroke: (bottom: 0.7pt),
   inset: (bottom: 0.35em), text(1.25em, strong(title)))
+#let remark(note) = text(0.8em, luma(60), style: "italic", note)
 #let formula(title, source, equation, note) = block(width: 100%, breakable: false, spacing: 1.1em, {
   block(sticky: true, below: 0.55em, {
     text(0.85em, strong(title)); h(1fr); h(0.6em); box(text(0.68em, luma(110), source))
   })
   pad(left: 0.6em, equation)
-  if note != [] { block(above: 0.55em, text(0.8em, luma(60), style: "italic", note)) }
+  if note != [] { block(above: 0.55em, remark(note)) }
+})
+#let gallery(note, ..pictures) = block(width: 100%, breakable: false, {
+  pictures.pos().map(box).join(h(1.6em, weak: true))
+  block(above: 0.8em, remark(note))
 })
 """
 
@@ -56,11 +62,19 @@ def sheet_source(names: Sequence[str], paper: Paper) -> str:
     """
     setup = page_setup(paper, title=TITLE, left="", right="", margin="1.6cm", size="9.5pt", columns=2)
     head = f'#place(top, scope: "parent", float: true, text(1.7em, strong[{text(TITLE)}]))\n'
-    return setup + _HELPERS + head + "".join(_section(title, found) for title, found in sections(names).values())
+    found = sections(names).items()
+    return setup + _HELPERS + head + "".join(_section(name, title, formulas) for name, (title, formulas) in found)
 
 
-def _section(title: str, found: tuple[Formula, ...]) -> str:
-    return f"#section[{text(title)}]\n" + "".join(map(_formula, found))
+def _section(name: str, title: str, found: tuple[Formula, ...]) -> str:
+    return f"#section[{text(title)}]\n" + "".join(map(_formula, found)) + _gallery(gallery(name))
+
+
+def _gallery(found: Gallery) -> str:
+    if not found.pictures:
+        return ""
+    pictures = ", ".join(f"[{block(picture)}]" for picture in found.pictures)
+    return f"#gallery([{text(found.note)}], {pictures})\n"
 
 
 def _formula(formula: Formula) -> str:
@@ -77,7 +91,7 @@ def markdown(names: Sequence[str]) -> str:
         UsageError: there is no section of that name.
     """
     lines = [f"# {TITLE}", ""]
-    for title, found in sections(names).values():
+    for name, (title, found) in sections(names).items():
         lines += [f"## {title}", ""]
         for formula in found:
             lines += [
@@ -88,6 +102,10 @@ def markdown(names: Sequence[str]) -> str:
             ]
             if formula.note:
                 lines += [_latex_text(formula.note), ""]
+        for picture in gallery(name).pictures:
+            lines += ["```text", unicode_text(picture), "```", ""]
+        if gallery(name).note:
+            lines += [_latex_text(gallery(name).note), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
@@ -111,7 +129,7 @@ def terminal(names: Sequence[str], *, as_latex: bool = False) -> "list[Text]":
     from rich.text import Text
 
     lines: list[Text] = []
-    for title, found in sections(names).values():
+    for name, (title, found) in sections(names).items():
         lines += [*([Text()] if lines else []), Text(title, style="bold")]
         for formula in found:
             equation = latex_equation(formula.equation()) if as_latex else unicode_text(formula.equation())
@@ -124,4 +142,17 @@ def terminal(names: Sequence[str], *, as_latex: bool = False) -> "list[Text]":
                         style="italic",
                     )
                 )
+        lines += _drawn(gallery(name))
     return lines
+
+
+def _drawn(found: Gallery) -> "list[Text]":
+    """Pictures side by side as lines for a terminal."""
+    from rich.text import Text
+
+    blocks = [unicode_text(picture).splitlines() for picture in found.pictures]
+    widths = [max(map(len, block)) for block in blocks]
+    rows = zip_longest(*blocks, fillvalue="")
+    lines = ["   ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    texts = [Text(f"    {line}", no_wrap=True) for line in lines]
+    return [Text(), *texts, Text(), Text(f"    {inline(found.note)}", style="italic")] if texts else []

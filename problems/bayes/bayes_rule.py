@@ -5,6 +5,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.bars import belief_bars
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability, shown
@@ -79,11 +80,8 @@ def question(given: Given) -> Question:
     hypotheses = tuple(given.prior)
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("Beforehand it believes:"),
-        Table(
-            header=("$h$", *hypotheses),
-            rows=(("$p(h)$", *(f"${shown(chance)}$" for chance in given.prior.values())),),
-        ),
+        Paragraph("Beforehand it believes, as $p(h)$:"),
+        belief_bars(prior=given.prior),
         Paragraph("What is measured depends on which of them is true:"),
         Table(
             header=("$p(z|h)$", *hypotheses),

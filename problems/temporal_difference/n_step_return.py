@@ -53,7 +53,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def question(given: Given) -> Question:
-    """The run as a table over time; each return is a part."""
+    """The run over time; each return is a part."""
     blocks = (
         *seen(given.trajectory),
         Paragraph(f"The current values are these. {discount(given.gamma)}"),

@@ -3,20 +3,26 @@
 import os
 import sys
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from rich import box
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.measure import Measurement
 from rich.padding import Padding
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from rldrill.problems.document import Block, Equation, Heading, Paragraph, Table
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.parts import Choice, Part
+from rldrill.problems.pictures import Picture
+from rldrill.render.pictures.text import lines
 from rldrill.render.stacked import stacked
 from rldrill.render.unicode import inline
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
 PIPED = 140
+#: The room between blocks that stand side by side.
+_BETWEEN = 4
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -42,8 +48,47 @@ def renderable(block: Block) -> RenderableType:
             return _table(header, rows)
         case Equation():
             return _equation(block)
+        case Beside(blocks):
+            return _Beside(tuple(map(renderable, blocks)))
+        case Picture():
+            return _indented(_Drawn(block))
         case _:
             raise TypeError(f"{type(block).__name__} cannot be shown in a terminal")
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """Blocks side by side where the terminal is wide enough, else one under the other."""
+
+    items: tuple[RenderableType, ...]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        widths = [Measurement.get(console, options, item).maximum for item in self.items]
+        if sum(widths) + _BETWEEN * (len(widths) - 1) > options.max_width:
+            stacked_items = [line for item in self.items for line in (item, Text(""))]
+            yield Group(*stacked_items[:-1])
+            return
+        grid = RichTable.grid(padding=(0, _BETWEEN, 0, 0))
+        for width in widths:
+            grid.add_column(no_wrap=True, width=width)
+        grid.add_row(*self.items)
+        yield grid
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """A picture drawn with signs, folded where it can be."""
+
+    picture: Picture
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        yield self._text(options.max_width)
+
+    def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
+        return Measurement.get(console, options, self._text(options.max_width))
+
+    def _text(self, width: int) -> Text:
+        return Text("\n".join(lines(self.picture, width)), no_wrap=True, overflow="ignore")
 
 
 def _table(header: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> RenderableType:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rldrill.problems.document import Block, Document, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.document import Beside, Block, Document, Equation, Heading, Paragraph, Table, pieces
 from rldrill.problems.mathematics import (
     EMPTY,
     Accent,
@@ -23,11 +23,13 @@ from rldrill.problems.mathematics import (
     Script,
     Style,
 )
+from rldrill.problems.pictures import Picture
+from rldrill.render.pictures import preamble
 from rldrill.render.unicode import unicode
 
 #: The functions that blocks call. Equations measure themselves: they are broken where they would be wider
 #: than the column, and shrunk where no break is left.
-PREAMBLE = r"""
+_BLOCKS = r"""
 #let wide(body) = measure(math.equation(block: true, body)).width
 #let node(whole, ..parts) = (whole: whole.body, parts: parts.pos())
 #let align-point = $&$.body
@@ -82,6 +84,7 @@ PREAMBLE = r"""
   table.hline(stroke: 0.7pt),
 ) }, size.width)))
 """
+PREAMBLE = _BLOCKS + preamble.PREAMBLE
 
 _FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
 _BIGS = {"Σ": "sum", "Π": "product", "∏": "product", "∑": "sum", "∫": "integral"}
@@ -174,8 +177,19 @@ def block(block: Block) -> str:
                 f", (${_relation(sign)}$, {_node(_tree(right))})" for sign, right in zip(signs, rights, strict=True)
             )
             return f"#chain(${'' if left == EMPTY else typst(left)}${links})\n"
+        case Beside(blocks):
+            return _side_by_side(blocks)
+        case Picture():
+            from rldrill.render.pictures.typst import picture  # it writes its labels with this module
+
+            return picture(block)
         case _:
             raise TypeError(f"{type(block).__name__} has no Typst")
+
+
+def _side_by_side(blocks: Document) -> str:
+    bodies = [body for body in map(block, blocks) if body]  # a picture that is too large is left out
+    return f"#beside({', '.join(f'[{body}]' for body in bodies)})\n"
 
 
 def _apart(items: tuple[Math, ...]) -> str:

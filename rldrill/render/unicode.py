@@ -1,6 +1,6 @@
 """Mathematics on one line of Unicode, for terminals."""
 
-from rldrill.problems.document import Block, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
 from rldrill.problems.mathematics import (
     Accent,
     Big,
@@ -13,6 +13,7 @@ from rldrill.problems.mathematics import (
     Row,
     Script,
 )
+from rldrill.problems.pictures import Picture
 
 _BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
 _ABOVE = dict(
@@ -65,6 +66,12 @@ def unicode_text(block: Block) -> str:
             return unicode(left) + "".join(
                 f" {sign} {unicode(right)}" for sign, right in zip(signs, rights, strict=True)
             )
+        case Beside(blocks):
+            return "\n".join(map(unicode_text, blocks))
+        case Picture():
+            from rldrill.render.pictures.text import lines  # pictures write their labels with this module
+
+            return "\n".join(lines(block))
         case _:
             raise TypeError(f"{type(block).__name__} has no text")
 

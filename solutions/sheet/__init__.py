@@ -1,8 +1,10 @@
 """The formula sheet: one module per section; each formula is stated here and nowhere else."""
 
 import importlib
+from dataclasses import dataclass
 from functools import cache
 
+from rldrill.problems.pictures import Picture
 from rldrill.solutions.formula.formula import Formula
 
 #: The sections in the sheet's order, and their titles.
@@ -14,8 +16,24 @@ SECTIONS = {
     "control": "TD control",
     "policy_gradient": "Policy gradient",
     "linear_methods": "Linear methods",
+    "backup_diagrams": "Backup diagrams",
     "bayes": "Bayesian methods",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Gallery:
+    """Pictures of a section, and a sentence on how to read them."""
+
+    pictures: tuple[Picture, ...] = ()
+    note: str = ""
+
+
+def gallery(name: str) -> Gallery:
+    """The pictures of one section; most have none."""
+    module = importlib.import_module(f"{__name__}.{name}")
+    found: Gallery = getattr(module, "GALLERY", Gallery())
+    return found
 
 
 @cache

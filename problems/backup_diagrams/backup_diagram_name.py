@@ -1,0 +1,94 @@
+"""Which equation or method a backup diagram shows."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.backups import BACKUPS, LEGEND, TITLES, Backup, backup_diagram
+from rldrill.problems.document import Beside, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.parts import Choice, Part
+
+TITLE = "Name of a backup diagram"
+SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6, 6.1 to 6.6 and 7.1"
+REVISION = 1
+
+
+class Shown(Givens):
+    """One diagram, what may be chosen, and how many branches and steps are drawn where there are several."""
+
+    shows: Backup
+    options: tuple[Backup, ...] = Field(min_length=2, max_length=10)
+    branches: int = Field(default=2, ge=2, le=3)
+    steps: int = Field(default=2, ge=2, le=4)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if self.shows not in self.options:
+            raise ValueError(f"options: {self.shows!r}, which is shown, must be among them")
+        if len(set(self.options)) < len(self.options):
+            raise ValueError("options: one is given twice; give each once")
+        return self
+
+    @property
+    def letters(self) -> dict[Backup, str]:
+        """The letter of every option."""
+        return dict(zip(self.options, "ABCDEFGHIJ", strict=False))
+
+
+class Given(Givens):
+    """The diagrams, each of which is a part."""
+
+    diagrams: tuple[Shown, ...] = Field(min_length=1, max_length=6)
+
+
+#: For every diagram those that look most like it, the most similar first.
+_NEIGHBOURS: dict[Backup, tuple[Backup, ...]] = {
+    "bellman-v": ("bellman-optimality-v", "bellman-q", "td-zero", "bellman-optimality-q"),
+    "bellman-q": ("bellman-optimality-q", "expected-sarsa", "bellman-v", "sarsa"),
+    "bellman-optimality-v": ("bellman-v", "bellman-optimality-q", "q-learning", "bellman-q"),
+    "bellman-optimality-q": ("bellman-q", "q-learning", "bellman-optimality-v", "expected-sarsa"),
+    "td-zero": ("n-step-td", "sarsa", "monte-carlo", "bellman-v"),
+    "n-step-td": ("td-zero", "monte-carlo", "sarsa", "bellman-v"),
+    "monte-carlo": ("n-step-td", "td-zero", "sarsa", "bellman-v"),
+    "sarsa": ("expected-sarsa", "td-zero", "q-learning", "bellman-q"),
+    "expected-sarsa": ("q-learning", "sarsa", "bellman-q", "bellman-v"),
+    "q-learning": ("expected-sarsa", "bellman-optimality-q", "sarsa", "bellman-optimality-v"),
+}
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One diagram among strangers; then two among their neighbours; then three with one option more."""
+    shown = rng.sample(BACKUPS, level)
+    return Given(diagrams=tuple(_drawn(level, backup, rng) for backup in rng.shuffled(shown)))
+
+
+def _drawn(level: int, backup: Backup, rng: Draws) -> Shown:
+    near = _NEIGHBOURS[backup]
+    strangers = [other for other in BACKUPS if other != backup and other not in near[:2]]
+    others = rng.sample(strangers, 3) if level == 1 else near[: level + 1]
+    return Shown(
+        shows=backup,
+        options=rng.shuffled((backup, *others)),
+        branches=2 + rng.below(2),
+        steps=2 + rng.below(2),
+    )
+
+
+def question(given: Given) -> Question:
+    """The diagrams side by side; each is a part."""
+    count = len(given.diagrams)
+    drawn = tuple(
+        backup_diagram(item.shows, item.branches, item.steps, title=f"Diagram {index}" if count > 1 else "")
+        for index, item in enumerate(given.diagrams, 1)
+    )
+    parts = tuple(
+        Part(
+            chr(ord("a") + index),
+            f"What does {f'diagram {index + 1}' if count > 1 else 'the diagram'} show?",
+            Choice({letter: TITLES[option] for option, letter in item.letters.items()}),
+        )
+        for index, item in enumerate(given.diagrams)
+    )
+    return Question((Paragraph(LEGEND), Beside(drawn)), parts)

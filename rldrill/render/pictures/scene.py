@@ -1,0 +1,156 @@
+"""Scenes: what a vector picture is made of, in points, with y pointing down."""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from rldrill.render.unicode import inline
+
+Point: TypeAlias = tuple[float, float]
+
+#: The size of the type in pictures.
+SIZE = 8.0
+#: Widths of signs in parts of the type's size, on the generous side.
+_NARROW, _NORMAL, _WIDE = 0.36, 0.55, 0.85
+_NARROW_SIGNS = frozenset("iljft.,;:'′!|()[] /₀₁₂₃₄₅₆₇₈₉ₐₜ")
+_WIDE_SIGNS = frozenset("mwMW−+=<>←→")
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """Straight lines from point to point; closed, it is a polygon. Fills are grey levels, 0 black to 1 white."""
+
+    points: tuple[Point, ...]
+    closed: bool = False
+    fill: float | None = None
+    width: float = 0.6
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A quadratic Bézier curve."""
+
+    start: Point
+    control: Point
+    end: Point
+    width: float = 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Ellipse:
+    """An ellipse, or a circle."""
+
+    centre: Point
+    radii: Point
+    fill: float | None = 1.0
+    width: float = 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text: ``at`` is where its anchor lies; ``plate`` puts it on a white ground."""
+
+    at: Point
+    text: str
+    anchor: Literal["centre", "left", "right", "below", "above"] = "centre"
+    plate: bool = False
+    size: float = SIZE
+
+
+Shape: TypeAlias = Path | Curve | Ellipse | Label
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle with its sides parallel to the axes."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def overlaps(self, other: "Box") -> bool:
+        """Whether the two have points inside in common."""
+        return (
+            self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Shapes, later ones over earlier ones."""
+
+    shapes: tuple[Shape, ...]
+
+    @property
+    def box(self) -> Box:
+        """The smallest rectangle around everything."""
+        boxes = [box_of(shape) for shape in self.shapes]
+        return Box(
+            min(box.left for box in boxes),
+            min(box.top for box in boxes),
+            max(box.right for box in boxes),
+            max(box.bottom for box in boxes),
+        )
+
+
+def text_width(text: str, size: float = SIZE) -> float:
+    """About how wide a text is when typeset, never less."""
+    return sum(map(_sign_width, inline(text))) * size
+
+
+def _sign_width(sign: str) -> float:
+    if sign in _NARROW_SIGNS:
+        return _NARROW
+    return _WIDE if sign in _WIDE_SIGNS or sign.isupper() else _NORMAL
+
+
+def box_of(shape: Shape) -> Box:
+    """The rectangle that a shape fills; of curves the one around their control points."""
+    match shape:
+        case Path(points):
+            return _around(points)
+        case Curve(start, control, end):
+            return _around((start, ((start[0] + 2 * control[0] + end[0]) / 4, (start[1] + 2 * control[1] + end[1]) / 4),
+                            end))  # fmt: skip
+        case Ellipse((x, y), (across, down)):
+            return Box(x - across, y - down, x + across, y + down)
+        case Label():
+            return label_box(shape)
+
+
+def label_box(label: Label) -> Box:
+    """The room that a label takes, with the air around it."""
+    (x, y), wide, high = label.at, text_width(label.text, label.size) + 2, label.size * 1.15
+    across, down = SHARES[label.anchor]
+    return Box(x - across * wide, y - down * high, x + (1 - across) * wide, y + (1 - down) * high)
+
+
+#: How much of a label lies left of its anchor, and above it.
+SHARES = {"centre": (0.5, 0.5), "left": (0.0, 0.5), "right": (1.0, 0.5), "below": (0.5, 0.0), "above": (0.5, 1.0)}
+
+
+def _around(points: tuple[Point, ...]) -> Box:
+    across, down = [x for x, _ in points], [y for _, y in points]
+    return Box(min(across), min(down), max(across), max(down))
+
+
+def rectangle(box: Box, fill: float) -> Path:
+    """A rectangle of a grey."""
+    corners = ((box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom))
+    return Path(corners, closed=True, fill=fill)
+
+
+def arrowhead(before: Point, tip: Point, length: float = 5.0) -> Path:
+    """The head of an arrow that comes from ``before``."""
+    dx, dy = tip[0] - before[0], tip[1] - before[1]
+    long = (dx * dx + dy * dy) ** 0.5 or 1.0
+    dx, dy = dx / long * length, dy / long * length
+    foot = tip[0] - dx, tip[1] - dy
+    wing = -dy * 0.34, dx * 0.34
+    return Path(
+        (tip, (foot[0] + wing[0], foot[1] + wing[1]), (foot[0] - wing[0], foot[1] - wing[1])),
+        closed=True,
+        fill=0.0,
+        width=0.2,
+    )

@@ -1,0 +1,95 @@
+"""Pictures in Typst: scenes with its own lines and curves, so that the PDF needs nothing else."""
+
+from functools import cache
+
+from rldrill.problems.document import pieces
+from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
+from rldrill.problems.pictures import Picture, Timeline
+from rldrill.render.pictures.scene import SHARES, Curve, Ellipse, Label, Path, Point, Scene, Shape
+from rldrill.render.pictures.scenes import scene_of
+from rldrill.render.typst import quoted, typst
+
+
+@cache
+def picture(block: Picture) -> str:
+    """A picture as Typst markup; nothing where it cannot be drawn readably."""
+    if isinstance(block, Timeline):
+        return _timeline(block)
+    scene = scene_of(block)
+    return "" if scene is None else f"#block(breakable: false, {scene_box(scene)})\n"
+
+
+def scene_box(scene: Scene) -> str:
+    """A scene as an expression: a box of its size, shrunk where there is less room."""
+    box = scene.box
+    shapes = "".join(f"\n  {_shape(shape, (box.left, box.top))}" for shape in scene.shapes)
+    return f"picture({_pt(box.right - box.left)}, {_pt(box.bottom - box.top)}, {{{shapes}\n}})"
+
+
+def _shape(shape: Shape, origin: Point) -> str:
+    match shape:
+        case Path(points, closed, fill, width, dashed):
+            (x, y), *rest = (_moved(point, origin) for point in points)
+            steps = "".join(f"curve.line(({_pt(a)}, {_pt(b)})), " for a, b in rest)
+            close = 'curve.close(mode: "straight"), ' if closed else ""
+            style = f"{_fill(fill)}stroke: {_stroke(width, dashed)}"
+            return f"place(curve({style}, curve.move(({_pt(x)}, {_pt(y)})), {steps}{close}))"
+        case Curve(start, control, end, width):
+            (x, y), (cx, cy), (ex, ey) = (_moved(point, origin) for point in (start, control, end))
+            bend = f"curve.quad(({_pt(cx)}, {_pt(cy)}), ({_pt(ex)}, {_pt(ey)}))"
+            return f"place(curve(stroke: {_stroke(width)}, curve.move(({_pt(x)}, {_pt(y)})), {bend}))"
+        case Ellipse(centre, (across, down), fill, width):
+            x, y = _moved(centre, origin)
+            size = f"width: {_pt(2 * across)}, height: {_pt(2 * down)}"
+            where = f"dx: {_pt(x - across)}, dy: {_pt(y - down)}"
+            return f"place({where}, ellipse({size}, {_fill(fill)}stroke: {_stroke(width)}))"
+        case Label(at, words, anchor, plate, size):
+            x, y = _moved(at, origin)
+            across, down = SHARES[anchor]
+            ground = "white" if plate else "none"
+            return f"label({_pt(x)}, {_pt(y)}, {across}, {down}, {ground}, {_pt(size)}, [{small(words)}])"
+
+
+def _moved(point: Point, origin: Point) -> Point:
+    return point[0] - origin[0], point[1] - origin[1]
+
+
+def _pt(number: float) -> str:
+    return f"{round(number, 2) + 0:g}pt" if abs(number) < 1000 else f"{number:.1f}pt"
+
+
+def _fill(grey: float | None) -> str:
+    return "" if grey is None else f"fill: luma({round(255 * grey)}), "
+
+
+def _stroke(width: float, dashed: bool = False) -> str:
+    return f'(paint: black, thickness: {width}pt, dash: "dashed")' if dashed else f"{width}pt"
+
+
+def small(words: str) -> str:
+    """A label's text: its fractions on one line, ``1/2``."""
+    return "".join(
+        f"#{quoted(piece)};" if isinstance(piece, str) else f"${typst(_flat(piece))}$" for piece in pieces(words)
+    )
+
+
+def _flat(math: Math) -> Math:
+    if isinstance(math, Row):
+        return Row(tuple(map(_flat, math.items)))
+    if isinstance(math, Fraction):
+        return Row((_flat(math.numerator), Glyph("/", "punctuation"), _flat(math.denominator)))
+    return math
+
+
+def _timeline(line: Timeline) -> str:
+    last = len(line.states) - 1
+    steps = []
+    for time, state in enumerate(line.states):
+        ends = "true" if line.ended and time == last else "false"
+        parts = [f"time-state({time}, {ends}, [{small(state)}])"]
+        if time < last or time < len(line.actions):
+            action = f"[{small(line.actions[time])}]" if time < len(line.actions) else "none"
+            reward = f"[{small(line.reward_label(time))}]" if time < last else "none"
+            parts.append(f"time-arrow({action}, {reward})")
+        steps.append(f"box({{{'; '.join(parts)}}})")
+    return f"#timeline({', '.join(steps)})\n"

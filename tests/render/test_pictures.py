@@ -1,0 +1,281 @@
+"""Pictures: nothing lies over anything else, everything is inside its box, and every run draws the same."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from io import StringIO
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from rldrill.exercise import draw
+from rldrill.paper import PAPERS, page_setup, pdf
+from rldrill.problems.backup_diagrams.backup_diagram_value import diagram
+from rldrill.problems.backups import BACKUPS, backup_diagram
+from rldrill.problems.document import Beside, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.models import model_blocks, state_diagram
+from rldrill.problems.pictures import (
+    Arm,
+    Arrow,
+    BackupDiagram,
+    Bars,
+    Bumps,
+    GridPicture,
+    Pendulum,
+    Picture,
+    StateDiagram,
+    Timeline,
+)
+from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.render.pictures.scene import Ellipse, Label, Scene, box_of, text_width
+from rldrill.render.pictures.scene import Path as Lines
+from rldrill.render.pictures.scenes import scene_of
+from rldrill.render.terminal import render
+from rldrill.render.typst import block
+from rldrill.render.unicode import unicode_text
+
+ROOT = Path(__file__).parents[2]
+SETUP = page_setup(PAPERS["a4"], title="t", left="", right="", margin="2cm")
+SHAPES = [(1, 2, 2), (2, 1, 2), (2, 2, 2), (2, 3, 2), (3, 2, 2), (4, 2, 1)]
+
+
+def models(states: int, actions: int, branches: int, count: int = 6) -> list[StateDiagram]:
+    found = []
+    for seed in range(count):
+        rng = Draws(f"pictures {seed}")
+        found.append(state_diagram(draw_model(rng, draw_setting(rng), Shape(states, actions, branches))))
+    return found
+
+
+def backups() -> list[BackupDiagram]:
+    found = [backup_diagram(name, branches, 3) for name in BACKUPS for branches in (2, 3)]
+    for level in (1, 2, 3):
+        found += [diagram(draw("backup-diagram-value", level, seed).problem.given) for seed in range(8)]  # type: ignore[arg-type]
+    return found
+
+
+OTHERS: list[Picture] = [
+    GridPicture((("$1$", "$−2$", "", "goal"), ("", "#", "", "$1/2$"), ("start", "", "", ""))),
+    Bars(("open", "closed", "ajar"), ("",), ((0.5, 0.3, 0.2),), (("$1/2$", "$3/10$", "$1/5$"),)),
+    Bars(("a", "b"), ("before", "after"), ((0.5, 0.5), (1.0, 0.0)), (("$1/2$", "$1/2$"), ("$1$", "$0$"))),
+    Bumps((0, 1, 2), 0.5, "gaussian", 0.75),
+    Bumps((0, 2, 4), 2, "tent", 3),
+    Arm((1, 1), (30, 45)),
+    Arm((2, 1, 1), (60, -90, 30)),
+    Pendulum(30),
+    Pendulum(-45),
+    Pendulum(170, cart=True),
+    Timeline(("cool", "warm", "over"), ("fast", "slow"), ("$2$", "$−1$"), ended=True),
+    Timeline(("cool",) * 14, ("fast",) * 14, ("$2$",) * 13),
+]
+
+
+def labels(scene: Scene) -> list[Label]:
+    return [shape for shape in scene.shapes if isinstance(shape, Label)]
+
+
+def nodes(scene: Scene) -> list[Ellipse | Lines]:
+    """States and dots, and no arrowheads."""
+    shapes = [s for s in scene.shapes if isinstance(s, Ellipse) or (isinstance(s, Lines) and s.closed)]
+    return [shape for shape in shapes if shape.fill != 0.0 or isinstance(shape, Ellipse)]
+
+
+def assert_apart(scene: Scene, texts: list[Label]) -> None:
+    for one, two in combinations(texts, 2):
+        assert not box_of(one).overlaps(box_of(two)), (one, two)
+    for label in texts:
+        for node in nodes(scene):
+            assert not box_of(label).overlaps(box_of(node)), (label, node)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_labels_of_state_diagrams_cover_nothing(shape: tuple[int, int, int]) -> None:
+    for picture in models(*shape):
+        scene = scene_of(picture)
+        assert scene is not None, "no layout was found"
+        names = [label for label in labels(scene) if not label.plate]
+        assert [label.text for label in names] == list(picture.states)
+        assert_apart(scene, [label for label in labels(scene) if label.plate])
+        box = scene.box
+        assert box.bottom - box.top < 7 / 2.54 * 72, "a diagram must not fill a page"
+
+
+def test_labels_of_backup_diagrams_cover_nothing() -> None:
+    for picture in backups():
+        scene = scene_of(picture)
+        assert scene is not None
+        assert_apart(scene, labels(scene))
+
+
+def words(source: str, folder: Path) -> list[tuple[float, float, float, float]]:
+    """Where the words of a page are: left, top, right and bottom."""
+    if shutil.which("pdftotext") is None:
+        pytest.skip("poppler's pdftotext is not installed")
+    (folder / "page.pdf").write_bytes(pdf(source))
+    command = ["pdftotext", "-bbox", str(folder / "page.pdf"), "-"]
+    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    found = re.findall(r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)"', printed)
+    return [(float(a), float(b), float(c), float(d)) for a, b, c, d in found]
+
+
+def test_everything_that_is_written_is_inside_its_box(tmp_path: Path) -> None:
+    pictures = [*(model for shape in SHAPES for model in models(*shape, count=2)), *backups(), *OTHERS]
+    for picture in pictures:
+        scene = scene_of(picture) if not isinstance(picture, Timeline) else None
+        body = block(picture).removeprefix("#")
+        source = f"{SETUP}#set page(width: auto, height: auto, margin: 0pt, header: none, footer: none)\n"
+        source += f"#box(stroke: none, {body})" if scene is None else f"#{body}"
+        if isinstance(picture, Timeline):
+            source = source.replace("width: auto", "width: 14cm")
+        # A page is as wide as the picture says that it is; words that stand out of it are outside the page.
+        found = words(source + "\n#metadata(none)", tmp_path)
+        printed = subprocess.run(
+            ["pdfinfo", str(tmp_path / "page.pdf")], capture_output=True, check=True, text=True
+        ).stdout
+        size = re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", printed)
+        assert size is not None
+        wide, high = float(size[1]), float(size[2])
+        for left, top, right, bottom in found:
+            assert left > -1, picture
+            assert right < wide + 1, picture
+            assert top > -3, picture  # the boxes of words hold room for accents that are not there
+            assert bottom < high + 3, picture
+
+
+def test_labels_are_at_least_as_small_as_was_reckoned(tmp_path: Path) -> None:
+    texts = ["rattling", "overheated", "$1/2$, $−10$", "$V^π(s)$", "$π = 3/4$", "$Q^*(s, a)$", "Monte Carlo", "$s₁$"]
+    source = f"{SETUP}#set page(width: 20cm, height: 25cm, margin: 0pt, header: none, footer: none)\n"
+    for text in texts:
+        (tmp_path / "one").mkdir(exist_ok=True)
+        found = words(source + block(BackupDiagram(backup_diagram("td-zero").root, text)), tmp_path / "one")
+        assert max(w[2] for w in found) - min(w[0] for w in found) <= text_width(text) + 2, text
+
+
+def test_too_large_a_diagram_is_left_out() -> None:
+    arrows = tuple(Arrow(str(n), "go", str((n + 1) % 7), "$1$", "$0$") for n in range(7))
+    large = StateDiagram(tuple(map(str, range(7))), (), arrows)
+    assert block(large) == ""
+    table = Table(("a",), (("b",),))
+    assert block(Beside((table, large))).count("[") == block(Beside((table,))).count("[")
+    many = StateDiagram(("s", "t"), (), tuple(Arrow("s", f"a{n}", "t", "$1$", "$0$") for n in range(25)))
+    assert block(many) == ""
+    assert unicode_text(many) == ""
+
+
+_HASHED = """
+from rldrill.problems.settings import *
+from rldrill.problems.draws import Draws
+from rldrill.problems.models import state_diagram
+from rldrill.render.typst import block
+import hashlib
+rng = Draws("x")
+model = draw_model(rng, draw_setting(rng), Shape(3, 2, 2))
+print(hashlib.sha256(block(state_diagram(model)).encode()).hexdigest())
+"""
+
+
+def test_the_same_diagram_is_drawn_in_every_process() -> None:
+    printed = {
+        subprocess.run(
+            [sys.executable, "-c", _HASHED], capture_output=True, text=True, check=True,
+            env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("1", "2")
+    }  # fmt: skip
+    assert len(printed) == 1
+
+
+def test_a_layout_that_was_once_drawn_is_drawn_again() -> None:
+    # Whole numbers throughout: another machine, numpy or Python must give the same picture.
+    racing = StateDiagram(("cool", "over"), ("over",), (
+        Arrow("cool", "slow", "cool", "$1$", "$1$"), Arrow("cool", "fast", "cool", "$1/2$", "$2$"),
+        Arrow("cool", "fast", "over", "$1/2$", "$−10$"),
+    ))  # fmt: skip
+    scene = scene_of(racing)
+    assert scene is not None
+    dots = [shape.centre for shape in scene.shapes if isinstance(shape, Ellipse) and shape.fill == 0.0]
+    assert dots == [(0.0, 34.5), (20.1, -31.5)]
+
+
+def shown(width: int, *blocks: Picture | Beside) -> list[str]:
+    console = Console(file=StringIO(), width=width, highlight=False, markup=False)
+    console.print(render(blocks))
+    assert isinstance(console.file, StringIO)
+    return [line.rstrip() for line in console.file.getvalue().splitlines()]
+
+
+def test_a_time_line_is_folded_where_the_terminal_ends() -> None:
+    lines = shown(40, OTHERS[-2])
+    assert lines[:8] == [
+        "  t = 0           t = 1",
+        "           fast            slow",
+        "  ○ cool ───────▶ ○ warm ────────▶",
+        "          r₁ = 2         r₂ = −1",
+        "",
+        "  t = 2",
+        "  □ over",
+        "",
+    ]
+    assert max(map(len, shown(60, OTHERS[-1]))) <= 60
+
+
+def test_a_table_and_its_diagram_stand_side_by_side_where_there_is_room() -> None:
+    rng = Draws("beside")
+    _, beside, *_ = model_blocks(draw_model(rng, draw_setting(rng), Shape(2, 2, 2)))
+    assert isinstance(beside, Beside)
+    wide, narrow = shown(120, beside), shown(60, beside)
+    assert len(narrow) > len(wide)
+    assert max(map(len, narrow)) <= 60
+
+
+def test_a_state_diagram_is_a_tree_in_the_terminal() -> None:
+    arrows = (
+        Arrow("cool", "slow", "cool", "$1$", "$1$"),
+        Arrow("cool", "fast", "cool", "$1/2$", "$2$"),
+        Arrow("cool", "fast", "over", "$1/2$", "$−10$"),
+    )
+    assert unicode_text(StateDiagram(("cool", "over"), ("over",), arrows)).splitlines() == [
+        "○ cool",
+        "├─● slow ──▶ ○ cool  1, 1",
+        "└─● fast ─┬▶ ○ cool  1/2, 2",
+        "          └▶ □ over  1/2, −10",
+    ]
+
+
+def test_a_backup_diagram_in_the_terminal() -> None:
+    assert unicode_text(backup_diagram("q-learning", title="Q-learning")).splitlines() == [
+        "Q-learning",
+        "    ●",
+        "    │",
+        "    ○",
+        "┌───┼───┐",
+        "│╰──┼──╯│",
+        "│   │   │",
+        "●   ●   ●",
+    ]
+
+
+def test_bars_are_as_long_as_their_shares() -> None:
+    assert unicode_text(OTHERS[2]).splitlines() == [
+        "a  before  ██████████ 1/2",
+        "   after   ████████████████████ 1",
+        "b  before  ██████████ 1/2",
+        "   after   ▏ 0",
+    ]
+
+
+def test_a_grid_in_the_terminal() -> None:
+    assert unicode_text(GridPicture((("S", "#"), ("", "G")))).splitlines() == [
+        "┌───┬───┐", "│ S │███│", "├───┼───┤", "│   │ G │", "└───┴───┘",
+    ]  # fmt: skip
+
+
+def test_every_picture_has_a_text_in_the_terminal() -> None:
+    for picture in OTHERS:
+        assert max(map(len, shown(100, picture))) <= 100
+        assert unicode_text(picture)
