@@ -230,7 +230,7 @@ def model_blocks(model: Model) -> tuple[Block, ...]:
     told = f"{model.story} " if model.story else ""
     table = transitions_table(model)
     drawn = len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
-    arrows = "; with every arrow go its probability and its reward" if drawn else ""
+    arrows = " (on the arrows: probability, reward)" if drawn else ""
     opening = Paragraph(f"{told}This Markov decision process moves and pays like this{arrows}:")
     return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
 

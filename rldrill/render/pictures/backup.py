@@ -3,6 +3,7 @@
 from rldrill.problems.pictures import Branch, Node
 from rldrill.render.pictures.scene import (
     SIZE,
+    Box,
     Curve,
     Ellipse,
     Label,
@@ -10,6 +11,7 @@ from rldrill.render.pictures.scene import (
     Point,
     Scene,
     Shape,
+    rectangle,
     text_width,
 )
 

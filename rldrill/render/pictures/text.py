@@ -12,8 +12,8 @@ from rldrill.problems.pictures import (
     StateDiagram,
     Timeline,
 )
+from rldrill.render.pictures import mechanics, plots
 from rldrill.render.pictures.raster import raster
-from rldrill.render.pictures.scenes import scene_of
 from rldrill.render.pictures.tree import tree
 from rldrill.render.unicode import inline
 
@@ -39,9 +39,12 @@ def lines(picture: Picture, width: int = 100) -> list[str]:
             return [*([inline(title)] if title else []), *tree(root)]
         case Bars():
             return _bars(picture)
-        case Bumps() | Arm() | Pendulum():
-            scene = scene_of(picture)
-            return [] if scene is None else raster(scene)
+        case Bumps():
+            return raster(plots.bumps(picture))
+        case Arm():
+            return raster(mechanics.arm(picture))
+        case Pendulum():
+            return raster(mechanics.pendulum(picture))
         case _:
             raise TypeError(f"{type(picture).__name__} cannot be drawn with signs")
 
