@@ -1,7 +1,8 @@
 """Mathematics as data: what formulas, steps and questions are made of before they are typeset.
 
 Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
-stand for themselves (a combining hat makes an accent: ``V̂``), ``_`` and ``^`` make scripts, a word of several letters or in quotes is set upright,
+stand for themselves, a combining hat makes an accent (``V̂``), ``_`` and ``^`` make scripts, a word of several letters
+or in quotes is set upright,
 ``3/4`` is a fraction, ``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
 """
 
