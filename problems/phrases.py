@@ -19,6 +19,13 @@ def step_size(alpha: Scalar) -> str:
     return f"The step size is $α = {shown(alpha)}$."
 
 
+def trace_parameter(lam: Scalar) -> str:
+    """The sentence that gives λ."""
+    if isinstance(lam, Parameter):
+        return f"The parameter ${shown(lam)}$ is left open."
+    return f"The parameter is $λ = {shown(lam)}$."
+
+
 def in_open(given: Givens) -> str:
     """What is added to a question whose answer is an expression in what is left open."""
     left_open = given.parameters()

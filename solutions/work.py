@@ -148,6 +148,10 @@ class Work:
         self.lines.append(Step(formula, right, known, value, left, sign, own))
         return value
 
+    def value(self, formula: Formula, **known: Any) -> Value:
+        """What a formula, as it is read here, gives for known quantities, without a step in the working."""
+        return evaluate(self.reading(formula), known)
+
     def system(
         self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any
     ) -> dict[Any, Value]:

@@ -93,7 +93,11 @@ def typeset_value(value: Value) -> Math:
     expression = ordered(in_one_quotient(to_sympy(value)))
     if expression.is_Add:
         return _sum(expression.args)
+    if isinstance(expression, sympy.exp):
+        return Script(variable("e"), above=typeset_value(expression.args[0]))
     numerator, denominator = _quotient(expression)
+    if numerator.is_Rational and denominator != 1:  # −25/(2σ²), no fraction above the line
+        numerator, denominator = sympy.Integer(numerator.p), numerator.q * denominator
     if denominator != 1 and not expression.is_Rational:
         if _negative(first_term(denominator)):  # (9 − 3p)/(1 − p), not (−9 + 3p)/(−1 + p)
             numerator, denominator = sympy.expand(-numerator), sympy.expand(-denominator)
@@ -222,7 +226,7 @@ def _power(base: Expr, exponent: Expr) -> Math:
     if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
         rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
         return Fraction(number(1), typeset(rest))
-    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf) or (base.is_Integer and base >= 0)
+    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
     return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
 
 

@@ -40,7 +40,7 @@ def solve(given: Given, work: Work) -> None:
     values = before
     last = known["T"] - 1
     for time in range(last):  # these steps stand in the working of (a) already
-        values = values | {run.states[time]: CRITIC.value({**known, "t": time, "V": values})}
+        values = values | {run.states[time]: work.value(CRITIC, t=time, V=values, **known)}
     values = values | {run.states[last]: work.step(CRITIC, t=last, V=values, **known)}
     work.answer("b", {state: values[state] for state in given.visited})
 

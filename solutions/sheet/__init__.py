@@ -15,6 +15,7 @@ SECTIONS = {
     "policy_gradient": "Policy gradient",
     "linear_methods": "Linear methods",
     "bayes": "Bayesian methods",
+    "function_approximation": "Function approximation",
 }
 
 

@@ -97,6 +97,11 @@ def _several_steps(given: Any) -> bool:
     return len(given.trajectory.rewards) > 1
 
 
+def _has_later_errors(given: Any) -> bool:
+    """Whether an advantage is estimated along a run of several steps."""
+    return given.run is not None and len(given.run.trajectory.rewards) > 1
+
+
 with evaluate(False):
     _LOG_GRADIENT = score(A(t), S(t))
     _EPISODE = Counting(0, T - 1)
@@ -321,12 +326,14 @@ with evaluate(False):
         "sign-of-advantage",
         V(s) - Q(s, a),
         "A good action has a positive advantage: its own value minus the state's.",
+        when=lambda given: given.lookahead is not None,
     )
     NEXT_STATES_VALUE = misread(
         ADVANTAGE,
         "value-of-next-state",
         Q(s, a) - SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a)),
         "The action value is compared with V(s) of the state itself, not with the value of what follows.",
+        when=lambda given: given.lookahead is not None,
     )
     GAE = Formula(
         "gae",
@@ -342,13 +349,14 @@ with evaluate(False):
         "lambda-forgotten",
         SumOver(gamma**i * delta(t + i), i, Counting(0, T - t - 1)),
         "Each further TD error gets a factor γλ; with γ alone it is the Monte Carlo estimate.",
+        when=lambda given: _has_later_errors(given) and given.run.lam != 1,
     )
     GAE_WITHOUT_GAMMA = misread(
         GAE,
         "gamma-forgotten",
         SumOver(lam**i * delta(t + i), i, Counting(0, T - t - 1)),
         "Each further TD error gets a factor γλ, not λ alone.",
-        when=lambda given: given.gamma != 1,
+        when=lambda given: _has_later_errors(given) and given.gamma != 1,
     )
 
     PPO_RATIO = Formula(
