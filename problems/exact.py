@@ -9,6 +9,7 @@ from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
 _DIGITS = 40  # longer numbers are slips of the keyboard, or mischief
 _NUMBER = re.compile(rf"\s*([+-]?\d{{1,{_DIGITS}}})\s*/\s*(\d{{1,{_DIGITS}}})\s*")
+_LOGARITHM = re.compile(r"\s*ln\s*\(?\s*(\d{1,3}|[^\W\d_]+)\s*\)?\s*")
 _MINUS = str.maketrans({"−": "-", "–": "-"})
 
 
@@ -45,6 +46,23 @@ PARAMETERS = {
 }
 
 Scalar = Fraction | Parameter
+
+
+class Logarithm(str):
+    """The natural logarithm of a whole number or of a parameter left open: ``ln 2``, ``ln x``.
+
+    As the weight of a softmax policy it makes e^h a number without e.
+    """
+
+    __slots__ = ()
+
+    @property
+    def of(self) -> Scalar:
+        """What it is the logarithm of."""
+        return read_scalar(self.removeprefix("ln "))
+
+
+Weight = Scalar | Logarithm
 
 
 def read_fraction(value: object) -> Fraction:
@@ -89,13 +107,25 @@ def read_scalar(value: object) -> Scalar:
     return read_fraction(value)
 
 
-def write(value: Scalar) -> str:
+def read_weight(value: object) -> Weight:
+    """Read an exact number, a parameter left open, or the logarithm of a whole number or parameter: ``ln 2``."""
+    if isinstance(value, str) and (found := _LOGARITHM.fullmatch(value)):
+        of = read_scalar(found[1])
+        if isinstance(of, Fraction) and of < 2:
+            raise ValueError(f"{value.strip()!r} must be the logarithm of a whole number above 1")
+        return Logarithm(f"ln {of}")
+    return read_scalar(value)
+
+
+def write(value: Weight) -> str:
     """Write an exact number as problem files have it: ``3``, ``-1/2``, ``gamma``."""
     return str(value)
 
 
-def shown(value: Scalar | int) -> str:
+def shown(value: Weight | int) -> str:
     """Write an exact number as mathematics, for use between ``$`` signs."""
+    if isinstance(value, Logarithm):
+        return f"ln {shown(value.of)}"
     if isinstance(value, Parameter):
         return ("1 − " if value.complement else "") + PARAMETERS[value.symbol]
     return str(value).replace("-", "−")
@@ -136,5 +166,12 @@ Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialis
 OpenProbability = Annotated[Fraction | Parameter, _field(read_scalar, _probability), _serialised, _schema]
 #: A discount γ, 0 to 1, or left open.
 Discount = OpenProbability
+#: A weight of a policy, whose exponential may be a whole number: ``ln 2``.
+WeightField = Annotated[
+    Fraction | Parameter | Logarithm,
+    _field(read_weight),
+    _serialised,
+    WithJsonSchema({"type": ["string", "number"], "description": "an exact number, or the logarithm of one: 'ln 2'"}),
+]
 #: A step size α, above 0 and at most 1, or left open.
 StepSize = Annotated[Fraction | Parameter, _field(read_scalar, _rate), _serialised, _schema]

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part
 
@@ -30,6 +30,8 @@ class Givens(BaseModel):
 def _parameters(value: object) -> Iterator[str]:
     if isinstance(value, Parameter):
         yield value.symbol
+    elif isinstance(value, Logarithm):
+        yield from _parameters(value.of)
     elif isinstance(value, BaseModel):
         for field in type(value).model_fields:
             yield from _parameters(getattr(value, field))

@@ -1,7 +1,8 @@
 """Mathematics as data: what formulas, steps and questions are made of before they are typeset.
 
 Questions write it between ``$`` signs in the sheet's own notation: ``$V(s_{t+1}) = 3/4$``. Greek letters
-stand for themselves, ``_`` and ``^`` make scripts, a word of several letters or in quotes is set upright,
+stand for themselves, a combining hat makes an accent (``V̂``), ``_`` and ``^`` make scripts, a word of several letters
+or in quotes is set upright,
 ``3/4`` is a fraction, ``⊤`` the mark of a transpose. Formulas arrive here from sympy expressions.
 """
 
@@ -155,7 +156,7 @@ def number(value: object) -> Math:
 
 
 _TOKEN = re.compile(
-    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[₀-₉'′]*)
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+\u0302?[₀-₉'′]*)
     |(?P<space>\s+)|(?P<other>.)""",
     re.VERBOSE,
 )
@@ -218,6 +219,8 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         return name(token[1:-1]), at + 1
     if match.lastgroup == "number":
         return number(token), at + 1
+    if match.lastgroup == "letters" and token.endswith("\u0302"):
+        return Accent(name(token[:-1]), "hat"), at + 1
     if match.lastgroup == "letters":
         return name(token.replace("'", "′")), at + 1
     if token == "⊤":

@@ -6,7 +6,7 @@ import sympy
 from sympy import Expr
 
 from rldrill.solutions.exact import parameters
-from rldrill.solutions.formula.notation import Label, MatrixLeaf, MaxOf
+from rldrill.solutions.formula.notation import Clipped, Greatest, Label, Least, MatrixLeaf, MaxOf
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Result, Step
 
@@ -49,7 +49,7 @@ def _seconds(expression: Expr) -> Fraction:
             digits += _digits(node)
         elif node.is_Symbol and not isinstance(node, Label):
             digits += LETTER
-        elif node.is_Add or node.is_Mul or isinstance(node, MaxOf):
+        elif node.is_Add or node.is_Mul or isinstance(node, MaxOf | Greatest | Least | Clipped):
             operations += len(node.args) - 1
         elif node.is_Function or node.is_Pow:
             operations += 1

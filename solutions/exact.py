@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import sympy
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.solutions.rational import RationalFunction
 
 #: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
@@ -29,8 +29,19 @@ def generator(parameter: str) -> RationalFunction:
     return RationalFunction(parameter, fmpq_poly([0, 1]), fmpq_poly([1]))
 
 
-def exact(number: Scalar | int) -> Value:
+def monomial(expression: sympy.Expr) -> Value:
+    """A rational multiple of a power of one open parameter as a rational function; anything else stays as it is."""
+    factor, power = expression.as_coeff_Mul()
+    base, exponent = power.as_base_exp()
+    if factor.is_Rational and base.is_Symbol and exponent.is_Integer:
+        return simplest(factor) * generator(base.name) ** int(exponent)
+    return expression
+
+
+def exact(number: Weight | int) -> Value:
     """A given's number as a value to compute with."""
+    if isinstance(number, Logarithm):
+        return sympy.log(to_sympy(exact(number.of)))
     if isinstance(number, Parameter):
         open_ = generator(number.symbol)
         return 1 - open_ if number.complement else open_
@@ -51,6 +62,11 @@ def ordered(expression: sympy.Expr) -> sympy.Expr:
     if not expression.is_Add:
         return expression
     return sympy.Add(*sorted(expression.args, key=_rank), evaluate=False)
+
+
+def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
+    """A computed sum of quotients in powers of e as one quotient: 2/(2 + e), not 1 − e/(2 + e)."""
+    return sympy.together(expression) if expression.is_Add and expression.has(sympy.exp, sympy.E) else expression
 
 
 def _rank(term: sympy.Expr) -> tuple[int, object]:

@@ -4,6 +4,7 @@ Every family's ``oracle`` gets its answers by other means than its ``solve``: it
 tries everything. Open parameters are replaced by ``OPEN``; exact answers are evaluated there too.
 """
 
+import math
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, TypeAlias
@@ -11,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.problems.models import Dynamics, ModelAndPolicy, Policy
 
 #: Answers in floating point by part; tables and vectors in the order of the part's keys, policies by state.
@@ -22,8 +23,10 @@ Array: TypeAlias = NDArray[np.float64]
 OPEN = Fraction(7, 19)
 
 
-def at(number: Scalar | int) -> float:
+def at(number: Weight | int) -> float:
     """A given number as a float; an open parameter takes the value ``OPEN``."""
+    if isinstance(number, Logarithm):
+        return math.log(at(number.of))
     if isinstance(number, Parameter):
         return float(1 - OPEN if number.complement else OPEN)
     return float(number)

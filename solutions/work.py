@@ -15,8 +15,9 @@ from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.linear import Affine, solve_linear
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
-from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value
+from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value, vector
 from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.vector import Vector
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,8 @@ def shown_value(value: Any) -> Math:
     """A value of any kind as mathematics: a number, a matrix, the actions that are best."""
     if isinstance(value, tuple):
         return listed(name(str(item)) for item in value)
+    if isinstance(value, Vector):
+        return vector(value)
     if is_matrix(value):
         return typeset_value(value[0, 0]) if value.nrows() == value.ncols() == 1 else grid(value.tolist())
     return typeset_value(value)
@@ -147,6 +150,10 @@ class Work:
         sign = sign or (formula.sign if into is None else "=")
         self.lines.append(Step(formula, right, known, value, left, sign, own))
         return value
+
+    def value(self, formula: Formula, **known: Any) -> Value:
+        """What a formula, as it is read here, gives for known quantities, without a step in the working."""
+        return evaluate(self.reading(formula), known)
 
     def system(
         self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any

@@ -4,10 +4,11 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.features import FeatureVector, check_features, features_table, weights
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part
 from rldrill.problems.parts import Table as TableKind
@@ -22,13 +23,11 @@ class Given(Givens):
     """The weights θ, and in one state the features of every action."""
 
     theta: tuple[Exact, ...] = Field(min_length=1, max_length=20)
-    features: dict[Name, tuple[Exact, ...]] = Field(min_length=2)
+    features: dict[Name, FeatureVector] = Field(min_length=2)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        for action, features in self.features.items():
-            if len(features) != len(self.theta):
-                raise ValueError(f"features: {action!r} has {len(features)} features, but theta {len(self.theta)}")
+        check_features(self.features, len(self.theta))
         return self
 
 
@@ -47,15 +46,10 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """Weights and features; first the preferences, then the probabilities."""
     actions = tuple(given.features)
-    weights = ", ".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(given.theta, 1))
-    columns = tuple(f"$f_{{{index}}}(s, a)$" for index in range(1, len(given.theta) + 1))
     blocks = (
         Paragraph("In state $s$ the actions have these features:"),
-        Table(
-            header=("$a$", *columns),
-            rows=tuple((action, *(f"${shown(value)}$" for value in row)) for action, row in given.features.items()),
-        ),
-        Paragraph(f"The weights are ${weights}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."),
+        features_table(given.features),
+        Paragraph(f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."),
     )
     return Question(
         blocks,

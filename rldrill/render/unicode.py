@@ -47,7 +47,7 @@ def unicode(math: Math) -> str:
         case Big(sign, below, above):
             return f"{sign}{scripts(below, above)} "
         case Root(body):
-            return f"√{_grouped(body)}"
+            return f"√({unicode(body)})" if isinstance(body, Script) else f"√{_grouped(body)}"
         case Accent(body, mark):
             return unicode(body) + _MARKS[mark]
         case Grid(rows, left, right):

@@ -29,7 +29,7 @@ from rldrill.solutions.answers.text import (
     read_words,
     read_yes_no,
 )
-from rldrill.solutions.exact import Value, decimal, to_sympy
+from rldrill.solutions.exact import Value, decimal, in_one_quotient, to_sympy
 from rldrill.solutions.formula.typesetting import grid, typeset_value
 from rldrill.solutions.matrices import is_matrix, matrix
 
@@ -106,7 +106,7 @@ class Answer(ABC, Generic[KindT]):
 
 def text_of(value: Value) -> str:
     """An exact number as it is typed and stored: ``7/2``, ``exp(-1/8)``, ``gamma/(1 - gamma)``."""
-    return str(to_sympy(value)).replace("**", "^")
+    return str(in_one_quotient(to_sympy(value))).replace("**", "^")
 
 
 def _spoilt(content: Any) -> Any:

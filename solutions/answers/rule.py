@@ -20,13 +20,18 @@ def tolerance(value: Value) -> fmpq:
     """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
     if is_zero(value):
         return _AT_ZERO
-    size = -value if sign(value) < 0 else value  # sympy's own abs simplifies, which takes milliseconds
+    size = _size(value)
     exponent = magnitude(value)  # a guess, by one perhaps; the comparisons decide, exactly
     while sign(size - fmpq(10) ** (exponent + 1)) >= 0:
         exponent += 1
     while sign(size - fmpq(10) ** exponent) < 0:
         exponent -= 1
     return fmpq(10) ** (exponent - DIGITS + 1) / 2
+
+
+def _size(value: Value) -> Value:
+    """The absolute value of a number; sympy's own would search for its sign symbolically."""
+    return value if sign(value) >= 0 else -value
 
 
 def within(value: Value, key: Value, bound: fmpq) -> bool:
@@ -55,7 +60,7 @@ def is_close(value: Value, key: Value) -> bool:
     """Whether a value is within 2 % of the key."""
     if parameters(key) or parameters(value) or is_zero(key):
         return False
-    return within(value, key, abs(key) * _CLOSE)
+    return within(value, key, _size(key) * _CLOSE)
 
 
 def apart(key: Value, other: Value) -> bool:

@@ -11,7 +11,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, sign, simplest
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, monomial, sign, simplest
 from rldrill.solutions.formula.notation import Counting, Over, Quantity
 from rldrill.solutions.matrices import is_matrix, stacked
 
@@ -88,6 +88,22 @@ class _Code(StrPrinter):
         keys = self._print(expression.domain)
         return f"arg_max({keys}, {self._over(expression)})"
 
+    def _listed(self, expression: Any) -> str:
+        return f"[{', '.join(map(self._print, expression.args))}]"
+
+    def _print_Greatest(self, expression: Any) -> str:
+        return f"largest({self._listed(expression)})"
+
+    def _print_Least(self, expression: Any) -> str:
+        return f"least({self._listed(expression)})"
+
+    def _print_Clipped(self, expression: Any) -> str:
+        value, low, high = map(self._print, expression.args)
+        return f"largest([{low}, least([{value}, {high}])])"
+
+    def _print_Expected(self, expression: Any) -> str:
+        return self._print(expression.args[0])
+
     def _print_Counting(self, expression: Counting) -> str:
         first, last, _ = expression.args
         return f"range({self._print(first)}, {self._print(last)} + 1)"
@@ -134,12 +150,17 @@ def _inverse(value: Value) -> Value:
         raise NoSolution("it would divide by zero, or invert a singular matrix") from None
 
 
+def _least(values: Sequence[Value]) -> Value:
+    return -largest([-value for value in values])
+
+
 def _root(value: Value) -> Value:
     return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
 
 
 def _exp(value: Value) -> Value:
-    return sympy.exp(sympy.sympify(value, strict=True))
+    power = simplest(sympy.exp(sympy.sympify(value, strict=True)))
+    return monomial(power) if isinstance(power, sympy.Expr) else power  # e^(ln x) is x
 
 
 def _log(value: Value) -> Value:
@@ -177,6 +198,7 @@ _NAMES = {
     "len": len,
     "mean": _mean,
     "largest": largest,
+    "least": _least,
     "arg_max": arg_max,
     "inverse": _inverse,
     "exp": _exp,

@@ -218,6 +218,22 @@ class MaxOf(Expr):
     """The greatest of some values, in their order."""
 
 
+class Greatest(Expr):
+    """The greatest of a few values that a formula names one by one, written max(x, y)."""
+
+
+class Least(Expr):
+    """The least of a few values that a formula names one by one, written min(x, y)."""
+
+
+class Clipped(Expr):
+    """A value brought between a lower and an upper bound, written clip(x, low, high)."""
+
+
+class Expected(Expr):
+    """An expectation over runs of an agent; what it is worth is computed with one run in its place."""
+
+
 class MatrixLeaf(Expr):
     """A matrix of numbers, put into a formula."""
 
@@ -231,6 +247,10 @@ class MatrixLeaf(Expr):
     def scalar(self) -> bool:
         """Whether it is 1×1, and so written as a number."""
         return bool(self.args[0].shape == (1, 1))
+
+
+class VectorLeaf(MatrixLeaf):
+    """A vector of numbers, put into a formula: written on one line, (1, 0)."""
 
 
 class Negative(Expr):

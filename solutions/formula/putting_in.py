@@ -12,7 +12,11 @@ from rldrill.solutions.formula.notation import (
     ArgMaxOver,
     Blocks,
     Cases,
+    Clipped,
+    Expected,
+    Greatest,
     Indicator,
+    Least,
     MatrixLeaf,
     MaxOf,
     MaxOver,
@@ -24,9 +28,11 @@ from rldrill.solutions.formula.notation import (
     Size,
     SumOver,
     Transposed,
+    VectorLeaf,
     label,
 )
 from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.vector import Vector
 
 Known = Mapping[str, Any]
 
@@ -41,6 +47,8 @@ def put_in(expression: Expr, known: Known) -> Expr:
         return _quantity(expression, known)
     if isinstance(expression, Over):
         return _over(expression, known)
+    if isinstance(expression, Expected):
+        return put_in(expression.args[0], known)
     if isinstance(expression, Indicator | Size):
         return sympy.Integer(evaluate(expression, known))
     if isinstance(expression, Cases):
@@ -76,6 +84,8 @@ def leaf(value: Any) -> Expr:
         return label(value)
     if is_matrix(value):
         return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
+    if isinstance(value, Vector):
+        return VectorLeaf(value.matrix())
     return computed(ordered(to_sympy(value)))
 
 
@@ -154,8 +164,13 @@ def _power(base: Expr, exponent: Expr) -> Expr:
 
 def evaluated(expression: Expr) -> Expr:
     """The value of a step without unknowns, as sympy computes it."""
-    if isinstance(expression, MaxOf):
+    if isinstance(expression, MaxOf | Greatest):
         return sympy.Max(*map(evaluated, expression.args))
+    if isinstance(expression, Least):
+        return sympy.Min(*map(evaluated, expression.args))
+    if isinstance(expression, Clipped):
+        value, low, high = map(evaluated, expression.args)
+        return sympy.Max(low, sympy.Min(value, high))
     if isinstance(expression, MatrixLeaf | Negative):
         return expression.args[0]
     if not expression.args or expression.is_Symbol:
@@ -199,8 +214,8 @@ def _filled(block: Any, height: int, across: int) -> Any:
 
 def reduced(expression: Expr) -> Expr:
     """The step with its inner brackets worked out: what one writes between putting in and the result."""
-    if isinstance(expression, MaxOf):
-        return MaxOf(*[_worked_out(argument) for argument in expression.args])
+    if isinstance(expression, _PICKED):
+        return expression.func(*[_worked_out(argument) for argument in expression.args])
     if isinstance(expression, ArgMaxOver):
         return ArgMaxOver(reduced(expression.body), expression.index, expression.domain)
     if expression.is_Add:
@@ -208,7 +223,13 @@ def reduced(expression: Expr) -> Expr:
     return _inner(expression)
 
 
+#: What takes one of its arguments as it is.
+_PICKED = (MaxOf, Greatest, Least, Clipped)
+
+
 def _inner(term: Expr) -> Expr:
+    if isinstance(term, Greatest | Least | Clipped):
+        return reduced(term)
     if term.is_Mul:
         return Mul(*[_inner(factor) for factor in term.args], evaluate=False)
     if term.is_Pow and term.args[1] == -1:
@@ -219,5 +240,7 @@ def _inner(term: Expr) -> Expr:
 def _worked_out(expression: Expr) -> Expr:
     value = evaluated(expression)
     # What holds exponentials or roots does not get simpler, only reordered.
+    if expression.has(VectorLeaf):
+        return VectorLeaf(value.applyfunc(sympy.cancel))
     plain = isinstance(value, sympy.MatrixBase) or value.is_rational_function(*value.free_symbols)
     return computed(ordered(value) if value.is_Add else value) if plain else expression

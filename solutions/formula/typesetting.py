@@ -1,6 +1,6 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import sympy
@@ -25,15 +25,19 @@ from rldrill.problems.mathematics import (
     variable,
     word,
 )
-from rldrill.solutions.exact import Value, ordered, to_sympy
+from rldrill.solutions.exact import Value, in_one_quotient, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
     ArgMaxOver,
     Blocks,
     Cases,
+    Clipped,
     Counting,
+    Expected,
+    Greatest,
     Indicator,
     Label,
+    Least,
     MatrixLeaf,
     MaxOf,
     MaxOver,
@@ -46,6 +50,7 @@ from rldrill.solutions.formula.notation import (
     Size,
     SumOver,
     Transposed,
+    VectorLeaf,
 )
 
 _MINUS = operator("−")
@@ -85,10 +90,14 @@ def typeset(expression: Expr) -> Math:
 
 def typeset_value(value: Value) -> Math:
     """A computed value as mathematics: sympy's own order, since it is a result and not a formula."""
-    expression = ordered(to_sympy(value))
+    expression = ordered(in_one_quotient(to_sympy(value)))
     if expression.is_Add:
         return _sum(expression.args)
+    if isinstance(expression, sympy.exp):
+        return Script(variable("e"), above=typeset_value(expression.args[0]))
     numerator, denominator = _quotient(expression)
+    if numerator.is_Rational and denominator != 1:  # −25/(2σ²), no fraction above the line
+        numerator, denominator = sympy.Integer(numerator.p), numerator.q * denominator
     if denominator != 1 and not expression.is_Rational:
         if _negative(first_term(denominator)):  # (9 − 3p)/(1 − p), not (−9 + 3p)/(−1 + p)
             numerator, denominator = sympy.expand(-numerator), sympy.expand(-denominator)
@@ -153,6 +162,11 @@ def _product(factors: Sequence[Expr]) -> Math:
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
     if flat[0] == -1 and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
+    scalars = [factor for factor in flat if factor.is_commutative is not False]
+    if len(scalars) < len(flat) and any(map(_reciprocal, scalars)):
+        rest = [factor for factor in flat if factor.is_commutative is False]
+        dot = [_TIMES] if isinstance(rest[0], VectorLeaf) else []
+        return row(_product(scalars), *dot, _product(rest))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
         above = [factor for factor in flat if not _reciprocal(factor)]
@@ -178,13 +192,15 @@ def _numeric(factor: Expr) -> bool:
 
 def _is_grid(factor: Expr) -> bool:
     base = factor.args[0] if factor.is_Pow or isinstance(factor, Transposed) else factor
-    return isinstance(base, MatrixLeaf) and not base.scalar
+    return isinstance(base, MatrixLeaf) and not isinstance(base, VectorLeaf) and not base.scalar
 
 
 def _needs_dot(before: Expr, factor: Expr) -> bool:
     """Numbers are kept apart by a dot; letters stand side by side, as the sheet prints them."""
     if _is_grid(before) or _is_grid(factor):
         return False
+    if isinstance(before, VectorLeaf) or isinstance(factor, VectorLeaf):
+        return True
     if before.is_Rational and not before.is_Integer:
         return True  # or the letter would seem to stand below the line
     plain = bool(before.is_Symbol or isinstance(before, Quantity))
@@ -199,7 +215,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
 def _factor(factor: Expr, *, last: bool) -> Math:
     if factor.is_Add or (factor.is_Number and factor.is_negative):
         return Fence(typeset(factor))
-    if isinstance(factor, SumOver | ProductOver | MaxOver) and not last:
+    if isinstance(factor, SumOver | ProductOver | MaxOver | sympy.log) and not last:
         return Fence(typeset(factor))
     return typeset(factor)
 
@@ -210,7 +226,7 @@ def _power(base: Expr, exponent: Expr) -> Math:
     if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
         rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
         return Fraction(number(1), typeset(rest))
-    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf) or (base.is_Integer and base >= 0)
+    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
     return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
 
 
@@ -291,6 +307,11 @@ def _blocks(expression: Blocks) -> Math:
     return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 
+def vector(entries: Iterable[Value]) -> Math:
+    """A vector of values as mathematics, on one line."""
+    return Fence(listed(map(typeset_value, entries)))
+
+
 def grid(lines: Sequence[Sequence[Value]]) -> Grid:
     """A matrix of values as mathematics."""
     return Grid(tuple(tuple(typeset_value(value) for value in line) for line in lines))
@@ -308,14 +329,28 @@ def _logarithm(expression: Any) -> Math:
     return row(word("ln"), Fence(typeset(argument)))
 
 
+def _picked(expression: Expr) -> Math:
+    name_ = {Greatest: "max", Least: "min", Clipped: "clip"}[expression.func]
+    return row(word(name_), Fence(listed(typeset(_bare(argument)) for argument in expression.args)))
+
+
+def _expected(expression: Expected) -> Math:
+    return row(Script(variable("𝔼"), variable("π")), Fence(typeset(expression.args[0]), "[", "]"))
+
+
 _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
+    Greatest: _picked,
+    Least: _picked,
+    Clipped: _picked,
+    Expected: _expected,
     Indicator: _indicator,
     Member: _condition,
     Cases: _cases,
     Size: _size,
     Transposed: _transposed,
+    VectorLeaf: lambda expression: vector(expression.args[0]),
     MatrixLeaf: _matrix,
     Blocks: _blocks,
     Negative: lambda expression: Fence(typeset(expression.args[0])),

@@ -1,13 +1,12 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
-from typing import Any
-
 import numpy as np
 
 from rldrill.problems.policy_gradient.softmax_policy import Given
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import NOT_NORMALISED, PREFERENCE, SOFTMAX_POLICY, WITHOUT_EXP
+from rldrill.solutions.softmax import action_features, by_number
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
@@ -16,13 +15,8 @@ MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 def solve(given: Given, work: Work) -> None:
     """The preference of every action, then every probability."""
     actions = tuple(given.features)
-    theta = {index: exact(weight) for index, weight in enumerate(given.theta, 1)}
-    f = {
-        (index, "s", action): exact(value)
-        for action, row in given.features.items()
-        for index, value in enumerate(row, 1)
-    }
-    known: dict[str, Any] = {"s": "s", "theta": theta, "f": f, "features": tuple(theta), "choices": actions}
+    known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
+    known |= {"s": "s", "choices": actions}
     preferences = work.answer("a", {action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
     work.answer("b", {action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})

@@ -18,6 +18,7 @@ SECTIONS = {
     "linear_methods": "Linear methods",
     "backup_diagrams": "Backup diagrams",
     "bayes": "Bayesian methods",
+    "function_approximation": "Function approximation",
 }
 
 

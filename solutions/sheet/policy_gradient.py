@@ -1,33 +1,191 @@
-"""Section 6 of the sheet: policy gradient methods."""
+"""Section 6 of the sheet: policy gradient methods.
+
+Weights, features and gradients are vectors; weights and features are also known by their entries.
+"""
+
+from typing import Any
 
 from sympy import evaluate, exp
 
-from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable
+from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, misread
 from rldrill.solutions.formula.notation import (
+    DOTS,
+    A,
+    Actions,
+    ArgMaxOver,
     Choices,
+    Clipped,
+    Counting,
+    Expected,
     Features,
+    Least,
+    MeanOver,
+    P,
+    Q,
+    S,
+    Successors,
     SumOver,
+    T,
+    V,
     a,
+    alpha,
     b,
     called,
+    epsilon,
+    gamma,
     i,
+    lam,
+    letter,
+    n,
     pi,
     quantity,
+    r,
     s,
+    s1,
     subscripted,
+    t,
 )
+from rldrill.solutions.ratios import keeps_the_worse
+
+_NABLA = Script(Glyph("∇", "variable"), variable("θ"))
 
 
 def _feature(index: Math, *arguments: Math) -> Math:
     return row(Script(variable("f"), index), Fence(listed(arguments)))
 
 
+def _score(action: Math, state: Math) -> Math:
+    chance = row(variable("π"), Fence(row(action, punctuation("|"), state)))
+    return row(_NABLA, word("log"), chance)
+
+
 theta = quantity("theta", subscripted("θ"))
 f = quantity("f", _feature)
 H = quantity("H", called("h"))
+Qhat = quantity("Qhat", called(Accent(variable("Q"), "hat")))
+#: The same weights and features as vectors; f(s, a) has one entry for every weight.
+theta_vector = letter("theta_vector", "θ", matrix=True)
+f_vector = quantity("f_vector", called("f"), matrix=True)
+ones = letter("ones", "1", matrix=True)
+score = quantity("score", _score, matrix=True)
+gradient = letter("gradient", row(_NABLA, variable("J"), Fence(variable("θ"))), matrix=True)
+G_t = quantity("G", subscripted("G"))
+beta = letter("beta", "β")
+delta = quantity("delta", subscripted("δ"))
+Adv = quantity("Adv", called("A"))
+b_of = quantity("baseline", called("b"))
+A_t = quantity("A_t", subscripted("A"))
+GAE_t = quantity("GAE_t", subscripted(Accent(variable("A"), "hat")))
+rho = quantity("rho", subscripted("ρ"))
+new_chance = quantity("new_chance", lambda action, state: _chance("θ", action, state))
+old_chance = quantity("old_chance", lambda action, state: _chance("old", action, state))
+unclipped = quantity("unclipped", subscripted("u"))
+clipped = quantity("clipped", subscripted("c"))
+L_t = quantity("L_t", subscripted("L"))
+L = letter("L")
+Samples = letter("samples", "B")
+
+
+def _chance(which: str, action: Math, state: Math) -> Math:
+    mark = variable(which) if which == "θ" else word(which)
+    return row(Script(variable("π"), mark), Fence(row(action, punctuation("|"), state)))
+
+
+def _several_steps(given: Any) -> bool:
+    """Whether there is more than one step, so that one can be taken for another."""
+    return len(given.trajectory.rewards) > 1
+
+
+def _has_later_errors(given: Any) -> bool:
+    """Whether an advantage is estimated along a run of several steps."""
+    return given.run is not None and len(given.run.trajectory.rewards) > 1
+
 
 with evaluate(False):
+    _LOG_GRADIENT = score(A(t), S(t))
+    _EPISODE = Counting(0, T - 1)
+
+    REINFORCE = Formula(
+        "reinforce",
+        gradient,
+        Expected(SumOver(_LOG_GRADIENT * G_t(t), t, _EPISODE)),
+        title="REINFORCE",
+        source="Williams 1992; Sutton & Barto 2018, section 13.3",
+        hint="The score of every action taken, weighted with the return from its own step on, summed over the episode.",
+        note="$G_t$ is the discounted return from step $t$ on. Sutton & Barto's boxed algorithm has a further "
+        "factor $γ^t$, which is left out here, as it mostly is.",
+    )
+    REINFORCE_ESTIMATE = Formula(
+        "reinforce-estimate",
+        gradient,
+        SumOver(_LOG_GRADIENT * G_t(t), t, _EPISODE),
+        title="REINFORCE, from one episode",
+        source="Sutton & Barto 2018, eq. 13.8",
+        hint="Multiply the score of each step with the return from that step on, and add.",
+        sign="≈",
+    )
+    FIRST_RETURN_EVERYWHERE = misread(
+        REINFORCE_ESTIMATE,
+        "first-return-everywhere",
+        SumOver(_LOG_GRADIENT * G_t(0), t, _EPISODE),
+        "Each score is weighted with the return from its own step on; rewards before it say nothing about the action.",
+        when=_several_steps,
+    )
+    LOG_FORGOTTEN = misread(
+        REINFORCE_ESTIMATE,
+        "log-forgotten",
+        SumOver(pi(A(t), S(t)) * _LOG_GRADIENT * G_t(t), t, _EPISODE),
+        "It is the gradient of log π that is weighted, not that of π itself: ∇ log π = ∇π/π.",
+    )
+    REWARD_FOR_RETURN = misread(
+        REINFORCE_ESTIMATE,
+        "reward-for-return",
+        SumOver(_LOG_GRADIENT * r(t + 1), t, _EPISODE),
+        "The score is weighted with the whole discounted return from its step on, not with the next reward alone.",
+        when=_several_steps,
+    )
+    GRADIENT_ASCENT = Formula(
+        "gradient-ascent",
+        theta_vector,
+        theta_vector + alpha * gradient,
+        title="Gradient ascent",
+        source="Sutton & Barto 2018, eq. 13.1",
+        hint="The return is to grow, so take a step α along the gradient.",
+        sign="←",
+    )
+    DESCENT = misread(
+        GRADIENT_ASCENT,
+        "descent",
+        theta_vector - alpha * gradient,
+        "The expected return is maximised: the step goes up the gradient, with a plus sign.",
+    )
+
+    LINEAR_ACTION_VALUE = Formula(
+        "linear-action-value",
+        Qhat(s, a),
+        SumOver(theta(i) * f(i, s, a), i, Features),
+        title="Value of an action, linear in features",
+        source="Sutton & Barto 2018, eq. 10.3",
+        hint="Multiply each weight with the action's own feature, and add.",
+        also=(theta(1) * f(1, s, a) + DOTS + theta(n) * f(n, s, a),),
+    )
+    WEIGHTS_FORGOTTEN = misread(
+        LINEAR_ACTION_VALUE,
+        "weights-forgotten",
+        SumOver(f(i, s, a), i, Features),
+        "Each feature counts with its own weight θᵢ.",
+    )
+    LINEAR_POLICY = Formula(
+        "linear-policy",
+        pi(s),
+        ArgMaxOver(Qhat(s, a), a, Actions(s)),
+        title="Greedy policy, linear in features",
+        source="Sutton & Barto 2018, section 10.1",
+        hint="Take the action whose weighted sum of features is the greatest.",
+        also=(ArgMaxOver(theta(1) * f(1, s, a) + DOTS + theta(n) * f(n, s, a), a, Actions(s)),),
+    )
+
     PREFERENCE = Formula(
         "action-preference",
         H(s, a),
@@ -55,4 +213,203 @@ with evaluate(False):
         "normalised-without-exp",
         H(s, a) / SumOver(H(s, b), b, Choices),
         "The preferences are exponentiated before they are normalised.",
+    )
+
+    SCORE_FUNCTION = Formula(
+        "score-function",
+        score(a, s),
+        f_vector(s, a) - SumOver(pi(b, s) * f_vector(s, b), b, Choices),
+        title="Score function of the softmax policy",
+        source="Sutton & Barto 2018, eq. 13.9",
+        hint="The action's own features minus the features expected under the policy.",
+        note="For preferences that are linear in features, $h(s, a) = θ^⊤ f(s, a)$. Not on the sheet.",
+    )
+    FEATURES_ALONE = misread(
+        SCORE_FUNCTION,
+        "features-alone",
+        f_vector(s, a),
+        "The features expected under the policy are subtracted: they come from the softmax's denominator.",
+    )
+    EXPECTED_ADDED = misread(
+        SCORE_FUNCTION,
+        "expected-features-added",
+        f_vector(s, a) + SumOver(pi(b, s) * f_vector(s, b), b, Choices),
+        "The expected features are subtracted: the denominator of the softmax enters log π with a minus sign.",
+    )
+
+    TD_ERROR = Formula(
+        "td-error",
+        delta(t),
+        r(t + 1) + gamma * V(S(t + 1)) - V(S(t)),
+        title="TD error",
+        source="Sutton & Barto 2018, eq. 6.5",
+        hint="Reward plus the discounted value of the next state, minus the value of the state that is left.",
+    )
+    NEXT_VALUE_FORGOTTEN = misread(
+        TD_ERROR,
+        "next-value-forgotten",
+        r(t + 1) - V(S(t)),
+        "The critic's target is the reward plus γ times the value of the next state.",
+        when=lambda given: any(state not in given.trajectory.terminal for state in given.trajectory.states[1:]),
+    )
+    CRITIC = Formula(
+        "critic",
+        V(S(t)),
+        V(S(t)) + alpha * delta(t),
+        title="The critic's step",
+        source="Sutton & Barto 2018, section 13.5",
+        hint="The critic learns by TD(0): its value moves by α times the TD error.",
+        sign="←",
+    )
+    ACTOR_CRITIC = Formula(
+        "actor-critic",
+        theta_vector,
+        theta_vector + beta * delta(t) * _LOG_GRADIENT,
+        title="Actor-critic: the actor's step",
+        source="Sutton & Barto 2018, eq. 13.14",
+        hint="The actor follows the score of the action taken, weighted with the critic's TD error.",
+        sign="←",
+        note="The critic learns by TD, $V(s_t) ← V(s_t) + αδ_t$; the TD error stands for the advantage.",
+    )
+    WEIGHTED_BY_REWARD = misread(
+        ACTOR_CRITIC,
+        "actor-weighted-by-reward",
+        theta_vector + beta * r(t + 1) * _LOG_GRADIENT,
+        "The actor's step is weighted with the critic's TD error, not with the reward.",
+    )
+    BASELINE = Formula(
+        "baseline",
+        delta(t),
+        G_t(t) - b_of(S(t)),
+        title="Return relative to a baseline",
+        source="Sutton & Barto 2018, section 13.4",
+        hint="What counts is how much better the return was than the state's baseline.",
+    )
+    BASELINE_ADDED = misread(
+        BASELINE,
+        "baseline-added",
+        G_t(t) + b_of(S(t)),
+        "The baseline is subtracted from the return: what counts is how much better it was than usual.",
+    )
+    BASELINE_FORGOTTEN = misread(
+        BASELINE,
+        "baseline-forgotten",
+        G_t(t),
+        "The return is taken relative to the baseline: Gₜ − b(sₜ).",
+    )
+    REINFORCE_BASELINE = Formula(
+        "reinforce-baseline",
+        gradient,
+        SumOver(_LOG_GRADIENT * delta(t), t, _EPISODE),
+        title="REINFORCE with a baseline, from one episode",
+        source="Sutton & Barto 2018, eq. 13.11",
+        hint="Multiply the score of each step with what its return exceeds the baseline by, and add.",
+        sign="≈",
+        also=(SumOver(_LOG_GRADIENT * (G_t(t) - b_of(S(t))), t, _EPISODE),),
+    )
+    BASELINE_ON_THE_POLICY = misread(
+        REINFORCE_BASELINE,
+        "baseline-on-the-policy",
+        SumOver((_LOG_GRADIENT - b_of(S(t)) * ones) * G_t(t), t, _EPISODE),
+        "The baseline is subtracted from the return Gₜ, not from the gradient of log π.",
+    )
+    ADVANTAGE = Formula(
+        "advantage",
+        Adv(s, a),
+        Q(s, a) - V(s),
+        title="Advantage",
+        source="Sutton & Barto 2018, section 13.4; Schulman et al. 2016, section 2",
+        hint="How much better the action is than what the policy does on average in this state.",
+    )
+    ADVANTAGE_SIGN = misread(
+        ADVANTAGE,
+        "sign-of-advantage",
+        V(s) - Q(s, a),
+        "A good action has a positive advantage: its own value minus the state's.",
+        when=lambda given: given.lookahead is not None,
+    )
+    NEXT_STATES_VALUE = misread(
+        ADVANTAGE,
+        "value-of-next-state",
+        Q(s, a) - SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a)),
+        "The action value is compared with V(s) of the state itself, not with the value of what follows.",
+        when=lambda given: given.lookahead is not None,
+    )
+    GAE = Formula(
+        "gae",
+        GAE_t(t),
+        SumOver((gamma * lam) ** i * delta(t + i), i, Counting(0, T - t - 1)),
+        title="Generalised advantage estimate",
+        source="Schulman et al. 2016, eq. 16",
+        hint="Add the TD errors from this step on, each with a further factor γλ.",
+        note="Not on the sheet. λ = 0 gives the TD error, λ = 1 the return minus V(sₜ).",
+    )
+    GAE_WITHOUT_LAMBDA = misread(
+        GAE,
+        "lambda-forgotten",
+        SumOver(gamma**i * delta(t + i), i, Counting(0, T - t - 1)),
+        "Each further TD error gets a factor γλ; with γ alone it is the Monte Carlo estimate.",
+        when=lambda given: _has_later_errors(given) and given.run.lam != 1,
+    )
+    GAE_WITHOUT_GAMMA = misread(
+        GAE,
+        "gamma-forgotten",
+        SumOver(lam**i * delta(t + i), i, Counting(0, T - t - 1)),
+        "Each further TD error gets a factor γλ, not λ alone.",
+        when=lambda given: _has_later_errors(given) and given.gamma != 1,
+    )
+
+    PPO_RATIO = Formula(
+        "ppo-ratio",
+        rho(t),
+        new_chance(A(t), S(t)) / old_chance(A(t), S(t)),
+        title="Probability ratio",
+        source="Schulman et al. 2017, section 3",
+        hint="How much more likely the new policy makes the action than the policy that took it.",
+    )
+    RATIO_INVERTED = misread(
+        PPO_RATIO,
+        "ratio-inverted",
+        old_chance(A(t), S(t)) / new_chance(A(t), S(t)),
+        "The new policy stands above, the old one, which collected the data, below.",
+    )
+    PPO_UNCLIPPED = Formula(
+        "ppo-unclipped",
+        unclipped(t),
+        rho(t) * A_t(t),
+        title="The unclipped term",
+        source="Schulman et al. 2017, eq. 6",
+        hint="The ratio times the advantage.",
+    )
+    PPO_CLIPPED = Formula(
+        "ppo-clipped",
+        clipped(t),
+        Clipped(rho(t), 1 - epsilon, 1 + epsilon) * A_t(t),
+        title="The clipped term",
+        source="Schulman et al. 2017, eq. 7",
+        hint="Bring the ratio between 1 − ε and 1 + ε, then multiply with the advantage.",
+    )
+    PPO = Formula(
+        "ppo",
+        L_t(t),
+        Least(unclipped(t), clipped(t)),
+        title="PPO: the clipped objective",
+        source="Schulman et al. 2017, eq. 7",
+        hint="The smaller of the two terms: the objective never looks better than without clipping.",
+        also=(Least(rho(t) * A_t(t), Clipped(rho(t), 1 - epsilon, 1 + epsilon) * A_t(t)),),
+    )
+    CLIP_WITHOUT_MIN = misread(
+        PPO,
+        "clip-without-min",
+        clipped(t),
+        "The objective is the smaller of the unclipped and the clipped term, not always the clipped one.",
+        when=lambda given: any(keeps_the_worse(sample, given) for sample in given.samples),
+    )
+    PPO_BATCH = Formula(
+        "ppo-batch",
+        L,
+        MeanOver(L_t(t), t, Samples),
+        title="PPO: the objective of a batch",
+        source="Schulman et al. 2017, eq. 7",
+        hint="Average the objective over the samples.",
     )

@@ -16,6 +16,7 @@ from rldrill.solutions.formula.notation import ArgMaxOver
 from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.solution import solver
+from rldrill.solutions.vector import Vector
 
 STATES = ("cool", "warm", "hot")
 ACTIONS = ("slow", "fast")
@@ -48,6 +49,9 @@ def known(data: st.DataObject) -> dict[str, Any]:
         value = data.draw(fractions)
         return fmpq(value.numerator, value.denominator)
 
+    def vector(_: Any = None) -> Vector:
+        return Vector([number(), number()])
+
     def matrix(_: Any) -> fmpq_mat:
         return fmpq_mat(2, 2, [number() for _ in range(4)])
 
@@ -63,11 +67,14 @@ def known(data: st.DataObject) -> dict[str, Any]:
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
     fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
+    vectors = ("theta_vector", "gradient", "ones")
+    fixed |= {"samples": (0, 1, 2), "dimensions": (1, 2), **{code: vector() for code in vectors}}
+    fixed |= {code: Anything(vector) for code in ("f_vector", "phi_vector", "score")}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 
 def _number_or_quantity(code: str, number: Any) -> Any:
-    letters = ("alpha", "gamma", "lam", "epsilon", "c")
+    letters = ("alpha", "gamma", "lam", "epsilon", "beta", "sigma", "width", "c")
     return number() if code in letters else Anything(number)
 
 
@@ -100,6 +107,9 @@ def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObj
 
 
 def assert_same(value: Any, written_out: Any) -> None:
+    if isinstance(value, Vector):  # where all is zero, nothing of it is written out
+        assert value.matrix() == (written_out or sympy.zeros(2, 1))
+        return
     if isinstance(value, fmpq_mat):
         assert sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out
     else:

@@ -15,6 +15,7 @@ from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import to_sympy
 from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Step
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)
@@ -42,6 +43,9 @@ def test_every_step_is_worth_what_it_says(name: str) -> None:
 
 
 def same(value: Any, written_out: Any) -> bool:
+    if isinstance(value, Vector):
+        written_out = written_out or sympy.zeros(len(value.entries), 1)
+        return bool(sympy.simplify(value.matrix() - written_out).is_zero_matrix)
     if isinstance(value, fmpq_mat):
         return bool(sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out)
     return bool(sympy.simplify(to_sympy(value) - written_out) == 0)

@@ -1,0 +1,68 @@
+"""Features of states and actions and the weights that go with them, as problems give them."""
+
+from collections.abc import Mapping, Sequence
+
+from rldrill.problems.document import Table
+from rldrill.problems.exact import Exact, Weight, shown
+from rldrill.problems.models import Name
+
+FeatureVector = tuple[Exact, ...]
+#: The features of every action in some states.
+ActionFeatures = dict[Name, dict[Name, FeatureVector]]
+
+
+def check_features(features: Mapping[str, Sequence[object]], size: int) -> None:
+    """Demand as many features of everything as there are weights.
+
+    Raises:
+        ValueError: there are more or fewer somewhere.
+    """
+    for name, row in features.items():
+        if len(row) != size:
+            raise ValueError(f"features: {name!r} has {len(row)} features, but theta {size}")
+
+
+def check_action_features(features: ActionFeatures, size: int) -> None:
+    """Demand actions in every state, and as many features of each as there are weights.
+
+    Raises:
+        ValueError: a state has no action, or there are more or fewer features somewhere.
+    """
+    for state, row in features.items():
+        if not row:
+            raise ValueError(f"features: {state!r} has no action")
+        check_features(row, size)
+
+
+def features_table(features: Mapping[str, FeatureVector], what: str = "a", of: str = "f", about: str = "s, a") -> Table:
+    """One line of features for every action of a state, or for every state."""
+    size = len(next(iter(features.values())))
+    columns = tuple(f"${of}_{{{index}}}({about})$" for index in range(1, size + 1))
+    return Table(
+        header=(f"${what}$", *columns),
+        rows=tuple((name, *(f"${shown(value)}$" for value in row)) for name, row in features.items()),
+    )
+
+
+def action_features_table(features: ActionFeatures) -> Table:
+    """One line of features for every state and action."""
+    size = len(next(iter(next(iter(features.values())).values())))
+    columns = tuple(f"$f_{{{index}}}(s, a)$" for index in range(1, size + 1))
+    return Table(
+        header=("$s$", "$a$", *columns),
+        rows=tuple(
+            (state, action, *(f"${shown(value)}$" for value in row))
+            for state, actions in features.items()
+            for action, row in actions.items()
+        ),
+    )
+
+
+def weights(theta: Sequence[Weight]) -> str:
+    """All weights by their numbers, as mathematics."""
+    return ", ".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(theta, 1))
+
+
+def weight_names(theta: Sequence[object]) -> tuple[str, ...]:
+    """What the entries of a vector of weights are called."""
+    return tuple(f"θ_{{{index}}}" for index in range(1, len(theta) + 1))

@@ -1,0 +1,119 @@
+"""Semi-gradient TD(0) or Sarsa: the weights of a linear value after one or more transitions."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph, joined
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Exact, Parameter, StepSize
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.parts import Part, Vector
+from rldrill.problems.phrases import discount, in_open, step_size
+from rldrill.problems.runs import Trajectory, trajectory_table
+from rldrill.problems.settings import draw_setting
+
+TITLE = "Semi-gradient TD"
+SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
+REVISION = 1
+
+
+class Given(Givens):
+    """A run, the features of its states, the weights, α and γ.
+
+    With ``actions`` named, their weights are stacked in this order and Sarsa is asked for; without, TD(0).
+    """
+
+    trajectory: Trajectory
+    features: dict[Name, FeatureVector]
+    theta: tuple[Exact, ...] = Field(min_length=1, max_length=40)
+    actions: tuple[Name, ...] = ()
+    alpha: StepSize
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        run = self.trajectory
+        states = tuple(dict.fromkeys(run.states))
+        needed = tuple(state for state in states if state not in run.terminal)
+        check_keys(self.features, needed, "the row of features", needed=needed)
+        blocks = max(1, len(self.actions))
+        if len(self.theta) % blocks:
+            raise ValueError(f"theta: {len(self.theta)} weights cannot be shared among {blocks} actions")
+        check_features(self.features, len(self.theta) // blocks)
+        if self.actions:
+            self._check_actions()
+        return self
+
+    def _check_actions(self) -> None:
+        run = self.trajectory
+        if len(set(self.actions)) < len(self.actions):
+            raise ValueError("actions: one is named twice")
+        ended = run.states[-1] in run.terminal
+        if len(run.actions) != len(run.states) - ended:
+            raise ValueError("trajectory: Sarsa needs the action taken in every state, the last one too unless it is terminal")
+        for action in run.actions:
+            if action not in self.actions:
+                raise ValueError(f"trajectory: {action!r} is taken but has no block of weights")
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One step of TD(0); then two of them; then two of Sarsa, the step size left open."""
+    setting = draw_setting(rng)
+    first, second = rng.shuffled(setting.states)[:2]
+    states = {1: (first, second), 2: (first, second, setting.terminal), 3: (first, second, first)}[level]
+    size = 3 if level == 2 else 2
+    choices = setting.actions[:2] if level == 3 else ()
+    named = [state for state in setting.states if state in states]
+    habit = {state: rng.choice(choices) for state in named if choices}  # so the first step counts in the second
+    return Given(
+        trajectory=Trajectory(
+            states=states,
+            actions=tuple(habit[state] for state in states if choices),
+            rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
+            terminal=tuple(state for state in states if state == setting.terminal),
+        ),
+        features={state: tuple(rng.whole(0, 2) for _ in range(size)) for state in named},
+        theta=tuple(rng.nonzero(-3, 4) for _ in range(size * max(1, len(choices)))),
+        actions=choices,
+        alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/10"),
+        gamma=rng.fraction("1/2", "1/2", "1") if level != 2 else rng.fraction("1/2", "4/5", "9/10"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The run, features and weights; the TD errors and the new weights are asked for."""
+    run = given.trajectory
+    size = len(given.theta) // max(1, len(given.actions))
+    steps = len(run.rewards)
+    if given.actions:
+        method = "Semi-gradient Sarsa"
+        model = (
+            "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features below are stacked, one "
+            f"block for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are 0."
+        )
+    else:
+        method = "Semi-gradient TD(0)"
+        model = "Values are estimated as $V̂(s) = θ^⊤ φ(s)$, with these features:"
+    ends: tuple[Block, ...] = ()
+    if run.terminal:
+        ends = (Paragraph(f"The run ends in {run.states[-1]}, a terminal state, whose value is always $0$."),)
+    when = "after the transition" if steps == 1 else "after every transition, with the weights that are current then"
+    blocks = (
+        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(run),
+        *ends,
+        Paragraph(model),
+        features_table(given.features, what="s", of="φ", about="s"),
+        Paragraph(
+            f"Before the run the weights are ${weights(given.theta)}$. {method} updates them {when}. "
+            f"{step_size(given.alpha)} {discount(given.gamma)}"
+        ),
+    )
+    errors = tuple(f"δ_{{{time}}}" for time in range(steps))
+    first = f"What {'is the TD error' if steps == 1 else 'are the TD errors'} ${', '.join(errors)}${in_open(given)}?"
+    second = f"What are the weights $θ$ after the run{in_open(given)}?"
+    names = weight_names(range(size * max(1, len(given.actions))))
+    return Question(blocks, (Part("a", first, Vector(errors)), Part("b", second, Vector(names), points=2)))

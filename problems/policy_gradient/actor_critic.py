@@ -1,0 +1,124 @@
+"""One-step actor-critic: the TD error, the critic's values and the actor's weights after one or more transitions."""
+
+from fractions import Fraction
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, Parameter, StepSize, Weight, shown
+from rldrill.problems.family import Question
+from rldrill.problems.features import ActionFeatures, weight_names
+from rldrill.problems.models import Name, values_table
+from rldrill.problems.parts import Part, Table, Vector
+from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
+from rldrill.problems.runs import check_values, trajectory_table
+from rldrill.problems.settings import Setting, draw_setting
+from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_policy, draw_run, policy_blocks
+
+TITLE = "Actor-critic"
+SOURCE = "Sutton & Barto 2018, section 13.5"
+REVISION = 1
+
+
+class Given(SoftmaxRun):
+    """A run, the critic's values before it with its step size α, the actor's features and weights with β, and γ."""
+
+    values: dict[Name, Exact]
+    alpha: StepSize
+    beta: StepSize
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        check_values(self.values, self.trajectory)
+        return self
+
+    @property
+    def visited(self) -> tuple[str, ...]:
+        """The states that are left, in the order of their first visit."""
+        return tuple(dict.fromkeys(self.trajectory.states[:-1]))
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One transition and even chances; then weights that are logarithms; then two transitions, α left open."""
+    setting = draw_setting(rng)
+    first, second = rng.shuffled(setting.states)[:2]
+    actions = setting.actions[: 3 if level == 2 else 2]
+    states = (first, second, first) if level == 3 else (first, second)
+    theta: tuple[Weight, ...]
+    if level == 3:
+        theta, features = _weights_of_their_own(rng, (first, second), actions)
+    else:
+        theta, features = (draw_even_policy if level == 1 else draw_log_policy)(rng, (first,), actions)
+    return Given(
+        trajectory=draw_run(rng, states, actions, setting.terminal),
+        theta=theta,
+        features=features,
+        values={state: rng.nonzero(-3, 8) for state in _in_order(setting, states)},
+        alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/5", "1/10"),
+        beta=rng.fraction("1/2", "1/4", "1/3") if level > 1 else rng.fraction("1", "1/4"),
+        gamma=rng.fraction("1/2", "1/2", "4/5") if level > 1 else rng.fraction("1/2", "1"),
+    )
+
+
+def _in_order(setting: Setting, states: tuple[str, ...]) -> list[str]:
+    return [state for state in setting.states if state in states]
+
+
+def _weights_of_their_own(
+    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...]
+) -> tuple[tuple[Weight, ...], ActionFeatures]:
+    """A weight for every state and action: then a step in one state leaves the policy of the others alone."""
+    size = len(states) * len(actions)
+    places = iter(range(size))
+    features = {
+        state: {
+            action: tuple(Fraction(index == place) for index in range(size))
+            for action, place in zip(actions, places, strict=False)
+        }
+        for state in states
+    }
+    shared = [rng.whole(0, 2) for _ in states]  # the actions of a state are equally likely at first
+    return tuple(weight for weight in shared for _ in actions), features
+
+
+def question(given: Given) -> Question:
+    """The run, the critic and the actor before it; then their errors, values and weights."""
+    run = given.trajectory
+    steps = len(run.rewards)
+    errors = tuple(f"δ_{{{time}}}" for time in range(steps))
+    several = steps > 1
+    pace = step_size(given.alpha).replace("The step size", "The critic's step size")
+    learning = (
+        "After every transition the critic and the actor both learn from the same TD error $δ_t$, which is worked out "
+        "first, with the values that are current then; the actor's score uses the weights that are current then."
+        if several
+        else "After the transition the critic and the actor both learn from the same TD error $δ_0$, which is worked "
+        "out before either of them changes."
+    )
+    blocks = (
+        Paragraph("An actor-critic agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(run),
+        *terminal_note(run.terminal),
+        Paragraph("The critic's values before it are:"),
+        values_table(given.values),
+        *policy_blocks(given.features, given.theta),
+        Paragraph(
+            f"{learning} {pace} The actor's is $β = {shown(given.beta)}$, and its step has no further factor $γ^t$. "
+            f"{discount(given.gamma)}"
+        ),
+    )
+    asked = f'What is the critic\'s $V("{given.visited[0]}")$' if len(given.visited) == 1 else "What are the critic's "
+    values = asked if len(given.visited) == 1 else f"{asked}values of the states that were left"
+    opened = in_open(given)
+    return Question(
+        blocks,
+        (
+            Part("a", f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
+                 Vector(errors)),
+            Part("b", f"{values} after that{opened}?", Table("V", given.visited), zero=True),
+            Part("c", f"What are the actor's weights $θ$ after that{opened}?", Vector(weight_names(given.theta)),
+                 points=3),
+        ),
+    )  # fmt: skip

@@ -1,0 +1,171 @@
+"""The advantage of every action in a state; or generalised advantage estimates along a run."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import (
+    Dynamics,
+    Name,
+    PolicyField,
+    check_keys,
+    check_policy,
+    policy_table,
+    transitions_table,
+    values_table,
+)
+from rldrill.problems.parts import Number, Part, Table, Vector
+from rldrill.problems.phrases import discount, in_open, terminal_note, trace_parameter
+from rldrill.problems.runs import Trajectory, check_values, trajectory_table
+from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
+
+TITLE = "Advantage"
+SOURCE = "Schulman et al. 2016, section 2"
+REVISION = 1
+
+
+class Lookahead(Givens):
+    """What the actions of one state do, the values of states, and the policy there.
+
+    Without a policy the value of the state itself must be among the values.
+    """
+
+    dynamics: Dynamics
+    values: dict[Name, Exact] = Field(min_length=1)
+    policy: PolicyField | None = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if len(self.dynamics.states) != 1:
+            raise ValueError("dynamics must hold the actions of one state only")
+        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
+        if self.policy is None:
+            needed = (*reached, *self.dynamics.states)
+            check_keys(self.values, needed, "the value", needed=needed)
+            return self
+        if self.state in (*reached, *self.values):
+            raise ValueError(f"policy: the value of {self.state!r} follows from it, so it must not be given or reached")
+        check_keys(self.values, reached, "the value", needed=reached)
+        check_policy(self.policy, self.dynamics)
+        return self
+
+    @property
+    def state(self) -> str:
+        """The state whose actions are compared."""
+        return self.dynamics.states[0]
+
+
+class Run(Givens):
+    """A run, the values of its states, and λ."""
+
+    trajectory: Trajectory
+    values: dict[Name, Exact]
+    lam: OpenProbability
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        check_values(self.values, self.trajectory)
+        return self
+
+
+class Given(Givens):
+    """One state to look ahead from, or a run to estimate along; and the discount."""
+
+    lookahead: Lookahead | None = None
+    run: Run | None = None
+    gamma: Probability
+
+    @model_validator(mode="after")
+    def _one_of_them(self) -> Self:
+        if (self.lookahead is None) == (self.run is None):
+            raise ValueError("give either lookahead or run")
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two certain actions and V(s) given; then three actions and a policy; then GAE with λ left open."""
+    setting = draw_setting(rng)
+    gamma = rng.fraction("1/2", "1/2", "4/5")
+    if level == 3:
+        first, second, third = rng.shuffled(setting.states)[:3]
+        states = (first, second, first, rng.choice((third, setting.terminal)))
+        run = Trajectory(
+            states=states,
+            rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
+            terminal=tuple(state for state in states if state == setting.terminal),
+        )
+        values = {state: rng.nonzero(-3, 8) for state in setting.states if state in states}
+        return Given(run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=gamma)
+    state, *others = rng.shuffled(setting.states)[:3]
+    actions = setting.actions[: 1 + level]
+    shape = Shape(states=3, actions=1 + level, branches=level)
+    targets = tuple(name for name in setting.states if name in others)
+    rows = [
+        row
+        for action in actions
+        for row in draw_outcomes(rng, state, action, rng.sample(targets, rng.choice((1, level))), shape)
+    ]
+    needed = {state, *(row.next for row in rows)} if level == 1 else {row.next for row in rows}
+    lookahead = Lookahead(
+        dynamics=Dynamics(transitions=tuple(rows)),
+        values={name: 2 * rng.nonzero(-3, 5) for name in setting.states if name in needed},
+        policy=None if level == 1 else {state: dict(zip(actions, rng.split(3, (4, 5)), strict=True))},
+    )
+    return Given(lookahead=lookahead, gamma=rng.fraction("1/2", "1"))
+
+
+def question(given: Given) -> Question:
+    """Action values first and then advantages; or the estimates along a run."""
+    if given.lookahead is not None:
+        return _of_one_state(given, given.lookahead)
+    if given.run is None:
+        raise ValueError("neither lookahead nor run is given")
+    return _along(given, given.run)
+
+
+def _of_one_state(given: Given, ahead: Lookahead) -> Question:
+    state = ahead.state
+    pairs = tuple((state, action) for action in ahead.dynamics.actions[state])
+    opening: tuple[Block, ...] = (
+        Paragraph(f"In state {state} the actions do this:"),
+        transitions_table(ahead.dynamics),
+    )
+    parts = [Part("a", f"What are the action values $Q^π(s, a)$ in {state}?", Table("Q^π", pairs), zero=True)]
+    if ahead.policy is None:
+        of_states = "The values of the states under the policy $π$ are estimated as follows."
+    else:
+        opening += (Paragraph("The policy $π$ takes them with these probabilities:"), policy_table(ahead.policy))
+        of_states = "The values of the next states under it are known."
+        parts.append(Part("b", f'What is the value $V^π("{state}")$?', Number(), zero=True))
+    label = chr(ord("a") + len(parts))
+    parts.append(Part(label, f"What is the advantage $A(s, a)$ of every action in {state}?", Table("A", pairs)))
+    blocks = (*opening, Paragraph(f"{of_states} {discount(given.gamma)}"), values_table(ahead.values, "V^π"))
+    return Question(blocks, tuple(parts))
+
+
+def _along(given: Given, run: Run) -> Question:
+    times = range(len(run.trajectory.rewards))
+    errors = tuple(f"δ_{{{time}}}" for time in times)
+    estimates = tuple(f"Â_{{{time}}}" for time in times)
+    blocks = (
+        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        trajectory_table(run.trajectory),
+        *terminal_note(run.trajectory.terminal),
+        Paragraph(f"The critic's values are these. {discount(given.gamma)} {trace_parameter(run.lam)}"),
+        values_table(run.values),
+        Paragraph(
+            f"Advantages are estimated by generalised advantage estimation, from the TD errors of this run: the last "
+            f"one is $δ_{{{len(times) - 1}}}$. The values are not changed."
+        ),
+    )
+    ask = f"What are the estimates ${', '.join(estimates)}$, in this order{in_open(given)}?"
+    if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
+        return Question(blocks, (Part("a", ask, Vector(estimates), points=3),))
+    first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
+    return Question(
+        blocks, (Part("a", first, Vector(errors), zero=True), Part("b", ask, Vector(estimates), points=2))
+    )

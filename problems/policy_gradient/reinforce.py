@@ -1,0 +1,38 @@
+"""REINFORCE: the gradient estimated from one episode, and the weights after a step along it."""
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Parameter, StepSize
+from rldrill.problems.family import Question
+from rldrill.problems.phrases import discount, step_size
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts
+
+TITLE = "REINFORCE"
+SOURCE = "Sutton & Barto 2018, section 13.3"
+REVISION = 1
+
+
+class Given(Episode):
+    """An episode, the features and weights of the policy that was followed, α and γ."""
+
+    alpha: StepSize
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
+    return Given(
+        **draw_episode(level, rng),
+        alpha=rng.fraction("1/2", "1/4", "1/5"),
+        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The episode and the policy; the returns, the gradient and the new weights are asked for."""
+    note = Paragraph(
+        "REINFORCE weights the score of each action $a_t$ with the discounted return from its own step on, "
+        "$G_t = r_{t+1} + γ r_{t+2} + …$, and adds over the episode. There is no further factor $γ^t$, and all steps "
+        f"use the weights above. {discount(given.gamma)} {step_size(given.alpha)}"
+    )
+    entries = tuple(f"G_{{{time}}}" for time in range(len(given.trajectory.rewards)))
+    return Question((*episode_blocks(given), note), gradient_parts(given, "returns", entries))

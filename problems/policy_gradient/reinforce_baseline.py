@@ -1,0 +1,55 @@
+"""REINFORCE with a baseline: the gradient from one episode, each return taken relative to the state's baseline."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, Parameter, StepSize
+from rldrill.problems.family import Question
+from rldrill.problems.models import Name, check_keys, values_table
+from rldrill.problems.phrases import discount, step_size
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts
+
+TITLE = "REINFORCE with a baseline"
+SOURCE = "Sutton & Barto 2018, section 13.4"
+REVISION = 1
+
+
+class Given(Episode):
+    """An episode, the features and weights of the policy that was followed, the baseline b(s), α and γ."""
+
+    baseline: dict[Name, Exact]
+    alpha: StepSize
+
+    @model_validator(mode="after")
+    def _based(self) -> Self:
+        run = self.trajectory
+        check_keys(self.baseline, (*run.states, *run.terminal), "the baseline", needed=run.states[:-1])
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
+    episode = draw_episode(level, rng)
+    visited = tuple(dict.fromkeys(episode["trajectory"].states[:-1]))
+    return Given(
+        **episode,
+        baseline={state: rng.nonzero(-2, 5) for state in visited},
+        alpha=rng.fraction("1/2", "1/4", "1/5"),
+        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1"),
+    )
+
+
+def question(given: Given) -> Question:
+    """The episode, the policy and the baseline; the differences, the gradient and the new weights are asked for."""
+    note = Paragraph(
+        "The score of each action $a_t$ is weighted with $δ_t = G_t − b(s_t)$, where "
+        "$G_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; these are added over the "
+        "episode. There is no further factor $γ^t$, and all steps use the weights above. "
+        f"{discount(given.gamma)} {step_size(given.alpha)} The baseline is:"
+    )
+    entries = tuple(f"δ_{{{time}}}" for time in range(len(given.trajectory.rewards)))
+    blocks = (*episode_blocks(given), note, values_table(given.baseline, "b"))
+    return Question(blocks, gradient_parts(given, "returns relative to the baseline", entries))

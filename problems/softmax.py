@@ -1,0 +1,182 @@
+"""Softmax policies that are linear in features, and runs of agents that follow them."""
+
+from fractions import Fraction
+from typing import Any, Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Discount, Logarithm, Weight, WeightField
+from rldrill.problems.family import Givens
+from rldrill.problems.features import (
+    ActionFeatures,
+    FeatureVector,
+    action_features_table,
+    check_action_features,
+    features_table,
+    weight_names,
+    weights,
+)
+from rldrill.problems.models import check_keys
+from rldrill.problems.parts import Part, Vector
+from rldrill.problems.phrases import in_open
+from rldrill.problems.runs import Trajectory, trajectory_table
+from rldrill.problems.settings import draw_setting
+
+
+class SoftmaxRun(Givens):
+    """A run of an agent, its weights before it, and the features of the actions in every state that it leaves."""
+
+    trajectory: Trajectory
+    features: ActionFeatures
+    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20)
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _chosen(self) -> Self:
+        run = self.trajectory
+        check_action_features(self.features, len(self.theta))
+        if len(run.actions) != len(run.rewards):
+            raise ValueError(f"trajectory: {len(run.rewards)} steps need as many actions, not {len(run.actions)}")
+        left = tuple(dict.fromkeys(run.states[:-1]))
+        check_keys(self.features, left, "the row of features", needed=left)
+        for state, action in zip(run.states, run.actions, strict=False):
+            if action not in self.features[state]:
+                raise ValueError(f"features: {action!r} is taken in {state!r} but has no features there")
+        return self
+
+
+class Episode(SoftmaxRun):
+    """A run that goes on to a terminal state, so that every return is known."""
+
+    @model_validator(mode="after")
+    def _ends(self) -> Self:
+        if (last := self.trajectory.states[-1]) not in self.trajectory.terminal:
+            raise ValueError(f"trajectory: the episode must end in a terminal state, but {last!r} is not one")
+        return self
+
+
+def policy_blocks(features: ActionFeatures, theta: tuple[Weight, ...]) -> tuple[Block, ...]:
+    """What a softmax policy is made of."""
+    if len(features) == 1:
+        ((state, row),) = features.items()
+        table = features_table(row)
+        opening = f"In {state} the actions have these features:"
+    else:
+        table = action_features_table(features)
+        opening = "The actions have these features:"
+    return (
+        Paragraph(f"The agent's policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$. {opening}"),
+        table,
+        Paragraph(f"The weights are ${weights(theta)}$."),
+    )
+
+
+def episode_blocks(given: Episode) -> tuple[Block, ...]:
+    """An episode, and the policy that was followed in it."""
+    run = given.trajectory
+    return (
+        Paragraph("In one episode an agent saw this (a reward stands at the time at which it is received):"),
+        trajectory_table(run),
+        Paragraph(f"The episode ends in {run.states[-1]}, at $T = {len(run.rewards)}$."),
+        *policy_blocks(given.features, given.theta),
+    )
+
+
+def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> tuple[Part, ...]:
+    """What is asked about an episode: the weight of every step, the gradient, the new weights.
+
+    Args:
+        given: the episode.
+        weighted: what the steps' scores are weighted with, in words.
+        entries: the same as mathematics, for every step.
+    """
+    names = weight_names(given.theta)
+    asked = f"What are the {weighted} ${', '.join(entries)}$, in this order{in_open(given)}?"
+    return (
+        Part("a", asked, Vector(entries), zero=True),
+        Part(
+            "b",
+            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
+            Vector(tuple(f"∂J/∂{name}" for name in names)),
+            points=3,
+        ),
+        Part("c", f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Vector(names)),
+    )
+
+
+def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
+    """Trajectory, weights and features of a run.
+
+    Two steps and even chances; then three steps in two states; then also three actions.
+    """
+    setting = draw_setting(rng)
+    first, second = rng.shuffled(setting.states)[:2]
+    states = {1: (first, first), 2: (first, second, first), 3: (first, second, second)}[level]
+    actions = setting.actions[: 3 if level == 3 else 2]
+    policy = {1: draw_even_policy, 2: draw_log_policy, 3: draw_tied_policy}[level]
+    theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
+    run = draw_run(rng, (*states, setting.terminal), actions, setting.terminal)
+    return {"trajectory": run, "theta": theta, "features": features}
+
+
+def draw_run(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], terminal: str) -> Trajectory:
+    """A run through these states, its actions and rewards drawn."""
+    return Trajectory(
+        states=states,
+        actions=tuple(rng.choice(actions) for _ in states[1:]),
+        rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
+        terminal=(terminal,) if terminal in states else (),
+    )
+
+
+def draw_log_policy(
+    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], size: int = 2
+) -> tuple[tuple[Weight, ...], ActionFeatures]:
+    """Weights that are logarithms and whole features, so that every e^h is a whole number."""
+    theta = tuple(Logarithm(f"ln {rng.choice((2, 2, 3))}") for _ in range(size))
+    return theta, _drawn(rng, states, actions, size, 1)
+
+
+def draw_tied_policy(
+    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...]
+) -> tuple[tuple[Weight, ...], ActionFeatures]:
+    """Three weights and features that give all actions of a state the same preference."""
+    weight = rng.choice((1, 2, -1))
+    features: ActionFeatures = {}
+    for state in states:
+        shared = 2 + rng.below(2)
+        # The first two weights are the same, so it is the sum of these features that counts; the third is 0.
+        features[state] = {
+            action: (first, shared - first, rng.whole(0, 1))
+            for action, first in zip(actions, rng.distinct(len(actions), 0, shared), strict=True)
+        }
+    return (Fraction(weight), Fraction(weight), Fraction(0)), features
+
+
+def draw_even_policy(
+    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], size: int = 2
+) -> tuple[tuple[Weight, ...], ActionFeatures]:
+    """All weights zero, so that every action is as likely as any other."""
+    return (Fraction(0),) * size, _drawn(rng, states, actions, size, 2)
+
+
+def _drawn(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], size: int, high: int) -> ActionFeatures:
+    """Features such that every weight matters to some choice."""
+    while True:
+        features = {state: _different(rng, actions, size, high) for state in states}
+        differ = [any(len({row[place] for row in rows.values()}) > 1 for rows in features.values())
+                  for place in range(size)]  # fmt: skip
+        if all(differ):
+            return features
+
+
+def _different(rng: Draws, actions: tuple[str, ...], size: int, high: int) -> dict[str, FeatureVector]:
+    """Features from 0 to ``high``, no two actions with the same."""
+    base = high + 1
+    rows = rng.distinct(len(actions), 0, base**size - 1)
+    return {
+        action: tuple(Fraction(int(row) // base**place % base) for place in range(size))
+        for action, row in zip(actions, rows, strict=True)
+    }

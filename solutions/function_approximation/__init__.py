@@ -1,0 +1,1 @@
+"""Solvers: Function approximation."""

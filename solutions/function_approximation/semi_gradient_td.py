@@ -1,0 +1,128 @@
+"""For every transition: the estimates, the TD error, and the step of the weights along the features."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.function_approximation.semi_gradient_td import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.sheet.function_approximation import (
+    FEATURES_OF_NEXT,
+    LINEAR_STATE_VALUE,
+    LINEAR_VALUE,
+    SARSA_ERROR_APPROXIMATE,
+    SARSA_FEATURES_OF_NEXT,
+    SARSA_THROUGH_THE_TARGET,
+    SEMI_GRADIENT_SARSA,
+    SEMI_GRADIENT_TD,
+    TD_ERROR_APPROXIMATE,
+    THROUGH_THE_TARGET,
+)
+from rldrill.solutions.softmax import by_number
+from rldrill.solutions.vector import Vector
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (THROUGH_THE_TARGET, FEATURES_OF_NEXT, SARSA_THROUGH_THE_TARGET, SARSA_FEATURES_OF_NEXT)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The errors first, with the weights that they are found with; then the last of the weights."""
+    run = given.trajectory
+    known = knowns.trajectory(run) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+    known |= (_stacked if given.actions else _plain)(given)
+    step = SEMI_GRADIENT_SARSA if given.actions else SEMI_GRADIENT_TD
+    theta = Vector(map(exact, given.theta))
+    last = len(run.rewards) - 1
+
+    errors: list[Value] = []
+    current = theta
+    for time in range(last + 1):
+        known["delta"] = dict(enumerate(errors))
+        if time:
+            current = work.step(step, t=time - 1, theta_vector=current, **known)
+        errors.append(_error(given, work, known, current, time))
+    known["delta"] = dict(enumerate(work.answer("a", tuple(errors))))
+
+    for time in range(last):  # these steps stand in the working of (a) already
+        theta = work.value(step, t=time, theta_vector=theta, **known)
+    work.answer("b", tuple(work.step(step, t=last, theta_vector=theta, **known)))
+
+
+def _error(given: Given, work: Work, known: Mapping[str, Any], theta: Vector, time: int) -> Value:
+    """Both estimates with the weights that are current, then the TD error."""
+    run = given.trajectory
+    numbered = by_number(tuple(theta))
+    if not given.actions:
+        values = dict.fromkeys(run.terminal, ZERO)
+        for state in run.states[time : time + 2]:
+            if state not in values:
+                values[state] = work.step(LINEAR_STATE_VALUE, s=state, **numbered, phi=known["phi"])
+        return work.step(TD_ERROR_APPROXIMATE, t=time, Vhat=values, **known)
+    pairs = {(state, knowns.NO_ACTION): ZERO for state in run.terminal}
+    for moment in (time, time + 1):
+        state, action = pair = run.states[moment], known["A"][moment]
+        if pair not in pairs:
+            pairs[pair] = work.step(LINEAR_VALUE, s=state, a=action, **numbered, phi=known["phi"])
+    return work.step(SARSA_ERROR_APPROXIMATE, t=time, Qhat=pairs, **known)
+
+
+def _plain(given: Given) -> dict[str, Any]:
+    """The features of every state; a terminal state has none that count."""
+    rows = {state: tuple(map(exact, row)) for state, row in given.features.items()}
+    rows |= dict.fromkeys(given.trajectory.terminal, (ZERO,) * len(given.theta))
+    return {
+        "phi": {(number, state): value for state, row in rows.items() for number, value in enumerate(row, 1)},
+        "phi_vector": {state: Vector(row) for state, row in rows.items()},
+    }
+
+
+def _stacked(given: Given) -> dict[str, Any]:
+    """The features of every state and action, one block for each action."""
+    run = given.trajectory
+    rows: dict[tuple[str, str], Sequence[Value]] = {
+        (state, knowns.NO_ACTION): (ZERO,) * len(given.theta) for state in run.terminal
+    }
+    for state, row in given.features.items():
+        for place, action in enumerate(given.actions):
+            blocks = [map(exact, row) if place == other else (ZERO,) * len(row) for other in range(len(given.actions))]
+            rows[state, action] = tuple(value for block in blocks for value in block)
+    actions = dict(enumerate(run.actions))
+    if run.states[-1] in run.terminal:
+        actions[len(run.rewards)] = knowns.NO_ACTION
+    return {
+        "A": actions,
+        "phi": {(number, *pair): value for pair, row in rows.items() for number, value in enumerate(row, 1)},
+        "phi_vector": {pair: Vector(row) for pair, row in rows.items()},
+    }
+
+
+def oracle(given: Given) -> Answers:
+    """The squared error to a fixed target, differentiated by central differences, step after step."""
+    run = given.trajectory
+    theta = np.array([at(weight) for weight in given.theta])
+    blocks = max(1, len(given.actions))
+
+    def estimate(weights: Array, time: int) -> float:
+        state = run.states[time]
+        if state in run.terminal:
+            return 0.0
+        block = given.actions.index(run.actions[time]) if given.actions else 0
+        row = np.array([at(value) for value in given.features[state]])
+        return float(weights.reshape(blocks, -1)[block] @ row)
+
+    errors = []
+    for time, reward in enumerate(run.rewards):
+        target = at(reward) + at(given.gamma) * estimate(theta, time + 1)
+
+        def loss(weights: Array, time: int = time, target: float = target) -> float:
+            return (target - estimate(weights, time)) ** 2 / 2
+
+        errors.append(target - estimate(theta, time))
+        # A quadratic: central differences with a whole step are exact.
+        unit = np.eye(len(theta))
+        slope = np.array([(loss(theta + direction) - loss(theta - direction)) / 2 for direction in unit])
+        theta = theta - at(given.alpha) * slope
+    return {"a": errors, "b": theta}

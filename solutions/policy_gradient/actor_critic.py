@@ -1,0 +1,78 @@
+"""For every transition: the TD error, then the critic's and the actor's steps."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.policy_gradient.actor_critic import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.policy_gradient import (
+    ACTOR_CRITIC,
+    CRITIC,
+    NEXT_VALUE_FORGOTTEN,
+    TD_ERROR,
+    WEIGHTED_BY_REWARD,
+)
+from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
+from rldrill.solutions.work import Work
+
+STEP_SIZES_SWAPPED = slip(
+    "step-sizes-swapped",
+    "α belongs to the critic, β to the actor; they were exchanged.",
+    when=lambda given: given.alpha != given.beta,
+)
+MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, STEP_SIZES_SWAPPED)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The critic sees values only, so its whole way comes first; then the actor's, with the errors found."""
+    run = given.trajectory
+    sizes = exact(given.alpha), exact(given.beta)
+    alpha, beta = reversed(sizes) if work.makes(STEP_SIZES_SWAPPED) else sizes
+    known = known_run(given) | {"alpha": alpha, "beta": beta}
+    before = knowns.state_values(given.values, run.terminal)
+    known["delta"] = dict(enumerate(work.answer("a", _errors(work, known, before))))
+
+    values = before
+    last = known["T"] - 1
+    for time in range(last):  # these steps stand in the working of (a) already
+        values = values | {run.states[time]: work.value(CRITIC, t=time, V=values, **known)}
+    values = values | {run.states[last]: work.step(CRITIC, t=last, V=values, **known)}
+    work.answer("b", {state: values[state] for state in given.visited})
+
+    for time, (state, action) in enumerate(zip(run.states, run.actions, strict=False)):
+        actions = tuple(given.features[state])
+        known["pi"] = chances(work, known, state, actions)
+        known["score"] = {(action, state): score(work, known, state, action, actions)}
+        known |= by_number(tuple(work.step(ACTOR_CRITIC, t=time, **known)))
+    work.answer("c", tuple(known["theta_vector"]))
+
+
+def _errors(work: Work, known: Mapping[str, Any], values: Mapping[str, Value]) -> tuple[Value, ...]:
+    """The TD error of every transition; each update of the critic counts in the next."""
+    errors: list[Value] = []
+    for time in range(known["T"]):
+        if time:
+            delta = dict(enumerate(errors))
+            learnt = work.step(CRITIC, t=time - 1, V=values, delta=delta, alpha=known["alpha"], S=known["S"])
+            values = {**values, known["S"][time - 1]: learnt}
+        errors.append(work.step(TD_ERROR, t=time, V=values, **known))
+    return tuple(errors)
+
+
+def oracle(given: Given) -> Answers:
+    """Both learners stepped through the run, the scores by complex steps."""
+    run = given.trajectory
+    values = {state: at(number) for state, number in given.values.items()} | dict.fromkeys(run.terminal, 0.0)
+    theta = np.array([at(weight) for weight in given.theta])
+    errors = []
+    for time, (state, action) in enumerate(zip(run.states, run.actions, strict=False)):
+        error = at(run.rewards[time]) + at(given.gamma) * values[run.states[time + 1]] - values[state]
+        theta = theta + at(given.beta) * error * log_gradient(theta, given.features[state], action)
+        values[state] += at(given.alpha) * error
+        errors.append(error)
+    return {"a": errors, "b": [values[state] for state in given.visited], "c": theta}

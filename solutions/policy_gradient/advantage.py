@@ -1,0 +1,105 @@
+"""Q and V by one step ahead, then their difference; or TD errors, then their discounted sums."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.exact import Parameter
+from rldrill.problems.policy_gradient.advantage import Given, Lookahead, Run
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, V_FROM_Q
+from rldrill.solutions.sheet.policy_gradient import (
+    ADVANTAGE,
+    ADVANTAGE_SIGN,
+    GAE,
+    GAE_WITHOUT_GAMMA,
+    GAE_WITHOUT_LAMBDA,
+    NEXT_STATES_VALUE,
+    TD_ERROR,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (ADVANTAGE_SIGN, NEXT_STATES_VALUE, GAE_WITHOUT_LAMBDA, GAE_WITHOUT_GAMMA)
+
+
+def solve(given: Given, work: Work) -> None:
+    """One state's actions, or a run."""
+    if given.lookahead is not None:
+        _compare(given, given.lookahead, work)
+    elif given.run is not None:
+        _estimate(given, given.run, work)
+
+
+def _compare(given: Given, ahead: Lookahead, work: Work) -> None:
+    state = ahead.state
+    pairs = tuple((state, action) for action in ahead.dynamics.actions[state])
+    known: dict[str, Any] = knowns.model(ahead.dynamics) | {
+        "s": state,
+        "gamma": exact(given.gamma),
+        "V": knowns.values(ahead.values),
+    }
+    labels = iter("abc")
+    known["Q"] = work.answer(next(labels), {pair: work.step(BELLMAN_Q, a=pair[1], **known) for pair in pairs})
+    if ahead.policy is not None:
+        value = work.answer(next(labels), work.step(V_FROM_Q, pi=knowns.policy(ahead.policy), **known))
+        known["V"] = known["V"] | {state: value}
+    work.answer(next(labels), {pair: work.step(ADVANTAGE, a=pair[1], **known) for pair in pairs})
+
+
+def _estimate(given: Given, run: Run, work: Work) -> None:
+    times = range(len(run.trajectory.rewards))
+    known = knowns.trajectory(run.trajectory) | {
+        "gamma": exact(given.gamma),
+        "lam": exact(run.lam),
+        "T": len(times),
+        "V": knowns.state_values(run.values, run.trajectory.terminal),
+    }
+    errors = tuple(work.step(TD_ERROR, t=time, **known) for time in times)
+    labels = iter("ab")
+    if not isinstance(run.lam, Parameter):
+        errors = work.answer(next(labels), errors)
+    known["delta"] = dict(enumerate(errors))
+    work.answer(next(labels), tuple(work.step(GAE, t=time, **known) for time in times))
+
+
+def oracle(given: Given) -> Answers:
+    """One step ahead by a loop over outcomes; estimates as a weighted mean of n-step advantages."""
+    gamma = at(given.gamma)
+    if given.lookahead is not None:
+        ahead = given.lookahead
+        state = ahead.state
+        worth = dict.fromkeys(ahead.dynamics.actions[state], 0.0)
+        for row in ahead.dynamics.transitions:
+            worth[row.action] += at(row.probability) * (at(row.reward) + gamma * at(ahead.values[row.next]))
+        Q = np.array(list(worth.values()))
+        if ahead.policy is None:
+            return {"a": Q, "b": Q - at(ahead.values[state])}
+        V = sum(at(ahead.policy[state].get(action, 0)) * value for action, value in worth.items())
+        return {"a": Q, "b": V, "c": Q - V}
+    if given.run is None:
+        return {}
+    return _estimates(given.run, gamma)
+
+
+def _estimates(run: Run, gamma: float) -> Answers:
+    """GAE by its definition: n-step advantages with weights (1 − λ)λⁿ⁻¹, the last one with all that is left."""
+    lam = at(run.lam)
+    rewards = [at(reward) for reward in run.trajectory.rewards]
+    values = [0.0 if s in run.trajectory.terminal else at(run.values[s]) for s in run.trajectory.states]
+    end = len(rewards)
+
+    def advantage(time: int, steps: int) -> float:
+        earned = sum(gamma**k * rewards[time + k] for k in range(steps))
+        return earned + gamma**steps * values[time + steps] - values[time]
+
+    def estimate(time: int) -> float:
+        left = end - time
+        weights = [(1 - lam) * lam ** (n - 1) for n in range(1, left)] + [lam ** (left - 1)]
+        return sum(weight * advantage(time, n) for n, weight in enumerate(weights, 1))
+
+    estimates = [estimate(time) for time in range(end)]
+    if isinstance(run.lam, Parameter):
+        return {"a": estimates}
+    return {"a": [advantage(time, 1) for time in range(end)], "b": estimates}

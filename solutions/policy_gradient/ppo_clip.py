@@ -1,0 +1,112 @@
+"""Ratio, the two terms and their minimum for every sample; then the mean."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.policy_gradient.ppo_clip import Given
+from rldrill.solutions.exact import Value, exact, largest, sign, simplest
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.ratios import new_chance, outside
+from rldrill.solutions.sheet.policy_gradient import (
+    CLIP_WITHOUT_MIN,
+    PPO,
+    PPO_BATCH,
+    PPO_CLIPPED,
+    PPO_RATIO,
+    PPO_UNCLIPPED,
+    RATIO_INVERTED,
+    SOFTMAX_POLICY,
+)
+from rldrill.solutions.work import Work
+
+WRONG_SIDE = slip(
+    "wrong-side-for-negative-advantage",
+    "For a negative advantage too the smaller of the two terms counts: the ratio is held at 1 − ε, not at 1 + ε.",
+    when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
+)
+MISCONCEPTIONS = (CLIP_WITHOUT_MIN, WRONG_SIDE, RATIO_INVERTED)
+
+
+def solve(given: Given, work: Work) -> None:
+    """All samples through one step after the other."""
+    times = range(len(given.samples))
+    known: dict[str, Any] = {
+        "S": {time: sample.state for time, sample in enumerate(given.samples)},
+        "A": {time: sample.action for time, sample in enumerate(given.samples)},
+        "A_t": {time: exact(sample.advantage) for time, sample in enumerate(given.samples)},
+        "epsilon": exact(given.epsilon),
+        "samples": tuple(times),
+    }
+    ratios = []
+    for time, sample in enumerate(given.samples):
+        pair = sample.action, sample.state
+        chances = {"new_chance": {pair: _new(given, time, work)}, "old_chance": {pair: exact(sample.old)}}
+        ratios.append(work.step(PPO_RATIO, t=time, **known, **chances))
+    known["rho"] = _given(work, "a", ratios)
+    known["unclipped"] = _given(work, "b", [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
+    known["clipped"] = _given(work, "c", [work.step(PPO_CLIPPED, t=time, **known) for time in times])
+    objective = {time: _objective(work, known, time) for time in times}
+    work.answer("d", work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
+    for time, label in zip(times, "efghijklmnopqrstuvwxyz", strict=False):
+        unclipped, clipped = known["unclipped"][time], known["clipped"][time]
+        cut = sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0
+        work.say(_reason(time, cut=cut, inside=sign(unclipped - clipped) == 0))
+        work.answer(label, cut)
+
+
+def _reason(time: int, *, cut: bool, inside: bool) -> str:
+    if inside:
+        return f"The ratio $ρ_{{{time}}}$ lies inside the range, so nothing is clipped and the gradient stays."
+    if cut:
+        return f"$L_{{{time}}}$ is the clipped term, in which the bound stands for $ρ_{{{time}}}$: it is constant in $θ$."
+    return f"$L_{{{time}}}$ is the unclipped term, which still changes with $θ$."
+
+
+def _given(work: Work, label: str, values: Sequence[Value]) -> dict[int, Value]:
+    """Answer a number for every sample, and go on with what was answered."""
+    if len(values) == 1:
+        return {0: work.answer(label, values[0])}
+    return dict(enumerate(work.answer(label, tuple(values))))
+
+
+def _new(given: Given, time: int, work: Work) -> Value:
+    sample = given.samples[time]
+    if sample.preferences is None:
+        return exact(sample.new or 0)
+    preferences = {(sample.state, action): exact(value) for action, value in sample.preferences.items()}
+    return simplest(
+        work.step(SOFTMAX_POLICY, s=sample.state, a=sample.action, H=preferences, choices=tuple(sample.preferences))
+    )
+
+
+def _objective(work: Work, known: dict[str, Any], time: int) -> Value:
+    if work.makes(WRONG_SIDE) and sign(known["A_t"][time]) < 0:
+        return largest((known["unclipped"][time], known["clipped"][time]))
+    return work.step(PPO, t=time, **known)
+
+
+def oracle(given: Given) -> Answers:
+    """The objective as a function of the ratio; the gradient is cut where moving the ratio changes nothing."""
+    epsilon = at(given.epsilon)
+
+    def objective(ratio: float, advantage: float) -> float:
+        # Written by cases: what a better action may gain, and a worse one may lose, is bounded.
+        return advantage * (min(ratio, 1 + epsilon) if advantage > 0 else max(ratio, 1 - epsilon))
+
+    ratios = np.array([new_chance(sample) / at(sample.old) for sample in given.samples])
+    advantages = np.array([at(sample.advantage) for sample in given.samples])
+    worth = [objective(r, a) for r, a in zip(ratios, advantages, strict=True)]
+    answers: dict[str, Any] = {
+        "a": ratios,
+        "b": ratios * advantages,
+        "c": np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages,
+        "d": np.mean(worth),
+    }
+    step = 1e-6
+    for ratio, advantage, label in zip(ratios, advantages, "efghijklmnopqrstuvwxyz", strict=False):
+        moved = objective(ratio + step, advantage), objective(ratio - step, advantage)
+        answers[label] = bool(moved[0] == moved[1])
+    return answers

@@ -1,0 +1,37 @@
+"""Returns backwards in time, the scores, their weighted sum, and a step along it."""
+
+import numpy as np
+
+from rldrill.problems.policy_gradient.reinforce import Given
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.policy_gradient import (
+    DESCENT,
+    FIRST_RETURN_EVERYWHERE,
+    GRADIENT_ASCENT,
+    LOG_FORGOTTEN,
+    REINFORCE_ESTIMATE,
+    REWARD_FOR_RETURN,
+)
+from rldrill.solutions.softmax import discounted_returns, episode_gradient, known_run, returns, scores
+from rldrill.solutions.vector import Vector
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (FIRST_RETURN_EVERYWHERE, DESCENT, LOG_FORGOTTEN, REWARD_FOR_RETURN)
+
+
+def solve(given: Given, work: Work) -> None:
+    """All steps with the weights before the episode."""
+    known = known_run(given)
+    G = dict(enumerate(work.answer("a", tuple(returns(work, known).values()))))
+    known |= scores(work, given, known)
+    gradient = Vector(work.answer("b", tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
+    work.answer("c", tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+
+
+def oracle(given: Given) -> Answers:
+    """The gradient of the weighted log-likelihood of the episode by complex steps."""
+    G = discounted_returns([at(reward) for reward in given.trajectory.rewards], at(given.gamma))
+    gradient = episode_gradient(given, G)
+    theta = np.array([at(weight) for weight in given.theta])
+    return {"a": G, "b": gradient, "c": theta + at(given.alpha) * gradient}

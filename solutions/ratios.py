@@ -1,0 +1,26 @@
+"""PPO's probability ratios in floating point: for the independent solver, and for what can be told apart."""
+
+import math
+
+from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
+from rldrill.solutions.oracle import at
+
+
+def new_chance(sample: Sample) -> float:
+    """How likely the new policy makes the action."""
+    if sample.preferences is None:
+        return at(sample.new or 0)
+    weights = {action: math.exp(at(value)) for action, value in sample.preferences.items()}
+    return weights[sample.action] / math.fsum(weights.values())
+
+
+def outside(sample: Sample, given: Given) -> int:
+    """On which side of the clipping range the ratio lies: −1 below, 1 above, 0 inside or at its edge."""
+    ratio, epsilon = new_chance(sample) / at(sample.old), at(given.epsilon)
+    margin = 1e-9
+    return (ratio > 1 + epsilon + margin) - (ratio < 1 - epsilon - margin)
+
+
+def keeps_the_worse(sample: Sample, given: Given) -> bool:
+    """Whether clipping would make the objective look better, so that the minimum keeps the unclipped term."""
+    return outside(sample, given) * sample.advantage < 0

@@ -1,0 +1,226 @@
+"""Section 11 of the sheet: function approximation.
+
+The values and updates that are linear in these features are not printed there.
+"""
+
+from typing import Any
+
+from sympy import Integer, Rational, evaluate, exp
+
+from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
+from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.notation import (
+    A,
+    ArgMaxOver,
+    Choices,
+    Features,
+    Greatest,
+    S,
+    SumOver,
+    Transposed,
+    a,
+    alpha,
+    called,
+    gamma,
+    i,
+    letter,
+    pi,
+    quantity,
+    r,
+    s,
+    subscripted,
+    t,
+)
+from rldrill.solutions.sheet.policy_gradient import Qhat, delta, theta, theta_vector
+
+
+def _feature(index: Math, *arguments: Math) -> Math:
+    return row(Script(variable("φ"), index), Fence(listed(arguments)))
+
+
+def _distance(index: Math) -> Math:
+    return Fence(row(variable("s"), operator("−"), Script(variable("c"), index)), "‖", "‖")
+
+
+Zero = Integer(0)
+sigma = letter("sigma", "σ")
+width = letter("width", "b")
+j = letter("j")
+Dimensions = letter("dimensions", "D")
+position = quantity("position", subscripted("s"))
+centre = quantity("centre", lambda index, axis: Script(variable("c"), row(index, axis)))
+distance = quantity("distance", _distance)
+phi = quantity("phi", _feature)
+phi_vector = quantity("phi_vector", called("φ"), matrix=True)
+Vhat = quantity("Vhat", called(Accent(variable("V"), "hat")))
+
+
+def _distances(given: Any) -> set[Any]:
+    """The squares of the distances from the state to the centres."""
+    pairs = ((given.position, point) for point in given.centres)
+    return {sum((x - y) ** 2 for x, y in zip(state, point, strict=True)) for state, point in pairs}
+
+
+def _goes_on(given: Any) -> bool:
+    """Whether some step leads to a state that is not terminal."""
+    return any(state not in given.trajectory.terminal for state in given.trajectory.states[1:])
+
+
+with evaluate(False):
+    DISTANCE = Formula(
+        "distance-to-centre",
+        distance(i),
+        SumOver((position(j) - centre(i, j)) ** 2, j, Dimensions) ** Rational(1, 2),
+        title="Distance from a centre",
+        source="Euclidean norm",
+        hint="Subtract coordinate by coordinate, square, add, and take the root.",
+    )
+    RBF = Formula(
+        "rbf",
+        phi(i, s),
+        exp(-(1 / (2 * sigma**2)) * distance(i) ** 2),
+        title="Radial basis function",
+        source="Sutton & Barto 2018, section 9.5.5",
+        hint="The squared distance from the centre, divided by 2σ², goes into the exponent with a minus sign.",
+        note="The sheet writes $φ_i(s, a)$, but only $s$ counts; for several actions the features are stacked, one "
+        "block for each action.",
+    )
+    HALF_FORGOTTEN = misread(
+        RBF,
+        "half-forgotten",
+        exp(-(1 / sigma**2) * distance(i) ** 2),
+        "The squared distance is divided by 2σ², not by σ².",
+    )
+    SIGMA_NOT_SQUARED = misread(
+        RBF,
+        "sigma-not-squared",
+        exp(-(1 / (2 * sigma)) * distance(i) ** 2),
+        "The squared distance is divided by 2σ²: the width σ is squared, too.",
+        when=lambda given: given.sigma != 1,
+    )
+    NORM_NOT_SQUARED = misread(
+        RBF,
+        "norm-not-squared",
+        exp(-(1 / (2 * sigma**2)) * distance(i)),
+        "It is the square of the distance that stands in the exponent.",
+        when=lambda given: not _distances(given) <= {0, 1},
+    )
+    PIECEWISE_LINEAR_RBF = Formula(
+        "piecewise-linear-rbf",
+        phi(i, s),
+        Greatest(Zero, 1 - distance(i) / width),
+        title="Piecewise linear RBF",
+        source="Lecture sheet; triangular kernel",
+        hint="From 1 at the centre it falls in a straight line to 0 at the distance b, and stays there.",
+    )
+    NOT_CLAMPED = misread(
+        PIECEWISE_LINEAR_RBF,
+        "not-clamped-at-0",
+        1 - distance(i) / width,
+        "Beyond the distance b from its centre a feature is 0, not negative.",
+        when=lambda given: any(square > given.width**2 for square in _distances(given)),
+    )
+    WIDTH_FORGOTTEN = misread(
+        PIECEWISE_LINEAR_RBF,
+        "width-forgotten",
+        Greatest(Zero, 1 - distance(i)),
+        "The distance is divided by the width b before it is subtracted from 1.",
+        when=lambda given: given.width != 1 and any(0 < square < max(given.width, 1) ** 2
+                                                    for square in _distances(given)),
+    )  # fmt: skip
+
+    LINEAR_VALUE = Formula(
+        "linear-value",
+        Qhat(s, a),
+        SumOver(theta(i) * phi(i, s, a), i, Features),
+        title="Action value, linear in features",
+        source="Sutton & Barto 2018, eq. 10.3",
+        hint="Multiply each weight with its feature and add; the features of other actions' blocks are 0.",
+        also=(Transposed(theta_vector) * phi_vector(s, a),),
+        note="Not on the sheet.",
+    )
+    GREEDY_LINEAR = Formula(
+        "greedy-linear",
+        pi(s),
+        ArgMaxOver(Qhat(s, a), a, Choices),
+        title="Greedy action for a linear value",
+        source="Sutton & Barto 2018, section 10.1",
+        hint="Take the action with the greatest estimated value.",
+    )
+    LINEAR_STATE_VALUE = Formula(
+        "linear-state-value",
+        Vhat(s),
+        SumOver(theta(i) * phi(i, s), i, Features),
+        title="State value, linear in features",
+        source="Sutton & Barto 2018, eq. 9.8",
+        hint="Multiply each weight with its feature, and add.",
+        also=(Transposed(theta_vector) * phi_vector(s),),
+        note="Not on the sheet.",
+    )
+    TD_ERROR_APPROXIMATE = Formula(
+        "td-error-approximate",
+        delta(t),
+        r(t + 1) + gamma * Vhat(S(t + 1)) - Vhat(S(t)),
+        title="TD error with approximate values",
+        source="Sutton & Barto 2018, section 9.3",
+        hint="Reward plus the discounted estimate for the next state, minus the estimate for this one.",
+        note="Not on the sheet.",
+    )
+    SEMI_GRADIENT_TD = Formula(
+        "semi-gradient-td",
+        theta_vector,
+        theta_vector + alpha * delta(t) * phi_vector(S(t)),
+        title="Semi-gradient TD(0)",
+        source="Sutton & Barto 2018, eq. 9.9",
+        hint="Move the weights along the features of the state that is left, by α times the TD error.",
+        sign="←",
+        also=(theta_vector + alpha * (r(t + 1) + gamma * Vhat(S(t + 1)) - Vhat(S(t))) * phi_vector(S(t)),),
+        note="Not on the sheet. The target is treated as a constant, although it depends on θ, too.",
+    )
+    THROUGH_THE_TARGET = misread(
+        SEMI_GRADIENT_TD,
+        "gradient-through-the-target",
+        theta_vector + alpha * delta(t) * (phi_vector(S(t)) - gamma * phi_vector(S(t + 1))),
+        "The target counts as a constant: only the estimate for the state that is left is differentiated.",
+        when=lambda given: not given.actions and _goes_on(given),
+    )
+    FEATURES_OF_NEXT = misread(
+        SEMI_GRADIENT_TD,
+        "features-of-the-next-state",
+        theta_vector + alpha * delta(t) * phi_vector(S(t + 1)),
+        "The weights move along the features of the state that is left, not of the next one.",
+        when=lambda given: not given.actions,
+    )
+    SARSA_ERROR_APPROXIMATE = Formula(
+        "sarsa-error-approximate",
+        delta(t),
+        r(t + 1) + gamma * Qhat(S(t + 1), A(t + 1)) - Qhat(S(t), A(t)),
+        title="TD error with approximate action values",
+        source="Sutton & Barto 2018, section 10.1",
+        hint="Reward plus the discounted estimate for the next pair, minus the estimate for this one.",
+        note="Not on the sheet.",
+    )
+    SEMI_GRADIENT_SARSA = Formula(
+        "semi-gradient-sarsa",
+        theta_vector,
+        theta_vector + alpha * delta(t) * phi_vector(S(t), A(t)),
+        title="Semi-gradient Sarsa",
+        source="Sutton & Barto 2018, eq. 10.2",
+        hint="Move the weights along the features of the pair of state and action that is left.",
+        sign="←",
+        note="Not on the sheet.",
+    )
+    SARSA_THROUGH_THE_TARGET = misread(
+        SEMI_GRADIENT_SARSA,
+        "sarsa-gradient-through-the-target",
+        theta_vector + alpha * delta(t) * (phi_vector(S(t), A(t)) - gamma * phi_vector(S(t + 1), A(t + 1))),
+        "The target counts as a constant: only the estimate for the pair that is left is differentiated.",
+        when=lambda given: given.actions and _goes_on(given),
+    )
+    SARSA_FEATURES_OF_NEXT = misread(
+        SEMI_GRADIENT_SARSA,
+        "features-of-the-next-pair",
+        theta_vector + alpha * delta(t) * phi_vector(S(t + 1), A(t + 1)),
+        "The weights move along the features of the pair that is left, not of the next one.",
+        when=lambda given: bool(given.actions),
+    )

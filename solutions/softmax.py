@@ -1,0 +1,111 @@
+"""Softmax policies as solvers need them: probabilities, scores, returns; and their gradient by other means."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.features import ActionFeatures, FeatureVector
+from rldrill.problems.softmax import SoftmaxRun
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, simplest
+from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
+from rldrill.solutions.sheet.policy_gradient import PREFERENCE, SCORE_FUNCTION, SOFTMAX_POLICY, G_t
+from rldrill.solutions.vector import Vector
+from rldrill.solutions.work import Work
+
+
+def by_number(theta: Sequence[Value]) -> dict[str, Any]:
+    """Weights as formulas need them: one by one, counted from 1, and as a vector."""
+    return {
+        "theta": dict(enumerate(theta, 1)),
+        "features": tuple(range(1, len(theta) + 1)),
+        "theta_vector": Vector(theta),
+        "ones": Vector((ONE,) * len(theta)),
+    }
+
+
+def action_features(features: ActionFeatures) -> dict[str, Any]:
+    """Features as formulas need them: one by one, and as vectors."""
+    every = {(state, action): row for state, actions in features.items() for action, row in actions.items()}
+    return {
+        "f": {(index, *pair): exact(value) for pair, row in every.items() for index, value in enumerate(row, 1)},
+        "f_vector": {pair: Vector(map(exact, row)) for pair, row in every.items()},
+    }
+
+
+def chances(work: Work, known: Mapping[str, Any], state: str, actions: Sequence[str]) -> dict[tuple[str, str], Value]:
+    """Work out the probability of every action in a state, from the preferences."""
+    bound = {**known, "s": state, "choices": tuple(actions)}
+    bound["H"] = {(state, action): work.step(PREFERENCE, a=action, **bound) for action in actions}
+    return {(action, state): simplest(work.step(SOFTMAX_POLICY, a=action, **bound)) for action in actions}
+
+
+def score(work: Work, known: Mapping[str, Any], state: str, action: str, actions: Sequence[str]) -> Vector:
+    """Work out the gradient of log π(a|s); the probabilities are known."""
+    vector: Vector = work.step(SCORE_FUNCTION, **{**known, "s": state, "a": action, "choices": tuple(actions)})
+    return vector
+
+
+def known_run(given: SoftmaxRun) -> dict[str, Any]:
+    """A run with its policy, by the formulas' letters."""
+    return (
+        knowns.trajectory(given.trajectory)
+        | by_number([exact(weight) for weight in given.theta])
+        | action_features(given.features)
+        | {"gamma": exact(given.gamma), "T": len(given.trajectory.rewards)}
+    )
+
+
+def returns(work: Work, known: Mapping[str, Any]) -> dict[int, Value]:
+    """Work out the return from every step on, backwards in time."""
+    G = {known["T"]: ZERO}
+    for time in reversed(range(known["T"])):
+        G = {time: work.step(RETURN_RECURSIVE, into=G_t, t=time, r=known["r"], gamma=known["gamma"], G=G), **G}
+    return {time: G[time] for time in range(known["T"])}
+
+
+def scores(work: Work, given: SoftmaxRun, known: Mapping[str, Any]) -> dict[str, Any]:
+    """Work out the probabilities in every state that is left, and the score of every action taken there."""
+    run = given.trajectory
+    pi: dict[tuple[str, str], Value] = {}
+    for state in dict.fromkeys(run.states[:-1]):
+        pi |= chances(work, known, state, tuple(given.features[state]))
+    bound = {**known, "pi": pi}
+    taken = dict.fromkeys(zip(run.states, run.actions, strict=False))
+    return {
+        "pi": pi,
+        "score": {
+            (action, state): score(work, bound, state, action, tuple(given.features[state])) for state, action in taken
+        },
+    }
+
+
+def log_gradient(theta: Array, rows: Mapping[str, FeatureVector], action: str, more: Array | float = 0.0) -> Array:
+    """The gradient of the logarithm of a softmax probability, by a complex step: exact to the last digits.
+
+    ``more`` is added to the preferences, whatever the weights are.
+    """
+    features = np.array([[at(value) for value in row] for row in rows.values()])
+    index = tuple(rows).index(action)
+    tiny = 1e-30
+    shifted = features @ (theta[:, None] + 1j * tiny * np.eye(len(theta))) + np.reshape(more, (-1, 1))
+    shifted -= shifted.real.max()
+    logs = shifted[index] - np.log(np.exp(shifted).sum(axis=0))
+    return np.asarray(logs.imag / tiny)
+
+
+def discounted_returns(rewards: Sequence[float], gamma: float) -> Array:
+    """The returns from all times: an upper triangle of powers of γ times the rewards."""
+    steps = np.subtract.outer(np.arange(len(rewards)), np.arange(len(rewards))).T
+    weights = np.where(steps >= 0, gamma ** np.maximum(steps, 0), 0.0)
+    return np.asarray(weights @ np.array(rewards))
+
+
+def episode_gradient(given: SoftmaxRun, weights: Array) -> Array:
+    """The scores of all steps, weighted and added, in floating point."""
+    run = given.trajectory
+    theta = np.array([at(weight) for weight in given.theta])
+    pairs = zip(run.states, run.actions, weights, strict=False)
+    return np.asarray(sum(w * log_gradient(theta, given.features[s], a) for s, a, w in pairs))
