@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from math import prod
+from math import factorial, prod
 from typing import Any
 
 import sympy
@@ -57,6 +57,9 @@ class _Code(StrPrinter):
 
     def _print_log(self, expression: Any) -> str:
         return f"log({self._print(expression.args[0])})"
+
+    def _print_factorial(self, expression: Any) -> str:
+        return f"factorial({self._print(expression.args[0])})"
 
     def _over(self, expression: Over) -> str:
         return f"[{self._print(expression.body)} for {expression.index} in {self._print(expression.domain)}]"
@@ -121,7 +124,14 @@ def _inverse(value: Value) -> Value:
 
 
 def _root(value: Value) -> Value:
-    return simplest(sympy.sqrt(sympy.sympify(value)))
+    return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
+
+
+def _factorial(value: Value) -> Value:
+    number = fmpq(value)
+    if number.denominator != 1 or number < 0:
+        raise NoSolution("only whole numbers from 0 on have a factorial here")
+    return fmpq(factorial(int(number.numerator)))
 
 
 def _exp(value: Value) -> Value:
@@ -147,6 +157,8 @@ _NAMES = {
     "largest": largest,
     "arg_max": arg_max,
     "inverse": _inverse,
+    "root": _root,
+    "factorial": _factorial,
     "exp": _exp,
     "log": _log,
     "Rational": fmpq,

@@ -20,6 +20,7 @@ from rldrill.problems.mathematics import (
     name,
     number,
     operator,
+    punctuation,
     relation,
     row,
     variable,
@@ -31,7 +32,9 @@ from rldrill.solutions.formula.notation import (
     ArgMaxOver,
     Cases,
     Counting,
+    Expectation,
     Indicator,
+    IntegralOver,
     Label,
     MatrixLeaf,
     MaxOf,
@@ -225,6 +228,10 @@ def _body(expression: Expr) -> Math:
 def _over(expression: Over) -> Math:
     signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
+    if isinstance(expression, Expectation):
+        return row(operator("𝔼"), Fence(typeset(body), "[", "]"))
+    if isinstance(expression, IntegralOver):
+        return row(Big("∫"), _body(body), variable("d"), typeset(expression.index))
     if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
         return row(Big("arg max", typeset(expression.index)), _braces(body.args))
     below, above = _limits(expression)
@@ -297,6 +304,13 @@ def _logarithm(expression: Any) -> Math:
     return row(word("ln"), Fence(typeset(argument)))
 
 
+def _factorial(expression: Any) -> Math:
+    argument = expression.args[0]
+    plain = argument.is_Symbol or (argument.is_Integer and argument >= 0)
+    written = typeset(argument)
+    return row(written if plain else Fence(written), punctuation("!"))
+
+
 _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
@@ -310,4 +324,5 @@ _WRITERS: dict[type, Any] = {
     sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
     sympy.log: _logarithm,
+    sympy.factorial: _factorial,
 }

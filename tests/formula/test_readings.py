@@ -62,6 +62,7 @@ def known(data: st.DataObject) -> dict[str, Any]:
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
     fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
+    fixed |= {"first": "cool", "second": "hot"}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 
