@@ -69,7 +69,7 @@ def question(given: Given) -> Question:
         motion_table(given.motion, states),
         *([Paragraph("The probability $p$ is left open.")] if given.parameters() else []),
     )
-    parts = []
+    parts: list[Part] = []
     for label, action in zip(ascii_lowercase, given.actions, strict=False):
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
         parts.append(Part(label, f"{told} What is the belief after it{in_open(given)}?", Table("p", states)))

@@ -20,10 +20,11 @@ def tolerance(value: Value) -> fmpq:
     """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
     if is_zero(value):
         return _AT_ZERO
+    value = value if sign(value) > 0 else -value  # sympy's abs would evaluate it anew each time
     exponent = magnitude(value)  # a guess, by one perhaps; the comparisons decide, exactly
-    while sign(abs(value) - fmpq(10) ** (exponent + 1)) >= 0:
+    while sign(value - fmpq(10) ** (exponent + 1)) >= 0:
         exponent += 1
-    while sign(abs(value) - fmpq(10) ** exponent) < 0:
+    while sign(value - fmpq(10) ** exponent) < 0:
         exponent -= 1
     return fmpq(10) ** (exponent - DIGITS + 1) / 2
 

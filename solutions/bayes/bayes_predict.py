@@ -1,6 +1,7 @@
 """The prediction once for every action; each belief is the one that the next action starts from."""
 
 from string import ascii_lowercase
+from typing import Any
 
 import numpy as np
 
@@ -19,14 +20,14 @@ def solve(given: Given, work: Work) -> None:
     belief = knowns.values(given.belief)
     motion = knowns.motion(given.motion)
     for part, action in zip(ascii_lowercase, given.actions, strict=False):
-        known = {"a": action, "p": belief, "motion": motion, "states": states}
+        known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
         belief = work.answer(part, {state: work.step(PREDICT, s1=state, **known) for state in states})
 
 
 def oracle(given: Given) -> Answers:
     """All ways to go, one by one: the probability of each path is added where it ends."""
     states = tuple(given.belief)
-    paths = {(state,): at(chance) for state, chance in given.belief.items()}
+    paths: dict[tuple[str, ...], float] = {(state,): at(chance) for state, chance in given.belief.items()}
     answers = {}
     for part, action in zip(ascii_lowercase, given.actions, strict=False):
         array = motion_array(given.motion, action, states)

@@ -157,7 +157,6 @@ _NAMES = {
     "largest": largest,
     "arg_max": arg_max,
     "inverse": _inverse,
-    "root": _root,
     "factorial": _factorial,
     "exp": _exp,
     "log": _log,

@@ -82,7 +82,8 @@ def computed(value: Any) -> Expr:
     """A number or matrix that sympy computed, as a leaf."""
     if isinstance(value, sympy.MatrixBase):
         return MatrixLeaf(value)
-    return Negative(value) if value.is_Number and value.is_negative else value
+    first = value.args[0] if value.is_Mul else value  # −ln 4 needs brackets as −4 does
+    return Negative(value) if first.is_Number and first.is_negative and not value.free_symbols else value
 
 
 def _index(expression: Expr, known: Known) -> Expr:

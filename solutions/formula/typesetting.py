@@ -153,6 +153,8 @@ def _product(factors: Sequence[Expr]) -> Math:
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
     if flat[0] == -1 and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
+    if flat[0].is_Number and flat[0].is_negative:
+        return row(_MINUS, _product([-flat[0], *flat[1:]]))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
         above = [factor for factor in flat if not _reciprocal(factor)]

@@ -63,6 +63,11 @@ def known(data: st.DataObject) -> dict[str, Any]:
     }  # fmt: skip
     fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
     fixed |= {"first": "cool", "second": "hot"}
+    fixed |= {"M": "slow", "models": ACTIONS, "first_model": "slow", "second_model": "fast", "thetas": ACTIONS}
+    fixed |= {"heads": 2, "tails": 3, "beta_a": 3, "beta_b": 1, "v": "x", "abscissa": "x", "ordinate": "y"}
+    fixed |= {"coins": ("red", "blue"), "theta_of": {"red": fmpq(1, 4), "blue": fmpq(2, 3)}}
+    fixed |= {name: number() for name in ("mu_hat", "sigma2", "prior_mean", "prior_variance", "slope", "free")}
+    fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 

@@ -1,7 +1,9 @@
 """Numbers of Bayesian methods from books, as literals; where a book rounds, the fraction is worked out here."""
 
+from math import factorial
 from typing import Any
 
+import pytest
 from flint import fmpq
 
 import rldrill
@@ -72,3 +74,45 @@ def test_the_monty_hall_problem_of_think_bayes() -> None:
         measurements=["opens B"],
     )["a"]
     assert belief == {"A": fmpq(1, 3), "B": fmpq(0), "C": fmpq(2, 3)}
+
+
+@pytest.mark.parametrize(
+    ("heads", "tails", "ratio", "printed"),
+    [
+        # MacKay 2003, table 3.5: the evidence ratio of the bent coin (θ uniform) and one of θ = 1/6, for six tosses.
+        # heads! tails!/7! against (1/6)^heads (5/6)^tails; for 5 and 1 that is 1/42 · 46656/5 = 7776/35.
+        (5, 1, fmpq(7776, 35), 222.2), (3, 3, fmpq(46656, 17500), 2.67), (2, 4, fmpq(46656, 65625), 0.71),
+        (1, 5, fmpq(46656, 131250), 0.356), (0, 6, fmpq(46656, 109375), 0.427),
+    ],
+)  # fmt: skip
+def test_the_bent_coin_of_mackay(heads: int, tails: int, ratio: fmpq, printed: float) -> None:
+    models = {"bent": {}, "known": {"theta": "1/6"}}
+    prior = {"bent": "1/2", "known": "1/2"}
+    odds = solved("model-comparison", models=models, prior=prior, heads=heads, tails=tails)["b"]
+    assert odds == ratio
+    assert float(odds.numerator) / float(odds.denominator) == pytest.approx(printed, rel=5e-3)
+
+
+def test_the_euro_of_think_bayes_and_mackay() -> None:
+    # 250 spins of a Belgian euro, 140 heads: MacKay 2003, exercise 3.15, and Downey 2013, section 11.1, give
+    # 140! 110!/251! · 2^250 = 0.48 for the uniform prior against a fair coin.
+    models = {"biased": {}, "fair": {"theta": "1/2"}}
+    prior = {"biased": "1/2", "fair": "1/2"}
+    odds = solved("model-comparison", models=models, prior=prior, heads=140, tails=110)["b"]
+    assert odds == fmpq(factorial(140) * factorial(110) * 2**250, factorial(251))
+    assert round(int(odds.numerator) / int(odds.denominator), 2) == 0.48
+
+
+def test_the_first_of_anscombes_four_sets() -> None:
+    # Anscombe 1973, table: n = 11, mean of x 9, sum of squares of x 110, slope 0.5, intercept 3.0. Exactly:
+    # the products sum to 55.01 and y to 82.51, so the slope is 5501/11000 and the intercept 8251/1100 − 9·5501/11000.
+    x = [10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5]
+    y = ["8.04", "6.95", "7.58", "8.81", "8.33", "9.96", "7.24", "4.26", "10.84", "4.82", "5.68"]
+    slope, intercept = solved("model-fitting", line={"points": list(zip(x, y, strict=True))})["a"]
+    assert slope == fmpq(5501, 11000)
+    assert intercept == fmpq(33001, 11000)  # 82510/11000 − 49509/11000
+
+
+def test_the_variances_of_two_numbers() -> None:
+    # By hand: 1 and 3 have the mean 2; their squared distances sum to 2, so 2/2 = 1 and 2/1 = 2.
+    assert solved("model-fitting", sample={"values": [1, 3]}) == {"a": fmpq(2), "b": fmpq(1), "c": fmpq(2)}
