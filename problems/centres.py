@@ -51,7 +51,9 @@ def centres_table(centres: tuple[Point, ...]) -> Table:
 def place(given: Centred) -> Paragraph:
     """The sentence that says where the state is."""
     what = "position" if len(given.position) == 1 else "position in the plane" if len(given.position) == 2 else "state"
-    return Paragraph(f"The state of a robot is its {what}, $s = {point(given.position)}$. The features have these centres:")
+    return Paragraph(
+        f"The state of a robot is its {what}, $s = {point(given.position)}$. The features have these centres:"
+    )
 
 
 def draw_on_a_line(rng: Draws, distances: Iterable[int | Fraction]) -> Centred:

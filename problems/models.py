@@ -1,7 +1,7 @@
 """Models of Markov decision processes, policies and trajectories, as problems give them."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
 from typing import Annotated, NamedTuple, Self
@@ -131,7 +131,7 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
 
 
-def sums_to_one(probabilities: list[Scalar]) -> bool:
+def sums_to_one(probabilities: Iterable[Scalar]) -> bool:
     """Whether probabilities sum to 1; a parameter and its complement do."""
     rest = Fraction(1)
     balance: Counter[str] = Counter()

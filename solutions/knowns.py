@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Scalar
 from rldrill.problems.models import Dynamics, Model, Policy
 from rldrill.problems.runs import ActionRun, Trajectory
@@ -46,6 +47,24 @@ def policy(given: Policy) -> dict[tuple[str, str], Value]:
     """A policy as π(a|s), with the action first; actions that it does not name are never taken."""
     named = {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
     return defaultdict(_zero, named)
+
+
+def motion(given: Motion) -> dict[tuple[str, str, str], Value]:
+    """Where actions lead, as p(s′|s, a) with the next state first; what cannot be reached has 0."""
+    return defaultdict(
+        _zero,
+        {
+            (target, state, action): exact(chance)
+            for action, rows in given.items()
+            for state, chances in rows.items()
+            for target, chance in chances.items()
+        },
+    )
+
+
+def likelihood(given: Mapping[str, Mapping[str, Scalar]]) -> dict[tuple[str, str], Value]:
+    """What a sensor reads, as p(z|s) with the reading first."""
+    return {(reading, state): exact(chance) for reading, row in given.items() for state, chance in row.items()}
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:

@@ -6,13 +6,13 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.bars import belief_bars
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.beliefs import check_distribution, check_likelihood, likelihood_table
+from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability, shown
+from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Table
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
@@ -29,14 +29,8 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if sum(self.prior.values()) != 1:
-            raise ValueError(f"prior: the probabilities sum to {sum(self.prior.values())}, not to 1")
-        known = tuple(self.prior)
-        for reading, chances in self.likelihood.items():
-            check_keys(chances, known, f"the likelihood of {reading!r}", needed=known)
-        for hypothesis in known:
-            if (total := sum(chances[hypothesis] for chances in self.likelihood.values())) > 1:
-                raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {total}, more than 1")
+        check_distribution(self.prior, "prior")
+        check_likelihood(self.likelihood, tuple(self.prior))
         check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", needed=())
         return self
 
@@ -83,17 +77,11 @@ def question(given: Given) -> Question:
         Paragraph("Beforehand it believes, as $p(h)$:"),
         belief_bars(prior=given.prior),
         Paragraph("What is measured depends on which of them is true:"),
-        Table(
-            header=("$p(z|h)$", *hypotheses),
-            rows=tuple(
-                (reading, *(f"${shown(chances[hypothesis])}$" for hypothesis in hypotheses))
-                for reading, chances in given.likelihood.items()
-            ),
-        ),
+        likelihood_table(given.likelihood, hypotheses, "h"),
     )
     parts = []
     for index, measurement in enumerate(given.measurements):
         first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
         ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
-        parts.append(Part(chr(ord("a") + index), ask, TableKind("p", hypotheses)))
+        parts.append(Part(chr(ord("a") + index), ask, Table("p", hypotheses)))
     return Question(blocks, tuple(parts))

@@ -1,11 +1,10 @@
 """Action values that are linear in features, with one block of weights for every action."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.centres import Centred, centres_table, draw_in_the_plane, draw_on_a_line, place
+from rldrill.problems.centres import Centred, centres_table, draw_on_a_line, place
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
@@ -83,13 +82,17 @@ def question(given: Given) -> Question:
     blocks: tuple[Block, ...]
     parts: list[Part] = []
     if given.bumps is None:
-        features = ", ".join(f"{name} = {shown(value)}" for name, value in zip(names, given.features or (), strict=True))
+        features = ", ".join(
+            f"{name} = {shown(value)}" for name, value in zip(names, given.features or (), strict=True)
+        )
         blocks = (Paragraph(f"In state $s$ the features are ${features}$."),)
     else:
         blocks = (
             place(given.bumps),
             centres_table(given.bumps.centres),
-            Paragraph(f"They are piecewise linear radial basis functions of the width $b = {shown(given.bumps.width)}$."),
+            Paragraph(
+                f"They are piecewise linear radial basis functions of the width $b = {shown(given.bumps.width)}$."
+            ),
         )
         parts.append(Part("a", f"What are the features ${', '.join(names)}$, in this order?", Vector(names)))
     last = given.size * len(given.actions)

@@ -53,7 +53,9 @@ class Given(Givens):
             raise ValueError("actions: one is named twice")
         ended = run.states[-1] in run.terminal
         if len(run.actions) != len(run.states) - ended:
-            raise ValueError("trajectory: Sarsa needs the action taken in every state, the last one too unless it is terminal")
+            raise ValueError(
+                "trajectory: Sarsa needs the action taken in every state, the last one too unless it is terminal"
+            )
         for action in run.actions:
             if action not in self.actions:
                 raise ValueError(f"trajectory: {action!r} is taken but has no block of weights")

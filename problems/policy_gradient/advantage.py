@@ -166,6 +166,4 @@ def _along(given: Given, run: Run) -> Question:
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
         return Question(blocks, (Part("a", ask, Vector(estimates), points=3),))
     first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
-    return Question(
-        blocks, (Part("a", first, Vector(errors), zero=True), Part("b", ask, Vector(estimates), points=2))
-    )
+    return Question(blocks, (Part("a", first, Vector(errors), zero=True), Part("b", ask, Vector(estimates), points=2)))

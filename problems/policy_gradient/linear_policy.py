@@ -37,8 +37,7 @@ def draw(level: int, rng: Draws) -> Given:
     actions = setting.actions[: 2 if level == 1 else 3]
     size = 3 if level == 3 else 2
     theta = tuple(
-        rng.fraction("1/2", "-1/2", "3/2", "-1", "2", "1/4") if level == 3 else rng.nonzero(-3, 4)
-        for _ in range(size)
+        rng.fraction("1/2", "-1/2", "3/2", "-1", "2", "1/4") if level == 3 else rng.nonzero(-3, 4) for _ in range(size)
     )
     high = {1: 4, 2: 4, 3: 5}[level]
     features = {
@@ -58,12 +57,11 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part(
-                "a", "What is $Q̂(s, a)$ of every action?", TableKind("Q̂", pairs), points=2, zero=True
-            ),
+            Part("a", "What is $Q̂(s, a)$ of every action?", TableKind("Q̂", pairs), points=2, zero=True),
             Part(
                 "b",
-                "Which action does the policy take in each state?" if len(given.features) > 1
+                "Which action does the policy take in each state?"
+                if len(given.features) > 1
                 else "Which action does the policy take?",
                 Policy({state: tuple(row) for state, row in given.features.items()}),
             ),

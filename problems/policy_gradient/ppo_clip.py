@@ -52,7 +52,9 @@ class Given(Givens):
     @model_validator(mode="after")
     def _alike(self) -> Self:
         if len({tuple(sample.preferences or ()) for sample in self.samples}) > 1:
-            raise ValueError("samples: give preferences of the same actions in all of them, or new probabilities in all")
+            raise ValueError(
+                "samples: give preferences of the same actions in all of them, or new probabilities in all"
+            )
         return self
 
     @property
@@ -117,9 +119,7 @@ def question(given: Given) -> Question:
     blocks: tuple[Block, ...] = (
         Paragraph(f"PPO learns from the {wanted} below, taken by the old policy; $A_t$ is the estimated advantage."),
         _samples_table(given),
-        *(
-            [Paragraph("The new policy is softmax in its preferences $h(s, a)$.")] if given.actions else []
-        ),
+        *([Paragraph("The new policy is softmax in its preferences $h(s, a)$.")] if given.actions else []),
         Paragraph(
             "With the ratio $ρ_t$ of new to old probability, the unclipped term is $u_t = ρ_t A_t$ and the clipped one "
             f"$c_t$ has $ρ_t$ clipped to the range from $1 − ε$ to $1 + ε$, with $ε = {shown(given.epsilon)}$."

@@ -49,7 +49,9 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph("In state $s$ the actions have these features:"),
         features_table(given.features),
-        Paragraph(f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."),
+        Paragraph(
+            f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."
+        ),
     )
     return Question(
         blocks,

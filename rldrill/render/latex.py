@@ -62,6 +62,8 @@ def _glyph(text: str, style: str) -> str:
     primes = "'" * (len(text) - len(stem))
     if style == "word" and stem not in _PLAIN_WORDS:
         return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}" + primes
+    if style == "variable" and stem == "Σ":  # a matrix of covariances, no sum
+        return r"\Sigma" + primes
     return _COMMANDS.get(stem, stem) + primes
 
 

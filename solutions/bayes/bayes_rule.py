@@ -6,7 +6,6 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BASE_RATE_IGNORED, BAYES, LIKELIHOOD_FOR_POSTERIOR, NOT_NORMALISED
 from rldrill.solutions.work import Work
@@ -16,11 +15,7 @@ MISCONCEPTIONS = (NOT_NORMALISED, BASE_RATE_IGNORED, LIKELIHOOD_FOR_POSTERIOR)
 
 def solve(given: Given, work: Work) -> None:
     """The posterior of every hypothesis, measurement by measurement."""
-    likelihood = {
-        (reading, hypothesis): exact(chance)
-        for reading, chances in given.likelihood.items()
-        for hypothesis, chance in chances.items()
-    }
+    likelihood = knowns.likelihood(given.likelihood)
     hypotheses = tuple(given.prior)
     belief = knowns.values(given.prior)
     for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from math import prod
+from math import factorial, prod
 from typing import Any
 
 import sympy
@@ -68,6 +68,9 @@ class _Code(StrPrinter):
 
     def _print_log(self, expression: Any) -> str:
         return f"log({self._print(expression.args[0])})"
+
+    def _print_factorial(self, expression: Any) -> str:
+        return f"factorial({self._print(expression.args[0])})"
 
     def _over(self, expression: Over) -> str:
         return f"[{self._print(expression.body)} for {expression.index} in {self._print(expression.domain)}]"
@@ -158,6 +161,13 @@ def _root(value: Value) -> Value:
     return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
 
 
+def _factorial(value: Value) -> Value:
+    number = fmpq(value)
+    if number.denominator != 1 or number < 0:
+        raise NoSolution("only whole numbers from 0 on have a factorial here")
+    return fmpq(factorial(int(number.numerator)))
+
+
 def _exp(value: Value) -> Value:
     power = simplest(sympy.exp(sympy.sympify(value, strict=True)))
     return monomial(power) if isinstance(power, sympy.Expr) else power  # e^(ln x) is x
@@ -201,6 +211,7 @@ _NAMES = {
     "least": _least,
     "arg_max": arg_max,
     "inverse": _inverse,
+    "factorial": _factorial,
     "exp": _exp,
     "log": _log,
     "sin": _sine,

@@ -157,6 +157,14 @@ class MeanOver(Over):
     """The unweighted mean over a finite set; no formula of the sheet has it, but mistakes do."""
 
 
+class Expectation(MeanOver):
+    """𝔼 over cases that are equally probable; which case it runs over is not written."""
+
+
+class IntegralOver(Over):
+    """∫ over all values of a letter: only written, beside a closed form that is computed with."""
+
+
 class ArgMaxOver(Over):
     """The elements of a finite set at which the body is greatest."""
 

@@ -93,7 +93,8 @@ def computed(value: Any) -> Expr:
     """A number or matrix that sympy computed, as a leaf."""
     if isinstance(value, sympy.MatrixBase):
         return MatrixLeaf(value)
-    return Negative(value) if value.is_Number and value.is_negative else value
+    first = value.args[0] if value.is_Mul else value  # −ln 4 needs brackets as −4 does
+    return Negative(value) if first.is_Number and first.is_negative and not value.free_symbols else value
 
 
 def _index(expression: Expr, known: Known) -> Expr:
@@ -124,7 +125,7 @@ def _over(expression: Over, known: Known) -> Expr:
     if isinstance(expression, MaxOver):
         return MaxOf(*terms) if len(terms) > 1 else terms[0]
     if isinstance(expression, MeanOver):
-        return _product([_sum(terms), Pow(sympy.Integer(len(terms)), -1, evaluate=False)])
+        return _product([_sum(terms), _power(sympy.Integer(len(terms)), sympy.S.NegativeOne)])
     if isinstance(expression, ArgMaxOver):
         return ArgMaxOver(MaxOf(*terms), expression.index, expression.domain)
     raise TypeError(f"{expression.func.__name__} cannot be written out")
@@ -149,9 +150,18 @@ def _product(factors: list[Expr]) -> Expr:
     if any(factor.is_Number and factor.is_zero for factor in flat):
         return sympy.S.Zero
     kept = [factor for factor in flat if factor != 1]
+    if len(kept) > 1:
+        kept = _without_ones(kept)
     if not kept:
         return sympy.S.One
     return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
+
+
+def _without_ones(factors: list[Expr]) -> list[Expr]:
+    """The factors without 1×1 matrices of 1; one stays where the product would be no matrix without it."""
+    ones = [f for f in factors if isinstance(f, MatrixLeaf) and f.scalar and f.args[0][0] == 1]
+    kept = [f for f in factors if not any(f is one for one in ones)]
+    return kept if any(f.is_commutative is False for f in kept) else [*kept, *ones[:1]]
 
 
 def _power(base: Expr, exponent: Expr) -> Expr:
@@ -232,8 +242,8 @@ def _inner(term: Expr) -> Expr:
         return reduced(term)
     if term.is_Mul:
         return Mul(*[_inner(factor) for factor in term.args], evaluate=False)
-    if term.is_Pow and term.args[1] == -1:
-        return Pow(_worked_out(term.args[0]), -1, evaluate=False)
+    if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
+        return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, MaxOf) else term
 
 

@@ -20,6 +20,7 @@ from rldrill.problems.mathematics import (
     name,
     number,
     operator,
+    punctuation,
     relation,
     row,
     variable,
@@ -33,9 +34,11 @@ from rldrill.solutions.formula.notation import (
     Cases,
     Clipped,
     Counting,
+    Expectation,
     Expected,
     Greatest,
     Indicator,
+    IntegralOver,
     Label,
     Least,
     MatrixLeaf,
@@ -167,6 +170,8 @@ def _product(factors: Sequence[Expr]) -> Math:
         rest = [factor for factor in flat if factor.is_commutative is False]
         dot = [_TIMES] if isinstance(rest[0], VectorLeaf) else []
         return row(_product(scalars), *dot, _product(rest))
+    if flat[0].is_Number and flat[0].is_negative:
+        return row(_MINUS, _product([-flat[0], *flat[1:]]))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
         above = [factor for factor in flat if not _reciprocal(factor)]
@@ -244,6 +249,10 @@ def _body(expression: Expr) -> Math:
 def _over(expression: Over) -> Math:
     signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
+    if isinstance(expression, Expectation):
+        return row(operator("𝔼"), Fence(typeset(body), "[", "]"))
+    if isinstance(expression, IntegralOver):
+        return row(Big("∫"), _body(body), variable("d"), typeset(expression.index))
     if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
         return row(Big("arg max", typeset(expression.index)), _braces(body.args))
     below, above = _limits(expression)
@@ -338,6 +347,13 @@ def _expected(expression: Expected) -> Math:
     return row(Script(variable("𝔼"), variable("π")), Fence(typeset(expression.args[0]), "[", "]"))
 
 
+def _factorial(expression: Any) -> Math:
+    argument = expression.args[0]
+    plain = argument.is_Symbol or (argument.is_Integer and argument >= 0)
+    written = typeset(argument)
+    return row(written if plain else Fence(written), punctuation("!"))
+
+
 _WRITERS: dict[type, Any] = {
     Over: _over,
     MaxOf: _max_of,
@@ -357,4 +373,5 @@ _WRITERS: dict[type, Any] = {
     sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
     sympy.log: _logarithm,
+    sympy.factorial: _factorial,
 }

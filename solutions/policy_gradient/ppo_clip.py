@@ -61,7 +61,9 @@ def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
         return f"The ratio $ρ_{{{time}}}$ lies inside the range, so nothing is clipped and the gradient stays."
     if cut:
-        return f"$L_{{{time}}}$ is the clipped term, in which the bound stands for $ρ_{{{time}}}$: it is constant in $θ$."
+        return (
+            f"$L_{{{time}}}$ is the clipped term, in which the bound stands for $ρ_{{{time}}}$: it is constant in $θ$."
+        )
     return f"$L_{{{time}}}$ is the unclipped term, which still changes with $θ$."
 
 

@@ -1,12 +1,111 @@
 """Section 9 of the sheet: Bayesian methods."""
 
-from sympy import evaluate
+from typing import Any
 
+from sympy import Pow, evaluate, factorial, log
+
+from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, misread
-from rldrill.solutions.formula.notation import Hypotheses, SumOver, conditioned, h, h1, quantity, z
+from rldrill.solutions.formula.notation import (
+    ArgMaxOver,
+    Counting,
+    Hypotheses,
+    IntegralOver,
+    States,
+    SumOver,
+    a,
+    called,
+    conditioned,
+    h,
+    h1,
+    i,
+    letter,
+    n,
+    quantity,
+    s,
+    s1,
+    z,
+)
+
+#: What stands beside the formulas that the sheet itself does not have.
+BEYOND = "Beyond the sheet."
 
 p = quantity("p", conditioned("p"))
 likelihood = quantity("likelihood", conditioned("p"))
+motion = quantity("motion", conditioned("p"))
+first = letter("first", Script(variable("s"), number(1)))
+second = letter("second", Script(variable("s"), number(2)))
+
+# Models and what is fitted to data
+_DATA = Script(variable("D"), variable("z"))
+_THETA = variable("θ")
+_HAT = Accent(_THETA, "hat")
+
+
+def _given(*conditions: Math) -> Math:
+    return row(variable("p"), Fence(row(_DATA, punctuation("|"), listed(conditions))))
+
+
+def _below(head: Math, index: str) -> Math:
+    return Script(head, variable(index) if index.isalpha() else number(index))
+
+
+M = letter("M")
+Models = letter("models", "M")
+theta = letter("share", "θ")
+Thetas = letter("thetas", "Θ")
+theta_hat = letter("theta_hat", _HAT)
+model_hat = letter("model_hat", Accent(variable("M"), "hat"))
+#: The probability (density) of a parameter, of a model, and of both, given the data.
+of_theta = quantity(
+    "of_theta", lambda value: row(variable("p"), Fence(row(value, punctuation("|"), listed((variable("M"), _DATA)))))
+)
+of_model = quantity("of_model", lambda model: row(variable("p"), Fence(row(model, punctuation("|"), _DATA))))
+of_both = quantity("of_both", lambda *both: row(variable("p"), Fence(row(listed(both), punctuation("|"), _DATA))))
+evidence = quantity("evidence", _given)
+with_theta = quantity("with_theta", lambda model: _given(model, _THETA))
+density = quantity("density", conditioned("p"))
+first_model = letter("first_model", _below(variable("M"), "1"))
+second_model = letter("second_model", _below(variable("M"), "2"))
+heads = letter("heads", _below(variable("n"), "1"))
+tails = letter("tails", _below(variable("n"), "0"))
+beta_a = letter("beta_a", "a")
+beta_b = letter("beta_b", "b")
+coin = letter("coin", "c")
+Coins = letter("coins", "C")
+heads_of = quantity("heads_of", lambda index: Script(variable("n"), listed((number(1), index))))
+tails_of = quantity("tails_of", lambda index: Script(variable("n"), listed((number(0), index))))
+theta_of = quantity("theta_of", lambda index: Script(_THETA, index))
+log_likelihood = letter("log_likelihood", row(word("ln"), _given(variable("M"), _THETA)))
+k = letter("free", "k")
+bic = quantity("bic", called(word("BIC")))
+
+# Samples and lines
+x = quantity("x", lambda index: Script(variable("x"), index))
+mu_hat = letter("mu_hat", Accent(variable("μ"), "hat"))
+mu_map = letter("mu_map", Script(Accent(variable("μ"), "hat"), word("MAP")))
+sigma2_hat = letter("sigma2_hat", Script(Accent(variable("σ"), "hat"), above=number(2)))
+sample_variance = letter("sample_variance", Script(variable("s"), above=number(2)))
+sigma2 = letter("sigma2", Script(variable("σ"), above=number(2)))
+prior_mean = letter("prior_mean", _below(variable("μ"), "0"))
+prior_variance = letter("prior_variance", Script(variable("σ"), number(0), number(2)))
+v = letter("v")
+abscissa = letter("abscissa", "x")
+ordinate = letter("ordinate", "y")
+value_of = quantity("value_of", lambda of, index: Script(of, index))
+average = quantity("average", lambda of: Accent(of, "bar"))
+slope = letter("slope", Script(_HAT, number(1)))
+slope_map = letter("slope_map", Script(_HAT, row(number(1), punctuation(","), word("MAP"))))
+intercept = letter("intercept", Script(_HAT, number(0)))
+
+
+def _may_stay(given: Any) -> bool:
+    """Whether some state is believed in that every action may leave as it is."""
+    return any(
+        chance and all(given.motion[action][state].get(state) for action in given.actions)
+        for state, chance in given.belief.items()
+    )
+
 
 with evaluate(False):
     BAYES = Formula(
@@ -16,6 +115,7 @@ with evaluate(False):
         title="Bayes' rule",
         source="Thrun, Burgard & Fox 2005, eq. 2.24",
         hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these.",
+        also=(likelihood(z, h) * p(h) / p(z),),
     )
     NOT_NORMALISED = misread(
         BAYES,
@@ -34,4 +134,232 @@ with evaluate(False):
         "likelihood-for-posterior",
         likelihood(z, h),
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
+    )
+
+    BAYES_TWO_STATES = Formula(
+        "bayes-two-states",
+        p(first, z),
+        likelihood(z, first) * p(first) / (likelihood(z, first) * p(first) + likelihood(z, second) * p(second)),
+        title="Bayes' rule for two states",
+        source="Thrun, Burgard & Fox 2005, eq. 2.24, with two states",
+        hint="The two products of likelihood and prior stand below the line, the one asked for above it.",
+    )
+
+    PREDICT = Formula(
+        "predict",
+        p(s1),
+        SumOver(motion(s1, s, a) * p(s), s, States),
+        title="Belief after an action",
+        source="Thrun, Burgard & Fox 2005, table 4.1, line 3",
+        hint="Add up over all states that the robot may come from: to have been there, times to get here.",
+    )
+    MOTION_TRANSPOSED = misread(
+        PREDICT,
+        "motion-transposed",
+        SumOver(motion(s, s1, a) * p(s), s, States),
+        "p(s′|s, a) leads from s to s′: add up over where the robot comes from, not over where it goes.",
+    )
+    MOTION_AS_LIKELIHOOD = misread(
+        PREDICT,
+        "motion-as-likelihood",
+        motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
+        "An action is no measurement: nothing is weighed and normalised, probability flows from state to state.",
+        when=_may_stay,
+    )
+
+    MODEL_FITTING = Formula(
+        "model-fitting",
+        theta_hat,
+        ArgMaxOver(of_theta(theta), theta, Thetas),
+        title="Model fitting",
+        source="Bishop 2006, section 3.3.1",
+        hint="Take the parameter that is most probable given the data; with a flat prior that is maximum likelihood.",
+    )
+    COIN_ML = Formula(
+        "coin-ml",
+        theta_hat,
+        heads / (heads + tails),
+        title="Maximum likelihood: coin",
+        source="Murphy 2012, section 3.3.3",
+        hint="The share of heads among all tosses makes the data most probable.",
+        note=BEYOND,
+    )
+    COIN_MAP = Formula(
+        "coin-map",
+        theta_hat,
+        (heads + beta_a - 1) / (heads + tails + beta_a + beta_b - 2),
+        title="Maximum a posteriori: coin with the prior Beta(a, b)",
+        source="Murphy 2012, section 3.3.3",
+        hint="The prior counts as a − 1 heads and b − 1 tails that were seen before.",
+        note=BEYOND,
+    )
+    GAUSSIAN_MEAN = Formula(
+        "gaussian-mean",
+        mu_hat,
+        SumOver(x(i), i, Counting(1, n)) * Pow(n, -1),
+        title="Maximum likelihood: mean",
+        source="Bishop 2006, eq. 1.55",
+        hint="Add the measurements and divide by how many there are.",
+        note=BEYOND,
+    )
+    GAUSSIAN_VARIANCE = Formula(
+        "gaussian-variance",
+        sigma2_hat,
+        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
+        title="Maximum likelihood: variance",
+        source="Bishop 2006, eq. 1.56",
+        hint="Average the squared distances from the mean.",
+        note=BEYOND,
+    )
+    SAMPLE_VARIANCE = Formula(
+        "sample-variance",
+        sample_variance,
+        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
+        title="Unbiased estimate of the variance",
+        source="Bishop 2006, eq. 1.59",
+        hint="Divide by n − 1: the mean was estimated from the same data.",
+        note=BEYOND,
+    )
+    N_FOR_N_MINUS_1 = misread(
+        SAMPLE_VARIANCE,
+        "n-for-n-minus-1",
+        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
+        "The unbiased estimate divides by n − 1; dividing by n is maximum likelihood.",
+        when=lambda given: given.sample is not None,
+    )
+    GAUSSIAN_MAP = Formula(
+        "gaussian-mean-map",
+        mu_map,
+        (sigma2 * prior_mean + n * prior_variance * mu_hat) / (n * prior_variance + sigma2),
+        title="Maximum a posteriori: mean of known variance σ², with the prior N(μ₀, σ₀²)",
+        source="Bishop 2006, eq. 2.141",
+        hint="Weigh the prior mean with σ² and the data's mean with n σ₀².",
+        note=BEYOND,
+    )
+    MEAN = Formula(
+        "mean",
+        average(v),
+        SumOver(value_of(v, i), i, Counting(1, n)) * Pow(n, -1),
+        title="Mean",
+        source="James, Witten, Hastie & Tibshirani 2013, section 3.1.1",
+        hint="Add up and divide by how many there are.",
+        note=BEYOND,
+    )
+    _PRODUCTS = SumOver(
+        (value_of(abscissa, i) - average(abscissa)) * (value_of(ordinate, i) - average(ordinate)), i, Counting(1, n)
+    )
+    _SQUARES = SumOver((value_of(abscissa, i) - average(abscissa)) ** 2, i, Counting(1, n))
+    LINE_SLOPE = Formula(
+        "line-slope",
+        slope,
+        _PRODUCTS / _SQUARES,
+        title="Least squares: slope",
+        source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
+        hint="Write down how far every x and y is from its mean; multiply, square and add these.",
+        note=BEYOND,
+    )
+    LINE_INTERCEPT = Formula(
+        "line-intercept",
+        intercept,
+        average(ordinate) - slope * average(abscissa),
+        title="Least squares: intercept",
+        source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
+        hint="The line goes through the point of the means.",
+        note=BEYOND,
+    )
+    LINE_SLOPE_MAP = Formula(
+        "line-slope-map",
+        slope_map,
+        _PRODUCTS / (_SQUARES + sigma2 / prior_variance),
+        title="Maximum a posteriori: slope with the prior N(0, σ₀²), noise of variance σ²",
+        source="Bishop 2006, section 3.3.1, for a line with a free intercept",
+        hint="The prior adds σ²/σ₀² below the line, which draws the slope towards 0.",
+        note=BEYOND,
+    )
+
+    MODEL_COMPARISON = Formula(
+        "model-comparison",
+        model_hat,
+        ArgMaxOver(evidence(M) * p(M), M, Models),
+        title="Model comparison",
+        source="Bishop 2006, eq. 3.66",
+        hint="Multiply each model's evidence with its prior; the greatest product wins.",
+        also=(
+            ArgMaxOver(of_model(M), M, Models),
+            ArgMaxOver(IntegralOver(of_both(M, theta), theta, Thetas), M, Models),
+        ),
+    )
+    FIXED_COIN = Formula(
+        "coin-likelihood",
+        evidence(M),
+        theta**heads * (1 - theta) ** tails,
+        title="Evidence of a coin whose θ is known",
+        source="Murphy 2012, section 3.3.1",
+        hint="Every head has the probability θ, every tail 1 − θ, and the tosses are independent.",
+        note=BEYOND,
+    )
+    EVIDENCE = Formula(
+        "evidence",
+        evidence(M),
+        factorial(beta_a + beta_b - 1)
+        * factorial(beta_a + heads - 1)
+        * factorial(beta_b + tails - 1)
+        / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1)),
+        title="Evidence of a coin with the prior Beta(a, b)",
+        source="MacKay 2003, eq. 3.12, there with a = b = 1",
+        hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
+        also=(IntegralOver(with_theta(M) * density(theta, M), theta, Thetas),),
+        note=BEYOND,
+    )
+    BEST_FIT = misread(
+        EVIDENCE,
+        "best-fit-for-evidence",
+        (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+        "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
+    )
+    POSTERIOR_ODDS = Formula(
+        "posterior-odds",
+        of_model(first_model) / of_model(second_model),
+        evidence(first_model) * p(first_model) / (evidence(second_model) * p(second_model)),
+        title="Posterior odds of two models",
+        source="MacKay 2003, section 3.3",
+        hint="Multiply the ratio of the evidences with the ratio of the priors; p(D) cancels.",
+        note=BEYOND,
+    )
+
+    LOG_LIKELIHOOD = Formula(
+        "coin-log-likelihood",
+        log_likelihood,
+        SumOver(heads_of(coin) * log(theta_of(coin)) + tails_of(coin) * log(1 - theta_of(coin)), coin, Coins),
+        title="Log-likelihood of coins",
+        source="Murphy 2012, section 3.3.1",
+        hint="Every head adds ln θ, every tail ln(1 − θ), with the θ of its coin.",
+        note=BEYOND,
+    )
+    BIC = Formula(
+        "bic",
+        bic(M),
+        -2 * log_likelihood + k * log(n),
+        title="Bayesian information criterion",
+        source="Hastie, Tibshirani & Friedman 2009, eq. 7.35",
+        hint="k counts the free parameters, n the data; the smallest BIC wins.",
+        note="With natural logarithms.",
+    )
+    BIC_SIGN = misread(
+        BIC,
+        "sign",
+        2 * log_likelihood + k * log(n),
+        "The log-likelihood is taken −2 times, so that a better fit makes the BIC smaller.",
+    )
+    BIC_WITHOUT_LOG = misread(
+        BIC,
+        "k-times-n",
+        -2 * log_likelihood + k * n,
+        "Each free parameter costs log n, not n.",
+    )
+    BIC_LOG_10 = misread(
+        BIC,
+        "log-base",
+        (-2 * log_likelihood + k * log(n)) / log(10),
+        "The logarithms of the BIC are natural, to the base e.",
     )

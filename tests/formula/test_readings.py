@@ -70,6 +70,12 @@ def known(data: st.DataObject) -> dict[str, Any]:
     vectors = ("theta_vector", "gradient", "ones")
     fixed |= {"samples": (0, 1, 2), "dimensions": (1, 2), **{code: vector() for code in vectors}}
     fixed |= {code: Anything(vector) for code in ("f_vector", "phi_vector", "score")}
+    fixed |= {"first": "cool", "second": "hot"}
+    fixed |= {"M": "slow", "models": ACTIONS, "first_model": "slow", "second_model": "fast", "thetas": ACTIONS}
+    fixed |= {"heads": 2, "tails": 3, "beta_a": 3, "beta_b": 1, "v": "x", "abscissa": "x", "ordinate": "y"}
+    fixed |= {"coins": ("red", "blue"), "theta_of": {"red": fmpq(1, 4), "blue": fmpq(2, 3)}}
+    fixed |= {name: number() for name in ("mu_hat", "sigma2", "prior_mean", "prior_variance", "slope", "free")}
+    fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
     return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
 
 

@@ -1,0 +1,154 @@
+"""The Bayesian information criterion of two models, and which of them wins."""
+
+from functools import cache
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Probability, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name
+from rldrill.problems.parts import Choice, Part
+from rldrill.problems.parts import Table as TableKind
+
+TITLE = "Bayesian information criterion"
+SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
+REVISION = 1
+
+#: What the models say of the coins' probabilities of heads.
+COIN_MODELS = {
+    "fair": "every coin has $θ = 1/2$",
+    "shared": "all coins have the same unknown $θ$",
+    "own": "every coin has an unknown $θ$ of its own",
+}
+
+
+class Fitted(Givens):
+    """A model that was fitted: its likelihood at the best parameters, and their number k."""
+
+    likelihood: Probability
+    k: int = Field(ge=0, le=1000)
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        if not self.likelihood:
+            raise ValueError("likelihood is 0, so its logarithm does not exist")
+        return self
+
+
+class Data(Givens):
+    """How often each coin fell on its sides, heads and tails, and which two models are compared."""
+
+    tosses: dict[Name, tuple[int, int]] = Field(min_length=1, max_length=20)
+    models: tuple[Literal["fair", "shared", "own"], Literal["fair", "shared", "own"]]
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        for name, counts in self.tosses.items():
+            if min(counts) < 1 or max(counts) > 1000:
+                raise ValueError(f"tosses: {name!r} needs from 1 to 1000 heads and as many tails, or ln 0 turns up")
+        if self.models[0] == self.models[1]:
+            raise ValueError(f"models: {self.models[0]!r} is compared with itself")
+        return self
+
+
+class Given(Givens):
+    """Two fitted models and the number of data, or the tosses of coins."""
+
+    fitted: dict[Name, Fitted] | None = Field(default=None, min_length=2, max_length=2)
+    n: int | None = Field(default=None, ge=2, le=10**6)
+    data: Data | None = None
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.fitted is None) == (self.data is None):
+            raise ValueError("give either fitted models or data")
+        if (self.fitted is None) != (self.n is None):
+            raise ValueError("n, the number of data, is needed with fitted models, and with them only")
+        return self
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The two models."""
+        return tuple(self.fitted) if self.fitted is not None else self.data.models if self.data is not None else ()
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """Two models already fitted; one coin; two coins."""
+    if level == 1:
+        simple, rich = sorted(rng.distinct(2, 1, 5))
+        poor, good = sorted(rng.distinct(2, 2, 9), reverse=True)
+        return Given(
+            fitted={
+                "simple": Fitted(likelihood=1 / 2**poor, k=int(simple)),
+                "rich": Fitted(likelihood=1 / 2**good, k=int(rich)),
+            },
+            n=rng.choice((4, 8, 16, 32)),
+        )
+    if level == 2:
+        return Given(
+            data=Data(tosses={rng.choice(("red", "blue", "gold")): rng.choice(_handy())}, models=("fair", "shared"))
+        )
+    first, second = rng.choice(_handy_pairs())
+    return Given(data=Data(tosses={"red": first, "blue": second}, models=(rng.choice(("fair", "shared")), "own")))
+
+
+@cache
+def _handy() -> tuple[tuple[int, int], ...]:
+    """Tosses of a coin whose logarithms are all multiples of ln 2 and ln 3."""
+    small = [number for number in range(1, 33) if 6**9 % number == 0]
+    return tuple((heads, tails) for heads in small for tails in small if heads + tails in small and heads + tails > 3)
+
+
+@cache
+def _handy_pairs() -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:
+    """The same for two coins, taken alone and together."""
+    pairs = [(first, second) for first in _handy() for second in _handy()]
+    return tuple(
+        (first, second)
+        for first, second in pairs
+        if (first[0] + second[0], first[1] + second[1]) in _handy() and first != second
+    )
+
+
+def question(given: Given) -> Question:
+    """The models; log-likelihoods unless they are given, both criteria, and the winner."""
+    names = given.names
+    rule = Paragraph('$"BIC"(M) = −2 log p(D|M, θ) + k log n$, where $log$ is the natural logarithm, $ln$.')
+    criteria = Part("a", "What is the BIC of both models?", TableKind("BIC", names), 2, zero=True)
+    if given.fitted is not None:
+        rows = tuple((name, f"${model.k}$", f"${shown(model.likelihood)}$") for name, model in given.fitted.items())
+        blocks: tuple[Block, ...] = (
+            Paragraph(f"Two models were fitted to $n = {given.n}$ data. Their likelihoods at their best parameters:"),
+            Table(header=("$M$", "parameters $k$", "$p(D|M, θ)$"), rows=rows),
+            rule,
+        )
+        return Question(blocks, (criteria, _winner("b", names)))
+    assert given.data is not None
+    tosses = given.data.tosses
+    blocks = (
+        Paragraph("Independent tosses of " + ("a coin" if len(tosses) == 1 else f"{len(tosses)} coins") + " gave:"),
+        Table(
+            header=("coin", "heads", "tails"),
+            rows=tuple((coin, f"${heads}$", f"${tails}$") for coin, (heads, tails) in tosses.items()),
+        ),
+        Paragraph("With $θ$ the probability of heads, two models are compared:"),
+        Table(header=("$M$", "what it says"), rows=tuple((name, COIN_MODELS[name]) for name in names)),
+        Paragraph("The data $D$ are the tosses in their order; $n$ counts all of them, $k$ the unknown parameters."),
+        rule,
+    )
+    fit = Part(
+        "a",
+        "What is $ln p(D|M, θ)$ of both models, each at the parameters that fit it best?",
+        TableKind("ln p", names),
+        2,
+        zero=True,
+    )
+    return Question(blocks, (fit, Part("b", criteria.ask, criteria.kind, 2, zero=True), _winner("c", names)))
+
+
+def _winner(label: str, names: tuple[str, ...]) -> Part:
+    options = dict(zip("ab", names, strict=True))
+    return Part(label, "Which model does the BIC prefer?", Choice(options))

@@ -1,0 +1,107 @@
+"""The evidences of models of a coin, their posterior odds, and which of them is the most probable."""
+
+from fractions import Fraction
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.beliefs import check_distribution
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Probability, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.models import Name, check_keys
+from rldrill.problems.parts import Number, Part, YesNo
+from rldrill.problems.parts import Table as TableKind
+
+TITLE = "Model comparison"
+SOURCE = "MacKay 2003, section 3.3"
+REVISION = 1
+
+
+class CoinModel(Givens):
+    """What a model says of the probability of heads: that it is ``theta``, or that its prior is Beta(a, b)."""
+
+    theta: Probability | None = None
+    a: int = Field(default=1, ge=1, le=100)
+    b: int = Field(default=1, ge=1, le=100)
+
+
+class Given(Givens):
+    """Some models of a coin with their priors, and how many heads and tails there were."""
+
+    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10)
+    prior: dict[Name, Probability]
+    heads: int = Field(ge=0, le=500)
+    tails: int = Field(ge=0, le=500)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        check_keys(self.prior, tuple(self.models), "the prior", needed=tuple(self.models))
+        check_distribution(self.prior, "prior")
+        if self.heads + self.tails == 0:
+            raise ValueError("heads: without a toss there is nothing to compare the models by")
+        return self
+
+    @property
+    def averages(self) -> bool:
+        """Whether the evidence of some model is an average over its prior."""
+        return any(model.theta is None for model in self.models.values())
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """A bent and a fair coin, equally probable; a bent and a worn one; these two and a fair one."""
+    anything = CoinModel()
+    bent, worn = (
+        CoinModel(a=int(a), b=int(b)) for a, b in (rng.distinct(2, 1, 3), rng.choice(((1, 1), (2, 2), (3, 3))))
+    )
+    fair = CoinModel(theta=rng.fraction("1/2"))
+    models = {
+        1: {"bent": anything, "fair": fair},
+        2: {"bent": bent, "worn": worn},
+        3: {"bent": bent, "worn": worn, "fair": fair},
+    }[level]
+    prior = (Fraction(1, 2),) * 2 if level == 1 else rng.split(level, (3, 4, 5))
+    return Given(
+        models=models,
+        prior=dict(zip(models, prior, strict=True)),
+        heads=rng.below(4) + level - 1,
+        tails=1 + rng.below(3),
+    )
+
+
+def question(given: Given) -> Question:
+    """The models and the tosses; evidences, then odds or posteriors, then whether the first model wins."""
+    names = tuple(given.models)
+    blocks = (
+        Paragraph(
+            f"A coin is tossed ${given.heads + given.tails}$ times, independently, and the order is written down: "
+            f"${given.heads}$ heads and ${given.tails}$ tails. With $θ$ the probability of heads, models are compared:"
+        ),
+        Table(
+            header=("$M$", "what it says of $θ$", "$p(M)$"),
+            rows=tuple((name, _says(model), f"${shown(given.prior[name])}$") for name, model in given.models.items()),
+        ),
+        Paragraph("The data $D$ are the tosses in their order, so no binomial coefficient is needed."),
+    )
+    first, second = names[:2]
+    if len(names) == 2:
+        odds = Part("b", f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
+    else:
+        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", TableKind("p", names), 2)
+    return Question(
+        blocks,
+        (
+            Part("a", "What is the evidence $p(D|M)$ of every model?", TableKind("p", names), 2),
+            odds,
+            Part("c", f"Is “{first}” the most probable model now?", YesNo()),
+        ),
+    )
+
+
+def _says(model: CoinModel) -> str:
+    if model.theta is not None:
+        return f"$θ = {shown(model.theta)}$"
+    if model.a == model.b == 1:
+        return 'anything from $0$ to $1$ alike: $"Beta"(1, 1)$'
+    return f'unknown, with the prior $"Beta"({model.a}, {model.b})$'

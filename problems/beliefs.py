@@ -1,0 +1,93 @@
+"""Beliefs over states or hypotheses, how robots move and sense, and how questions show these."""
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from rldrill.problems.document import Table
+from rldrill.problems.exact import OpenProbability, Parameter, Scalar, shown
+from rldrill.problems.models import Name, check_keys, sums_to_one
+
+#: Where actions lead: for every action and state the probabilities of the next states.
+MotionField = dict[Name, dict[Name, dict[Name, OpenProbability]]]
+Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
+
+#: What stands above the table of a motion, and above that of a sensor.
+MOTION_TOLD = "An action $a$ in state $s$ leads to the state $s'$ with the probability $p(s'|s, a)$:"
+SENSOR_TOLD = "In state $s$ the sensor reads $z$ with the probability $p(z|s)$:"
+
+
+def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
+    """Demand that probabilities sum to 1.
+
+    Raises:
+        ValueError: they do not.
+    """
+    if not sums_to_one(chances.values()):
+        total = sum(chance for chance in chances.values() if isinstance(chance, Fraction))
+        open_ = " and what is left open" if any(isinstance(chance, Parameter) for chance in chances.values()) else ""
+        raise ValueError(f"{what}: the probabilities sum to {total}{open_}, not to 1")
+
+
+def check_likelihood(likelihood: Mapping[str, Mapping[str, Fraction]], known: tuple[str, ...]) -> None:
+    """Demand a likelihood of every reading under every hypothesis, and at most 1 of all readings together.
+
+    Raises:
+        ValueError: one is missing, given for an unknown hypothesis, or they sum to more than 1.
+    """
+    for reading, chances in likelihood.items():
+        check_keys(chances, known, f"the likelihood of {reading!r}", needed=known)
+    for hypothesis in known:
+        if (total := sum(chances[hypothesis] for chances in likelihood.values())) > 1:
+            raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {total}, more than 1")
+
+
+def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] = ()) -> None:
+    """Demand that every action leads somewhere from every state.
+
+    Args:
+        motion: the probabilities of the next states, by action and state.
+        states: the states in which actions are taken.
+        ends: further states that may be reached.
+
+    Raises:
+        ValueError: a state is missing or unknown, or probabilities do not sum to 1.
+    """
+    for action, rows in motion.items():
+        check_keys(rows, states, f"the motion of {action!r}", needed=states)
+        for state, chances in rows.items():
+            check_keys(chances, (*states, *ends), f"the motion of {action!r} in {state!r}", needed=())
+            check_distribution(chances, f"motion of {action!r} in {state!r}")
+
+
+def belief_table(belief: Mapping[str, Scalar], letter: str = "s") -> Table:
+    """A belief, one column for every state or hypothesis."""
+    return Table(
+        header=(f"${letter}$", *belief),
+        rows=((f"$p({letter})$", *(f"${shown(chance)}$" for chance in belief.values())),),
+    )
+
+
+def likelihood_table(
+    likelihood: Mapping[str, Mapping[str, Fraction]], known: tuple[str, ...], letter: str = "s"
+) -> Table:
+    """What a sensor reads with which probability, one line for every reading."""
+    return Table(
+        header=(f"$p(z|{letter})$", *known),
+        rows=tuple(
+            (reading, *(f"${shown(chances[hypothesis])}$" for hypothesis in known))
+            for reading, chances in likelihood.items()
+        ),
+    )
+
+
+def motion_table(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] = ()) -> Table:
+    """Where actions lead, one line for every action and state, one column for every next state."""
+    targets = (*states, *ends)
+    return Table(
+        header=("$a$", "$s$", *(f"$s' =$ {target}" for target in targets)),
+        rows=tuple(
+            (action, state, *(f"${shown(chances.get(target, 0))}$" for target in targets))
+            for action, rows in motion.items()
+            for state, chances in rows.items()
+        ),
+    )

@@ -1,0 +1,73 @@
+"""Where robots believe, move and sense: states in a line, two actions along it, and two readings."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Parameter, Scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A place: its states in their order, the action that goes up this order and the one that goes down."""
+
+    told: str
+    states: tuple[str, ...]
+    up: str
+    down: str
+    readings: tuple[str, str]
+
+
+SCENES = (
+    Scene(
+        "A robot pushes and pulls a door.",
+        ("closed", "ajar", "half open", "open"), "push", "pull", ("sees light", "sees none"),
+    ),
+    Scene(
+        "A robot does not know where in a corridor it is.",
+        ("west", "hall", "bend", "east"), "right", "left", ("door", "wall"),
+    ),
+    Scene(
+        "A rover goes down into a crater and up again.",
+        ("rim", "slope", "ledge", "floor"), "descend", "climb", ("bright", "dark"),
+    ),
+    Scene(
+        "A machine wears while it runs; a mechanic can repair it.",
+        ("sound", "worn", "rattling", "cracked"), "run", "repair", ("noisy", "quiet"),
+    ),
+    Scene(
+        "A robot rides in a lift without a display.",
+        ("cellar", "ground", "first", "roof"), "up", "down", ("warm", "cold"),
+    ),
+)  # fmt: skip
+
+
+def draw_motion(
+    scene: Scene, states: tuple[str, ...], success: tuple[Scalar, Scalar]
+) -> dict[str, dict[str, dict[str, Scalar]]]:
+    """Both actions: each leads to the neighbouring state with its success probability, else nowhere.
+
+    Args:
+        scene: the place.
+        states: those of its states that there are.
+        success: how probably going up and going down succeed.
+    """
+    return {
+        action: {state: _onward(states, state, index + step, chance) for index, state in enumerate(states)}
+        for action, step, chance in ((scene.up, 1, success[0]), (scene.down, -1, success[1]))
+    }
+
+
+def _onward(states: tuple[str, ...], state: str, target: int, chance: Scalar) -> dict[str, Scalar]:
+    if not 0 <= target < len(states):
+        return {state: Fraction(1)}
+    failure = Parameter(f"1-{chance}") if isinstance(chance, Parameter) else 1 - chance
+    return {state: failure, states[target]: chance} if failure else {states[target]: chance}
+
+
+def draw_sensor(scene: Scene, states: tuple[str, ...], rng: Draws) -> dict[str, dict[str, Fraction]]:
+    """How probable the two readings are in every state, not the same in all states."""
+    while True:
+        first = {state: rng.fraction("1/4", "1/2", "3/4", "1/5", "4/5", "1/10", "9/10") for state in states}
+        if len(set(first.values())) > 1:
+            return {scene.readings[0]: first, scene.readings[1]: {state: 1 - chance for state, chance in first.items()}}

@@ -1,0 +1,105 @@
+"""Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
+
+from typing import Any
+
+import numpy as np
+import sympy
+
+from rldrill.problems.bayes.bic import Data, Given
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, to_sympy
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
+from rldrill.solutions.work import Note, Result, Work
+
+LARGEST_WINS = slip(
+    "largest-wins",
+    "The smallest BIC wins: it is large where the fit is poor or there are many parameters.",
+)
+MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, LARGEST_WINS, BIC_LOG_10)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The log-likelihoods, unless they are given; the criteria; the winner."""
+    names = given.names
+    if given.fitted is not None:
+        labels = iter("ab")
+        n = exact(given.n or 0)
+        free = {name: exact(model.k) for name, model in given.fitted.items()}
+        fit = {name: sympy.log(to_sympy(exact(model.likelihood))) for name, model in given.fitted.items()}
+    else:
+        assert given.data is not None
+        labels = iter("abc")
+        n = exact(sum(map(sum, given.data.tosses.values())))
+        free = {name: exact(free_parameters(given.data, name)) for name in names}
+        fit = work.answer(next(labels), {name: _fit(work, given.data, name) for name in names})
+    criteria = work.answer(
+        next(labels), {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
+    )
+    work.answer(next(labels), _winner(work, criteria, names))
+
+
+def free_parameters(data: Data, model: str) -> int:
+    """How many probabilities a model fits."""
+    return {"fair": 0, "shared": 1, "own": len(data.tosses)}[model]
+
+
+def _fit(work: Work, data: Data, model: str) -> Value:
+    heads = {coin: exact(counts[0]) for coin, counts in data.tosses.items()}
+    tails = {coin: exact(counts[1]) for coin, counts in data.tosses.items()}
+    work.say(f"The model “{model}”:")
+    if model == "fair":
+        theta: dict[str, Any] = dict.fromkeys(heads, exact(1) / 2)
+    elif model == "shared":
+        share = work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
+        theta = dict.fromkeys(heads, share)
+    else:
+        theta = {coin: work.step(COIN_ML, heads=heads[coin], tails=tails[coin]) for coin in heads}
+    value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
+    shorter = sympy.expand_log(value, factor=True)
+    if shorter != value:
+        work.lines += [Note("With the logarithms of prime numbers only:"), Result((LOG_LIKELIHOOD.left,), (shorter,))]
+    return shorter
+
+
+def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...]) -> str:
+    numbers = " and ".join(f"BIC({name}) = {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
+    work.say(f"In numbers, {numbers}; the smaller one wins.")
+    difference = sign(criteria[names[0]] - criteria[names[1]])
+    if difference == 0:
+        raise NoSolution("both models have the same BIC")
+    return "a" if (difference < 0) is not work.makes(LARGEST_WINS) else "b"
+
+
+def oracle(given: Given) -> Answers:
+    """Every θ of a fine grid tried, then its neighbourhood; products of chances rather than sums of logs."""
+    if given.fitted is not None:
+        fit = np.array([np.log(at(model.likelihood)) for model in given.fitted.values()])
+        free = [model.k for model in given.fitted.values()]
+        n = given.n or 0
+    else:
+        assert given.data is not None
+        counts = np.array(list(given.data.tosses.values()), dtype=float)
+        pooled = counts.sum(axis=0)
+        fits = {
+            "fair": pooled.sum() * np.log(0.5),
+            "shared": _best(*pooled),
+            "own": sum(_best(*pair) for pair in counts),
+        }
+        fit = np.array([fits[name] for name in given.names])
+        free = [{"fair": 0, "shared": 1, "own": len(counts)}[name] for name in given.names]
+        n = int(pooled.sum())
+    criteria = np.log(float(n)) * np.array(free) - 2 * fit
+    winner = "ab"[int(criteria.argmin())]
+    return {"a": criteria, "b": winner} if given.fitted is not None else {"a": fit, "b": criteria, "c": winner}
+
+
+def _best(heads: float, tails: float) -> float:
+    """The greatest log-likelihood of one coin, on grids that close in on it."""
+    low, high = 0.0, 1.0
+    for _ in range(12):
+        theta = np.linspace(low, high, 101)[1:-1]
+        values = heads * np.log(theta) + tails * np.log1p(-theta)
+        width, centre = (high - low) / 20, theta[values.argmax()]
+        low, high = max(0.0, centre - width), min(1.0, centre + width)
+    return float(values.max())

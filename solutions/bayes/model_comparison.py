@@ -1,0 +1,55 @@
+"""Evidence by evidence, then Bayes' rule over the models."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.bayes.model_comparison import CoinModel, Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bayes import BAYES, BEST_FIT, EVIDENCE, FIXED_COIN, MODEL_COMPARISON, POSTERIOR_ODDS
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (BEST_FIT,)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The evidences; the odds of two models, or the posterior of more; the most probable one."""
+    names = tuple(given.models)
+    tosses: dict[str, Any] = {"heads": given.heads, "tails": given.tails}
+    prior = knowns.values(given.prior)
+    evidence = work.answer("a", {name: _evidence(work, name, model, tosses) for name, model in given.models.items()})
+    known: dict[str, Any] = {"evidence": evidence, "p": prior, "models": names}
+    if len(names) == 2:
+        work.answer("b", work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known))
+    else:
+        likelihood = {("data", name): value for name, value in evidence.items()}
+        posterior = {
+            name: work.step(BAYES, h=name, z="data", p=prior, likelihood=likelihood, hypotheses=names) for name in names
+        }
+        work.answer("b", posterior)
+    work.answer("c", work.step(MODEL_COMPARISON, **known) == names[:1])
+
+
+def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -> Any:
+    if model.theta is not None:
+        return work.step(FIXED_COIN, M=name, share=exact(model.theta), **tosses)
+    return work.step(EVIDENCE, M=name, beta_a=model.a, beta_b=model.b, **tosses)
+
+
+def oracle(given: Given) -> Answers:
+    """The integrals over θ by Gauss's quadrature, which is exact for polynomials of this degree."""
+    nodes, weights = np.polynomial.legendre.leggauss(given.heads + given.tails + 200)
+    theta, weights = (nodes + 1) / 2, weights / 2
+    evidence = []
+    for model in given.models.values():
+        if model.theta is None:
+            density = theta ** (model.a - 1) * (1 - theta) ** (model.b - 1) * weights
+            likelihood = theta**given.heads * (1 - theta) ** given.tails
+            evidence.append(float((density / density.sum() * likelihood).sum()))
+        else:
+            evidence.append(at(model.theta) ** given.heads * (1 - at(model.theta)) ** given.tails)
+    joint = np.array(evidence) * [at(given.prior[name]) for name in given.models]
+    after = joint[0] / joint[1] if len(joint) == 2 else joint / joint.sum()
+    return {"a": evidence, "b": after, "c": bool(joint[0] > joint[1:].max() * (1 + 1e-9))}

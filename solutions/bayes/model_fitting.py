@@ -1,0 +1,133 @@
+"""Maximum likelihood by the closed forms, then maximum a posteriori with a prior."""
+
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
+from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.sheet.bayes import (
+    COIN_MAP,
+    COIN_ML,
+    GAUSSIAN_MAP,
+    GAUSSIAN_MEAN,
+    GAUSSIAN_VARIANCE,
+    LINE_INTERCEPT,
+    LINE_SLOPE,
+    LINE_SLOPE_MAP,
+    MEAN,
+    N_FOR_N_MINUS_1,
+    SAMPLE_VARIANCE,
+)
+from rldrill.solutions.work import Work
+
+PRIOR_IGNORED = slip(
+    "prior-ignored",
+    "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
+    when=lambda given: given.has_prior,
+)
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, PRIOR_IGNORED)
+
+
+def solve(given: Given, work: Work) -> None:
+    """What the data alone say; then with the prior."""
+    if given.coin is not None:
+        _coin(given.coin, work)
+    elif given.sample is not None:
+        _sample(given.sample, work)
+    elif given.line is not None:
+        _line(given.line, work)
+
+
+def _coin(coin: Coin, work: Work) -> None:
+    known = {
+        "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
+    }  # fmt: skip
+    work.answer("a", work.step(COIN_ML, **known))
+    work.answer("b", work.step(COIN_ML if work.makes(PRIOR_IGNORED) else COIN_MAP, **known))
+
+
+def _sample(sample: Sample, work: Work) -> None:
+    known: dict[str, Any] = {"x": dict(enumerate(map(exact, sample.values), 1)), "n": len(sample.values)}
+    known["mu_hat"] = work.answer("a", work.step(GAUSSIAN_MEAN, **known))
+    work.answer("b", work.step(GAUSSIAN_VARIANCE, **known))
+    work.answer("c", work.step(SAMPLE_VARIANCE, **known))
+    if sample.prior is None:
+        return
+    prior = {
+        "sigma2": exact(sample.prior.noise),
+        "prior_mean": exact(sample.prior.mean),
+        "prior_variance": exact(sample.prior.variance),
+    }
+    ignored = work.makes(PRIOR_IGNORED)
+    work.answer("d", work.step(GAUSSIAN_MEAN, **known) if ignored else work.step(GAUSSIAN_MAP, **known, **prior))
+
+
+def _line(line: Line, work: Work) -> None:
+    values = {
+        (axis, index): exact(number)
+        for index, point in enumerate(line.points, 1)
+        for axis, number in zip("xy", point, strict=True)
+    }
+    known: dict[str, Any] = {"n": len(line.points), "abscissa": "x", "ordinate": "y", "value_of": values}
+    known["average"] = {axis: work.step(MEAN, v=axis, **known) for axis in "xy"}
+    slope = work.step(LINE_SLOPE, **known)
+    work.answer("a", (slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+    if line.prior is None:
+        return
+    if work.makes(PRIOR_IGNORED):
+        slope = work.step(LINE_SLOPE, **known)
+    else:
+        noise, variance = exact(line.prior.noise), exact(line.prior.variance)
+        slope = work.step(LINE_SLOPE_MAP, sigma2=noise, prior_variance=variance, **known)
+    work.answer("b", (slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+
+
+def oracle(given: Given) -> Answers:
+    """The peak of likelihood times prior by bisection, a parabola through three points, or numpy's least squares."""
+    if given.coin is not None:
+        heads, tails, a, b = (at(n) for n in (given.coin.heads, given.coin.tails, given.coin.a, given.coin.b))
+        return {"a": _best_share(heads, tails), "b": _best_share(heads + a - 1, tails + b - 1)}
+    if given.sample is not None:
+        values = np.array([at(value) for value in given.sample.values])
+        # The mean over all pairs of half their squared distance, with and without a value's pair with itself.
+        squares = (values[:, None] - values[None, :]) ** 2 / 2
+        size = len(values)
+        answers = {"a": values.mean(), "b": squares.mean(), "c": squares.sum() / (size * (size - 1))}
+        prior = given.sample.prior
+        return (
+            answers
+            if prior is None
+            else answers | {"d": _peak(values, at(prior.mean), at(prior.variance), at(prior.noise))}
+        )
+    assert given.line is not None
+    x, y = np.array([[at(number) for number in point] for point in given.line.points]).T
+    design = np.stack([x, np.ones_like(x)], axis=1)
+    answers = {"a": np.linalg.lstsq(design, y, rcond=None)[0]}
+    if (prior := given.line.prior) is not None:
+        # A prior of the slope is one more point, seen with its own noise.
+        weight = np.sqrt(at(prior.noise) / at(prior.variance))
+        answers["b"] = np.linalg.lstsq(np.vstack([design, [weight, 0.0]]), np.append(y, 0.0), rcond=None)[0]
+    return answers
+
+
+def _best_share(heads: float, tails: float) -> float:
+    """Where θ^heads (1 − θ)^tails is greatest: bisection of the slope of its logarithm."""
+    low, high = 0.0, 1.0
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if heads * (1 - middle) > tails * middle else (low, middle)
+    return (low + high) / 2
+
+
+def _peak(values: Array, mean: float, variance: float, noise: float) -> float:
+    """Where the posterior of the mean is greatest: its log is a parabola, so three of its values say where."""
+
+    def log_posterior(mu: float) -> float:
+        return float(-((values - mu) ** 2).sum() / (2 * noise) - (mu - mean) ** 2 / (2 * variance))
+
+    middle = float(values.mean())
+    left, here, right = (log_posterior(middle + step) for step in (-1.0, 0.0, 1.0))
+    return middle + (left - right) / (2 * (left - 2 * here + right))

@@ -1,0 +1,235 @@
+"""Identities of Bayesian methods, and one sentence for what does not fit."""
+
+from math import comb
+from typing import Any
+
+import pytest
+import sympy
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.errors import FileError
+from rldrill.solutions.answers.judging import judge
+from rldrill.solutions.drawing import draw
+
+quick = settings(deadline=None, max_examples=25)
+seeds = st.integers(0, 10_000)
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+@pytest.mark.parametrize("name", ["bayes-predict", "bayes-filter"])
+@given(seed=seeds, level=st.integers(1, 3))
+@quick
+def test_beliefs_sum_to_one(name: str, seed: int, level: int) -> None:
+    for belief in draw(name, level, seed).answers.values():
+        assert sum(belief.values()) == 1
+
+
+@given(seeds)
+@quick
+def test_the_filter_over_a_run_is_the_joint_distribution_conditioned(seed: int) -> None:
+    given_ = draw("bayes-filter", 3, seed).problem.given
+    paths = {(state,): chance for state, chance in given_.belief.items()}
+    for event in given_.run:
+        paths = {
+            (*path, after): chance
+            * given_.motion[event.action][path[-1]].get(after, 0)
+            * given_.likelihood[event.measurement][after]
+            for path, chance in paths.items()
+            for after in given_.belief
+        }
+    total = sum(paths.values())
+    last = draw("bayes-filter", 3, seed).answers["c"]
+    for state in given_.belief:
+        share = sum(chance for path, chance in paths.items() if path[-1] == state) / total
+        assert last[state] == fmpq(share.numerator, share.denominator)
+
+
+@given(seeds)
+@quick
+def test_the_order_of_independent_measurements_does_not_matter(seed: int) -> None:
+    given_ = draw("bayes-filter", 3, seed).problem.data()["given"]
+    readings = [{"measurement": event["measurement"]} for event in given_["run"]]
+    forth, back = (solved("bayes-filter", **given_ | {"run": run}) for run in (readings, readings[::-1]))
+    assert forth["c"] == back["c"]
+
+
+@given(seeds)
+@quick
+def test_a_filter_that_only_moves_predicts_and_one_that_only_measures_is_bayes_rule(seed: int) -> None:
+    given_ = draw("bayes-filter", 3, seed).problem.data()["given"]
+    moved = solved("bayes-filter", **given_ | {"run": [{"action": event["action"]} for event in given_["run"]]})
+    actions = [event["action"] for event in given_["run"]]
+    assert moved == solved("bayes-predict", belief=given_["belief"], motion=given_["motion"], actions=actions)
+    readings = [event["measurement"] for event in given_["run"]]
+    read = solved("bayes-filter", **given_ | {"run": [{"measurement": reading} for reading in readings]})
+    assert read == solved("bayes-rule", prior=given_["belief"], likelihood=given_["likelihood"], measurements=readings)
+
+
+MOTION = {"push": {"open": {"open": 1}, "closed": {"open": "4/5", "closed": "1/5"}}}
+PREDICT: dict[str, Any] = {"belief": {"open": "1/2", "closed": "1/2"}, "motion": MOTION, "actions": ["push"]}
+FILTER: dict[str, Any] = {"belief": PREDICT["belief"], "motion": MOTION, "run": [{"action": "push"}]}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("bayes-predict", PREDICT | {"belief": {"open": 1, "closed": "1/2"}}, "belief: the probabilities sum to 3/2"),
+        ("bayes-predict", PREDICT | {"actions": ["pull"]}, "an action is given for 'pull'"),
+        ("bayes-predict", PREDICT | {"motion": {"push": {"open": {"open": 1}}}}, "'push' of 'closed' is missing"),
+        (
+            "bayes-predict",
+            PREDICT | {"motion": {"push": MOTION["push"] | {"open": {"ajar": 1}}}},
+            "motion of 'push' in 'open' is given for 'ajar'",
+        ),
+        (
+            "bayes-predict",
+            PREDICT | {"motion": {"push": MOTION["push"] | {"open": {"open": "p", "closed": "1/2"}}}},
+            "motion of 'push' in 'open': the probabilities sum to 1/2 and what is left open",
+        ),
+        ("bayes-filter", FILTER | {"run": [{}]}, "neither an action nor a measurement"),
+        ("bayes-filter", FILTER | {"run": [{"measurement": "light"}]}, "a measurement is given for 'light'"),
+        ("bayes-filter", FILTER | {"likelihood": {"light": {"open": 1}}}, "'light' of 'closed' is missing"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_one_sentence(name: str, given_: dict[str, Any], fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        solved(name, **given_)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_reading_that_cannot_happen_is_one_sentence() -> None:
+    blind = {"belief": {"open": 1, "closed": 0}, "likelihood": {"light": {"open": 0, "closed": 1}}}
+    with pytest.raises(FileError, match="no answer"):
+        solved("bayes-filter", **blind, run=[{"measurement": "light"}])
+
+
+counts = st.integers(1, 8)
+
+
+@given(counts, counts)
+@quick
+def test_a_flat_prior_makes_the_most_probable_parameter_the_most_likely(heads: int, tails: int) -> None:
+    answers = solved("model-fitting", coin={"heads": heads, "tails": tails, "a": 1, "b": 1})
+    assert answers["a"] == answers["b"] == fmpq(heads, heads + tails)
+
+
+@given(seeds)
+@quick
+def test_a_wide_prior_says_nothing_and_a_narrow_one_everything(seed: int) -> None:
+    sample = draw("model-fitting", 2, seed).problem.data()["given"]["sample"]
+    wide, narrow = ({"mean": 7, "variance": width, "noise": 1} for width in ("1e30", "1e-30"))
+    answers = solved("model-fitting", sample=sample | {"prior": wide})
+    assert abs(answers["d"] - answers["a"]) < fmpq(1, 10**20)
+    assert abs(solved("model-fitting", sample=sample | {"prior": narrow})["d"] - 7) < fmpq(1, 10**20)
+    size = len(sample["values"])
+    assert answers["b"] * size == answers["c"] * (size - 1)
+
+
+@given(seeds)
+@quick
+def test_the_residuals_of_a_least_squares_line_are_orthogonal_to_it(seed: int) -> None:
+    solution = draw("model-fitting", 3, seed)
+    slope, intercept = solution.answers["a"]
+    points = [(fmpq(int(x)), fmpq(int(y))) for x, y in solution.problem.given.line.points]
+    residuals = [y - slope * x - intercept for x, y in points]
+    assert sum(residuals) == 0
+    assert sum(residual * x for residual, (x, _) in zip(residuals, points, strict=True)) == 0
+    assert abs(solution.answers["b"][0]) < abs(slope)  # the prior draws it towards 0
+
+
+@given(st.integers(1, 4), st.integers(1, 4), counts)
+@quick
+def test_evidences_of_all_sequences_sum_to_one(a: int, b: int, tosses: int) -> None:
+    models = {"bent": {"a": a, "b": b}, "known": {"theta": "1/3"}}
+    for name in models:
+        total = fmpq(0)
+        for heads in range(tosses + 1):
+            given_ = {"models": models, "prior": {"bent": "1/2", "known": "1/2"}, "heads": heads}
+            total += comb(tosses, heads) * solved("model-comparison", **given_, tails=tosses - heads)["a"][name]
+        assert total == 1
+
+
+@given(seeds, st.sampled_from([2, 3]))
+@quick
+def test_odds_and_posteriors_are_those_of_the_joint(seed: int, level: int) -> None:
+    solution = draw("model-comparison", level, seed)
+    prior = {name: fmpq(p.numerator, p.denominator) for name, p in solution.problem.given.prior.items()}
+    joint = {name: evidence * prior[name] for name, evidence in solution.answers["a"].items()}
+    if level == 2:
+        assert solution.answers["b"] == joint["bent"] / joint["worn"]
+    else:
+        assert solution.answers["b"] == {name: value / sum(joint.values()) for name, value in joint.items()}
+
+
+@given(st.integers(2, 12), st.integers(0, 4), st.integers(0, 4))
+@quick
+def test_a_parameter_more_costs_the_logarithm_of_n(power: int, k: int, more: int) -> None:
+    fitted = {name: {"likelihood": f"1/{2**power}", "k": count} for name, count in (("x", k), ("y", k + 1 + more))}
+    criteria = solved("bic", fitted=fitted, n=16)["a"]
+    assert sympy.simplify(criteria["y"] - criteria["x"] - 4 * (1 + more) * sympy.log(2)) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "right"),
+    [
+        # −2 ln(1/256) + 0 = 16 ln 2 = ln 65536 = 11.0903…
+        ("16*log(2)", True), ("2 ln 256", True), ("log(65536)", True), ("11.1", True), ("11.09", True),
+        ("-2*log(1/256)", True), ("11", False), ("16*log(3)", False),
+    ],
+)  # fmt: skip
+def test_logarithms_are_read_in_every_form(text: str, right: bool) -> None:
+    fitted = {"none": {"likelihood": "1/256", "k": 0}, "one": {"likelihood": "1/16", "k": 1}}
+    exercise = rldrill.read({"family": "bic", "given": {"fitted": fitted, "n": 8}})
+    one = "8*log(2) + log(8)"
+    assert judge(exercise.solution, "a", f"none: {text}, one: {one}").accepted is right
+
+
+COIN: dict[str, Any] = {"heads": 1, "tails": 2, "a": 2, "b": 2}
+MODELS: dict[str, Any] = {
+    "models": {"x": {}, "y": {"theta": "1/2"}}, "prior": {"x": "1/2", "y": "1/2"}, "heads": 1, "tails": 2,
+}  # fmt: skip
+FITTED = {"x": {"likelihood": "1/2", "k": 1}, "y": {"likelihood": "1/4", "k": 0}}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("model-fitting", {}, "give one of coin, sample and line"),
+        ("model-fitting", {"coin": COIN, "sample": {"values": [1, 2]}}, "give one of coin, sample and line"),
+        ("model-fitting", {"coin": COIN | {"heads": 0, "tails": 0}}, "without a toss"),
+        ("model-fitting", {"coin": COIN | {"a": "1/2"}}, "a and b must be at least 1"),
+        ("model-fitting", {"line": {"points": [[1, 2], [1, 3]]}}, "all x are the same"),
+        ("model-fitting", {"sample": {"values": [1]}}, "given.sample.values"),
+        (
+            "model-fitting",
+            {"sample": {"values": [1, 2], "prior": {"variance": 0, "noise": 1}}},
+            "variance and noise must be above 0",
+        ),
+        (
+            "model-fitting",
+            {"line": {"points": [[1, 2], [2, 3]], "prior": {"mean": 1, "variance": 1, "noise": 1}}},
+            "must have the mean 0",
+        ),
+        ("model-comparison", MODELS | {"prior": {"x": 1}}, "prior of 'y' is missing"),
+        ("model-comparison", MODELS | {"prior": {"x": 1, "y": 1}}, "sum to 2"),
+        ("model-comparison", MODELS | {"heads": 0, "tails": 0}, "without a toss"),
+        ("model-comparison", MODELS | {"models": {"x": {"a": 0}, "y": {}}}, "given.models.x.a"),
+        ("bic", {"fitted": FITTED}, "n, the number of data, is needed"),
+        ("bic", {"n": 8}, "give either fitted models or data"),
+        ("bic", {"fitted": FITTED | {"x": {"likelihood": 0, "k": 1}}, "n": 8}, "likelihood is 0"),
+        ("bic", {"data": {"tosses": {"red": [3, 0]}, "models": ["fair", "own"]}}, "tosses: 'red' needs from 1"),
+        ("bic", {"data": {"tosses": {"red": [3, 1]}, "models": ["own", "own"]}}, "compared with itself"),
+    ],
+)
+def test_data_that_do_not_fit_are_one_sentence(name: str, given_: dict[str, Any], fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        solved(name, **given_)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)
