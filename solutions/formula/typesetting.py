@@ -1,6 +1,7 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
 from collections.abc import Iterator, Sequence
+from math import lcm
 from typing import Any
 
 import sympy
@@ -25,6 +26,7 @@ from rldrill.problems.mathematics import (
     variable,
     word,
 )
+from rldrill.solutions import surds
 from rldrill.solutions.exact import Value, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
@@ -47,6 +49,7 @@ from rldrill.solutions.formula.notation import (
 _MINUS = operator("−")
 _PLUS = operator("+")
 _TIMES = operator("·")
+_LONG = 10**6
 
 
 def typeset(expression: Expr) -> Math:
@@ -58,7 +61,7 @@ def typeset(expression: Expr) -> Math:
     if expression.is_Symbol:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
     if expression.is_Rational:
-        return number(expression)
+        return _rational(expression)
     if expression.is_Add:
         return _sum(expression.args)
     if expression.is_Mul:
@@ -73,12 +76,28 @@ def typeset(expression: Expr) -> Math:
     if expression is sympy.pi:
         return variable("π")
     if expression.is_Function:
-        return row(word(expression.func.__name__), Fence(listed(typeset(_bare(argument)) for argument in expression.args)))
+        return row(
+            word(expression.func.__name__), Fence(listed(typeset(_bare(argument)) for argument in expression.args))
+        )
     raise TypeError(f"{expression.func.__name__} has no typesetting")
+
+
+def _rational(value: Expr) -> Math:
+    """A fraction, unless it is a decimal that is long but ends."""
+    places = 0
+    if value.q > _LONG:
+        places = next((places for places in range(7, 15) if 10**places % value.q == 0), 0)
+    if not places:
+        return number(value)
+    digits = str(abs(value.p) * 10**places // value.q).rjust(places + 1, "0")
+    return number(f"{'-' if value.p < 0 else ''}{digits[:-places]}.{digits[-places:]}")
 
 
 def typeset_value(value: Value) -> Math:
     """A computed value as mathematics: sympy's own order, since it is a result and not a formula."""
+    surd = surds.read(value) if isinstance(value, sympy.Expr) and not value.is_Rational else None
+    if surd:
+        return _surd(surd)
     expression = ordered(to_sympy(value))
     if expression.is_Add:
         return _sum(expression.args)
@@ -90,6 +109,18 @@ def typeset_value(value: Value) -> Math:
         quotient = Fraction(typeset_value(-numerator if minus else numerator), typeset_value(denominator))
         return row(_MINUS, quotient) if minus else quotient
     return typeset(expression)
+
+
+def _surd(surd: surds.Surd) -> Math:
+    """A sum of roots over one common denominator: (1 + √5)/2."""
+    below = lcm(*(int(coefficient.q) for coefficient in surd.values()))
+    minus = max(surd.values()) < 0 and (below > 1 or len(surd) == 1)
+    scale = -below if minus else below
+    above = ordered(to_sympy(surds.write({term: coefficient * scale for term, coefficient in surd.items()})))
+    written = typeset(above)
+    if below > 1:
+        written = Fraction(written, number(below))
+    return row(_MINUS, written) if minus else written
 
 
 def _quotient(expression: Expr) -> tuple[Expr, Expr]:
@@ -181,6 +212,8 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
         return False
     if before.is_Rational and not before.is_Integer:
         return True  # or the letter would seem to stand below the line
+    if before.is_Integer and factor.is_Pow and factor.args[1] == sympy.S.Half:
+        return False
     plain = bool(before.is_Symbol or isinstance(before, Quantity))
     if _numeric(factor):
         return True
@@ -204,7 +237,7 @@ def _power(base: Expr, exponent: Expr) -> Math:
     if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
         rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
         return Fraction(number(1), typeset(rest))
-    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf) or (base.is_Integer and base >= 0)
+    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
     return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
 
 

@@ -65,7 +65,7 @@ with evaluate(False):
         "action-before-dynamics",
         At(t) * (St(t) + Bt(t) * Ut(t)),
         "A acts on the state alone: the next state is A s + B a, not A (s + B a).",
-        when=lambda given: any(A != _unit(len(A)) for A in given.A),
+        when=lambda given: any(_unit(len(A)) != A for A in given.A),
     )
     LQR_REWARD = Formula(
         "lqr-reward",
@@ -168,6 +168,8 @@ Pi = letter("Pi", "P", matrix=True)
 Li = letter("Li", "L", matrix=True)
 modes = letter("modes", "T", matrix=True)
 Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
+#: The gain that is the same at all times.
+L_always = quantity("Lt", lambda _: variable("L"), matrix=True)
 closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
 a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
 p1, beta = letter("Pk", "P"), letter("betak", "β")
@@ -229,9 +231,7 @@ def _derivative(of: str, by: str = "") -> Callable[..., Math]:
 
     def layout(component: Math, variable_: Math) -> Math:
         below = Script(variable(by), variable_) if by else variable_
-        quotient = Fraction(
-            row(variable("∂"), Script(variable(of), component)), row(variable("∂"), below)
-        )
+        quotient = Fraction(row(variable("∂"), Script(variable(of), component)), row(variable("∂"), below))
         return row(quotient, _POINT) if by else quotient
 
     return layout
