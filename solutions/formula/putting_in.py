@@ -139,7 +139,7 @@ def _product(factors: list[Expr]) -> Expr:
 def _power(base: Expr, exponent: Expr) -> Expr:
     if exponent == 1:
         return base
-    if exponent == 0:
+    if exponent == 0 or base == 1:
         return sympy.S.One
     return Pow(base, exponent, evaluate=False)
 

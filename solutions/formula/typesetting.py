@@ -65,7 +65,8 @@ def typeset(expression: Expr) -> Math:
     if expression.is_Add:
         return _sum(expression.args)
     if expression.is_Mul:
-        return _product(expression.args)
+        head, *rest = expression.args
+        return typeset_value(expression) if rest == [sympy.pi] and head.is_Rational else _product(expression.args)
     if expression.is_Pow:
         return _power(*expression.args)
     for kind, writer in _WRITERS.items():
@@ -178,6 +179,8 @@ def _product(factors: Sequence[Expr]) -> Math:
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
     if flat[0] == -1 and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
+    if flat[0].is_Number and flat[0].is_negative and len(flat) > 1:
+        return row(_MINUS, _product([-flat[0], *flat[1:]]))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
         above = [factor for factor in flat if not _reciprocal(factor)]
@@ -237,6 +240,9 @@ def _power(base: Expr, exponent: Expr) -> Math:
     if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
         rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
         return Fraction(number(1), typeset(rest))
+    if isinstance(base, sympy.sin | sympy.cos | sympy.tan) and exponent.is_Integer:
+        written = word(base.func.__name__)
+        return row(Script(written, above=typeset(exponent)), Fence(typeset(_bare(base.args[0]))))
     simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
     return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
 

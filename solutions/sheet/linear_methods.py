@@ -9,9 +9,11 @@ from rldrill.problems.mathematics import (
     Accent,
     Fence,
     Fraction,
+    Glyph,
     Math,
     Script,
     listed,
+    mathematics,
     punctuation,
     row,
     variable,
@@ -226,15 +228,18 @@ with evaluate(False):
 
 
 # Linearisation --------------------------------------------------------------------------------------
-def _derivative(of: str, by: str = "") -> Callable[..., Math]:
-    """Written ∂f₂/∂θ; with ``by``, ∂f₂/∂s₁ at the operating point."""
+def _letter(name: Math) -> Math:
+    """The name of a state or action as its letter: θ₁ for ``θ_1``."""
+    return mathematics(name.text) if isinstance(name, Glyph) else name
 
-    def layout(component: Math, variable_: Math) -> Math:
-        below = Script(variable(by), variable_) if by else variable_
-        quotient = Fraction(row(variable("∂"), Script(variable(of), component)), row(variable("∂"), below))
-        return row(quotient, _POINT) if by else quotient
 
-    return layout
+def _over_letter(above: Math, below: Math) -> Math:
+    return Fraction(row(variable("∂"), above), row(variable("∂"), _letter(below)))
+
+
+def _by_entry(by: str) -> Callable[..., Math]:
+    """Written ∂f₂/∂s₁ at the operating point."""
+    return lambda line, column: row(_over_letter(Script(variable("f"), line), Script(variable(by), column)), _POINT)
 
 
 def _bar(head: str) -> Math:
@@ -251,9 +256,11 @@ def _entry(head: str) -> Callable[..., Math]:
 
 _POINT = Fence(listed((_bar("s"), _bar("a"))))
 j = letter("j")
-partial = quantity("partial", _derivative("f"))
-partial_s = quantity("partialS", _derivative("f", "s"))
-partial_a = quantity("partialA", _derivative("f", "a"))
+#: ∂f₂/∂θ, and ∂D/∂θ of a named part of the dynamics.
+partial = quantity("partial", lambda line, name: _over_letter(Script(variable("f"), line), name))
+partial_part = quantity("partialPart", lambda part, name: _over_letter(_letter(part), name))
+part_value = quantity("partValue", _letter)
+partial_s, partial_a = quantity("partialS", _by_entry("s")), quantity("partialA", _by_entry("a"))
 Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
 f_value = quantity("fValue", subscripted("f"))
 f_point = quantity("fPoint", lambda component: row(Script(variable("f"), component), _POINT))
@@ -317,7 +324,7 @@ with evaluate(False):
         source="LaValle 2006, section 14.3.2",
         hint="Differentiate s + Δt f(s, a) by a: the first term does not depend on a.",
     )
-    VELOCITY_AT_POINT = Formula(
+    PART_VALUE = Formula(
         "linearise-f",
         f_value(i),
         f_point(i),

@@ -1,0 +1,157 @@
+"""Every derivative in letters, then at the operating point; sines and cosines stay exact."""
+
+from functools import lru_cache
+
+import numpy as np
+import sympy
+from sympy import Expr
+
+from rldrill.problems.expressions import letters
+from rldrill.problems.linear_methods.linearise import Given
+from rldrill.problems.robots import System
+from rldrill.solutions import dynamics, matrices
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
+from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.formula import Formula, Misconception, slip
+from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.oracle import Answers
+from rldrill.solutions.sheet.linear_methods import (
+    EULER_A,
+    EULER_B,
+    FORGOT_IDENTITY,
+    INPUT_JACOBIAN,
+    PART_VALUE,
+    STATE_JACOBIAN,
+    part_value,
+    partial,
+    partial_part,
+)
+from rldrill.solutions.work import Work
+
+
+def _moves(given: System) -> bool:
+    """Whether the derivatives at zero exist and are others than at the operating point."""
+    here = dynamics.known(given)
+    zero = {**here, **dict.fromkeys((*given.state, *given.action), ZERO)}
+    try:
+        return any(
+            evaluate(entry, here) != evaluate(entry, zero)
+            for by in (given.states, tuple(given.action))
+            for row in _derivatives(given, by)
+            for entry in row
+            if not entry.is_Number
+        )
+    except (NoSolution, ZeroDivisionError):
+        return False
+
+
+def _has_sines(given: System) -> bool:
+    return any(
+        _circular(entry) for by in (given.states, tuple(given.action)) for row in _derivatives(given, by)
+        for entry in row
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=1024)
+def _circular(expression: Expr) -> bool:
+    return bool(expression.has(sympy.sin, sympy.cos))
+
+
+AT_ZERO = slip(
+    "derivative-at-zero",
+    "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
+    when=_moves,
+)
+SINE_FOR_COSINE = slip(
+    "sine-for-cosine",
+    "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
+    when=_has_sines,
+)
+MISCONCEPTIONS: tuple[Misconception, ...] = (
+    AT_ZERO,
+    SINE_FOR_COSINE,
+    Misconception(
+        FORGOT_IDENTITY.name,
+        FORGOT_IDENTITY.says,
+        FORGOT_IDENTITY.formula,
+        FORGOT_IDENTITY.reads,
+        when=lambda given: given.step is not None,
+    ),
+)
+
+
+def _derivatives(given: System, by: tuple[str, ...]) -> tuple[tuple[Expr, ...], ...]:
+    return dynamics.derivatives(dynamics.texts(given.dynamics), dynamics.texts(given.where), by)
+
+
+def jacobian(work: Work, given: System, formula: Formula) -> AnyMatrix:
+    """The derivatives of the dynamics by the state or by the action; those that are zero are not written down."""
+    by = given.states if formula is STATE_JACOBIAN else tuple(given.action)
+    known = dynamics.known(given)
+    if work.makes(AT_ZERO):
+        known |= dict.fromkeys((*given.state, *given.action), ZERO)
+    if given.where:
+        for name, text in given.where.items():
+            (part,) = dynamics.expressions(((name, text),))
+            known[name] = work.step(PART_VALUE, into=part_value, right=dynamics.readable(part), i=name, **known)
+    columns = [_column(work, given, formula, name, known) for name in by]
+    if any(entry == 0 for column in columns for entry in column):
+        work.say("The other derivatives are zero.")
+    return matrices.matrix(zip(*columns, strict=True))
+
+
+def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Value]) -> list[Value]:
+    """The derivatives of all components by one letter; those of named parts first."""
+    moving: list[str] = []
+    known = {**known, "j": by}
+
+    def derivative(text: str, index: int | str) -> Value:
+        within = letters(text)
+        right = dynamics.chained(text, by, tuple(part for part in moving if part in within))
+        if work.makes(SINE_FOR_COSINE):
+            right = dynamics.exchanged(right)
+        if right == 0 or (isinstance(index, str) and is_zero(evaluate(right, known))):
+            return ZERO
+        into = partial if isinstance(index, int) else partial_part
+        return work.step(formula, into=into, right=right, i=index, **known)
+
+    for part, text in given.where.items():
+        value = derivative(text, part)
+        if value != 0:
+            moving.append(part)
+            known[dynamics.part_derivative(part, by).name] = value
+    return [derivative(text, index) for index, text in enumerate(given.dynamics.values(), 1)]
+
+
+def euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
+    """The matrix of the Euler step, if the system has one."""
+    if given.step is None:
+        return value
+    letters = {"dt": exact(given.step), "Ai": value, "Bi": value, "unit": matrices.identity(len(given.state))}
+    return work.step(formula, **letters)
+
+
+def solve(given: Given, work: Work) -> None:
+    """A, then B."""
+    A = jacobian(work, given, STATE_JACOBIAN)
+    work.answer("a", euler(work, given, EULER_A, A))
+    B = jacobian(work, given, INPUT_JACOBIAN)
+    work.answer("b", euler(work, given, EULER_B, B))
+
+
+def oracle(given: Given) -> Answers:
+    """Complex steps through the dynamics, or through their Euler step."""
+    of, where = dynamics.texts(given.dynamics), dynamics.texts(given.where)
+    step = None if given.step is None else float(given.step)
+
+    def after(values: dict[str, complex]) -> list[complex]:
+        rates = dynamics.numeric(of, where, values)
+        if step is None:
+            return rates
+        return [values[name] + step * rate for name, rate in zip(given.states, rates, strict=True)]
+
+    values = dynamics.numbers(given)
+    return {
+        "a": np.real(dynamics.complex_step(after, values, given.states)),
+        "b": dynamics.complex_step(after, values, tuple(given.action)),
+    }
