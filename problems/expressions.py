@@ -16,13 +16,10 @@ from rldrill.problems.exact import read_fraction
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp")
-_GREEK = dict(
-    zip(
-        "alpha beta gamma delta epsilon theta kappa mu nu xi rho sigma tau phi psi omega".split(),
-        "αβγδεθκμνξρστφψω",
-        strict=True,
-    )
-)
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "theta": "θ", "kappa": "κ", "mu": "μ",
+    "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω",
+}  # fmt: skip
 _LONGEST, _MOST = 300, 120
 _HIGHEST = 4
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
@@ -105,6 +102,7 @@ def _expression(text: str) -> str:
 Expression = Annotated[str, AfterValidator(_expression)]
 
 
+@lru_cache(maxsize=1024)
 def letters(text: str) -> tuple[str, ...]:
     """The letters of an expression, in the order in which they first stand there."""
     return tuple(dict.fromkeys(_letters(parsed(text))))

@@ -36,8 +36,8 @@ class System(Givens):
     """
 
     dynamics: dict[Letter, Expression] = Field(min_length=1, max_length=6)
-    where: dict[Letter, Expression] = Field(default={}, max_length=8)
-    constants: dict[Letter, Exact] = {}
+    where: dict[Letter, Expression] = Field(default_factory=dict, max_length=8)
+    constants: dict[Letter, Exact] = Field(default_factory=dict)
     state: dict[Letter, AngleField]
     action: dict[Letter, AngleField] = Field(min_length=1, max_length=4)
     step: Annotated[Exact, AfterValidator(_positive)] | None = None

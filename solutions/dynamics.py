@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache
-from typing import Any
 
 import numpy as np
 import sympy
@@ -47,12 +46,6 @@ def _expression(text: str, symbols: Mapping[str, Expr]) -> Expr:
     return sympy.sympify(worked_out(text, symbols, _FUNCTIONS, lambda n: sympy.Rational(n.numerator, n.denominator)))
 
 
-@lru_cache(maxsize=256)
-def derivatives(texts: Texts, where: Texts, by: tuple[str, ...]) -> tuple[tuple[Expr, ...], ...]:
-    """The derivative of every expression by every letter, everything put in."""
-    return tuple(tuple(sympy.diff(expression, symbol(name)) for name in by) for expression in expressions(texts, where))
-
-
 @lru_cache(maxsize=4096)
 def chained(text: str, by: str, parts: tuple[str, ...]) -> Expr:
     """The derivative of one expression by a letter as one writes it, by the chain rule.
@@ -63,13 +56,11 @@ def chained(text: str, by: str, parts: tuple[str, ...]) -> Expr:
         parts: the named parts in it whose own derivative by this letter is not zero.
     """
     (expression,) = expressions((("", text),))
-    terms = [(sympy.diff(expression, symbol(by)), None)]
-    terms += [(sympy.diff(expression, symbol(part)), part_derivative(part, by)) for part in parts]
-    written = [
-        readable(factor) if inner is None else sympy.Mul(*_factors(readable(factor)), inner, evaluate=False)
-        for factor, inner in terms
-        if factor != 0
-    ]
+    own = readable(sympy.diff(expression, symbol(by)))
+    written = [own] if own != 0 else []
+    for part in parts:
+        factors = _factors(readable(sympy.diff(expression, symbol(part))))
+        written.append(sympy.Mul(*factors, part_derivative(part, by), evaluate=False))
     if len(written) < 2:
         return written[0] if written else sympy.S.Zero
     return sympy.Add(*written, evaluate=False)
@@ -88,6 +79,7 @@ def part_derivative(part: str, by: str) -> sympy.Symbol:
     return letter(f"d_{part}_d_{by}", Fraction(above, below))
 
 
+@lru_cache(maxsize=4096)
 def readable(expression: Expr) -> Expr:
     """The same expression unevaluated: quotients as quotients, numbers and letters before functions and sums."""
     if expression.is_Add:

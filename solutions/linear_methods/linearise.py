@@ -1,10 +1,8 @@
 """Every derivative in letters, then at the operating point; sines and cosines stay exact."""
 
-from functools import lru_cache
+from collections.abc import Mapping
 
 import numpy as np
-import sympy
-from sympy import Expr
 
 from rldrill.problems.expressions import letters
 from rldrill.problems.linear_methods.linearise import Given
@@ -29,43 +27,27 @@ from rldrill.solutions.sheet.linear_methods import (
 from rldrill.solutions.work import Work
 
 
-def _moves(given: System) -> bool:
-    """Whether the derivatives at zero exist and are others than at the operating point."""
-    here = dynamics.known(given)
-    zero = {**here, **dict.fromkeys((*given.state, *given.action), ZERO)}
+def _changes(given: System, mistake: Misconception) -> bool:
+    """Whether a mistake can be made at this operating point, and leads to other derivatives."""
     try:
-        return any(
-            evaluate(entry, here) != evaluate(entry, zero)
-            for by in (given.states, tuple(given.action))
-            for row in _derivatives(given, by)
-            for entry in row
-            if not entry.is_Number
-        )
+        return _derivatives(given, Work()) != _derivatives(given, Work(mistake))
     except (NoSolution, ZeroDivisionError):
         return False
 
 
-def _has_sines(given: System) -> bool:
-    return any(
-        _circular(entry) for by in (given.states, tuple(given.action)) for row in _derivatives(given, by)
-        for entry in row
-    )  # fmt: skip
+def _derivatives(given: System, work: Work) -> tuple[AnyMatrix, AnyMatrix]:
+    return jacobian(work, given, STATE_JACOBIAN), jacobian(work, given, INPUT_JACOBIAN)
 
 
-@lru_cache(maxsize=1024)
-def _circular(expression: Expr) -> bool:
-    return bool(expression.has(sympy.sin, sympy.cos))
-
-
-AT_ZERO = slip(
+AT_ZERO: Misconception = slip(
     "derivative-at-zero",
     "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
-    when=_moves,
+    when=lambda given: _changes(given, AT_ZERO),
 )
-SINE_FOR_COSINE = slip(
+SINE_FOR_COSINE: Misconception = slip(
     "sine-for-cosine",
     "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
-    when=_has_sines,
+    when=lambda given: _changes(given, SINE_FOR_COSINE),
 )
 MISCONCEPTIONS: tuple[Misconception, ...] = (
     AT_ZERO,
@@ -78,10 +60,6 @@ MISCONCEPTIONS: tuple[Misconception, ...] = (
         when=lambda given: given.step is not None,
     ),
 )
-
-
-def _derivatives(given: System, by: tuple[str, ...]) -> tuple[tuple[Expr, ...], ...]:
-    return dynamics.derivatives(dynamics.texts(given.dynamics), dynamics.texts(given.where), by)
 
 
 def jacobian(work: Work, given: System, formula: Formula) -> AnyMatrix:
@@ -144,7 +122,7 @@ def oracle(given: Given) -> Answers:
     of, where = dynamics.texts(given.dynamics), dynamics.texts(given.where)
     step = None if given.step is None else float(given.step)
 
-    def after(values: dict[str, complex]) -> list[complex]:
+    def after(values: Mapping[str, complex]) -> list[complex]:
         rates = dynamics.numeric(of, where, values)
         if step is None:
             return rates

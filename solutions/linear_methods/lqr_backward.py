@@ -75,5 +75,5 @@ def _best(given: Given, first: int) -> tuple[Array, Array]:
         H[here, here] += now["R"]
         reach, steer = now["A"] @ reach, now["A"] @ steer
         steer[:, here] += now["B"]
-    plan: Array = np.linalg.lstsq(-H, F)[0]
-    return plan, -(W + F.T @ plan)
+    plan = np.linalg.inv(-H) @ F
+    return np.asarray(plan, dtype=float), -(W + F.T @ plan)
