@@ -15,6 +15,7 @@ from rldrill.problems.angles import Angle, AngleField, read_angle, shown
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
+from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
 from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import Math, row, variable
@@ -140,6 +141,14 @@ def situation(given: System) -> Iterator[Block]:
     yield Paragraph("The operating point is")
     for head, values in (("s", {name: given.state[name] for name in given.states}), ("a", given.action)):
         yield _point(head, values)
+
+
+def discretised(given: System) -> Paragraph:
+    """The sentence that gives the Euler step."""
+    return Paragraph(
+        "Time is discretised by an Euler step: $s_{t+1} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
+        f"$Δ t = {exact_shown(given.step or Fraction(0))}$."
+    )
 
 
 def _column(names: tuple[str, ...]) -> str:

@@ -2,10 +2,9 @@
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import shown
 from rldrill.problems.family import Question
 from rldrill.problems.parts import Matrix, Part
-from rldrill.problems.robots import System, draw_system, situation
+from rldrill.problems.robots import System, discretised, draw_system, situation
 
 TITLE = "Linearisation"
 SOURCE = "Åström & Murray 2008, section 5.4"
@@ -24,21 +23,13 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The system and its operating point; both matrices."""
-    if given.step is None:
-        about = Paragraph('Near the operating point, $f(s, a) ≈ f("s̄", "ā") + A (s − "s̄") + B (a − "ā")$.')
-        names = "A", "B"
-    else:
-        about = Paragraph(
-            f"Time is discretised by an Euler step: $s_{{t+1}} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
-            f"$Δ t = {shown(given.step)}$. Near the operating point, "
-            '$F(s, a) ≈ F("s̄", "ā") + A_Δ (s − "s̄") + B_Δ (a − "ā")$.'
-        )
-        names = "A_Δ", "B_Δ"
+    f, A, B = ("f", "A", "B") if given.step is None else ("F", "A_Δ", "B_Δ")
+    near = Paragraph(f"Near the operating point, ${f}(s, a) ≈ {f}(s̄, ā) + {A} (s − s̄) + {B} (a − ā)$.")
     n, m = len(given.state), len(given.action)
     return Question(
-        (*situation(given), about),
+        (*situation(given), *((discretised(given),) if given.step else ()), near),
         (
-            Part("a", f"What is the matrix ${names[0]}$?", Matrix(n, n), points=2),
-            Part("b", f"What is the matrix ${names[1]}$?", Matrix(n, m), points=2),
+            Part("a", f"What is the matrix ${A}$?", Matrix(n, n), points=2),
+            Part("b", f"What is the matrix ${B}$?", Matrix(n, m), points=2),
         ),
     )

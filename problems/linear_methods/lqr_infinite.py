@@ -75,7 +75,7 @@ def _pairs() -> tuple[tuple[int, int, int, int, int], ...]:
     """How sum and difference of two coupled states are multiplied, then B, Q, R: one root at most stays."""
     found = []
     for (a, b, q, r), other in product(_scalars(rational=True), range(-3, 4)):
-        if abs(other) != abs(a) and (other - a) % 2 == 0 and _under_root(other, b, q, r) < _LARGEST_ROOT / 2:
+        if other and abs(other) != abs(a) and (other - a) % 2 == 0 and _under_root(other, b, q, r) < _LARGEST_ROOT / 2:
             found += [(a, other, b, q, r), (other, a, b, q, r)]
     return tuple(found)
 

@@ -66,7 +66,11 @@ def typeset(expression: Expr) -> Math:
         return _sum(expression.args)
     if expression.is_Mul:
         head, *rest = expression.args
-        return typeset_value(expression) if rest == [sympy.pi] and head.is_Rational else _product(expression.args)
+        return (
+            typeset_value(expression)
+            if rest == [sympy.pi] and head.is_Rational and not head.is_Integer
+            else _product(expression.args)
+        )
     if expression.is_Pow:
         return _power(*expression.args)
     for kind, writer in _WRITERS.items():
@@ -118,7 +122,7 @@ def _surd(surd: surds.Surd) -> Math:
     minus = max(surd.values()) < 0 and (below > 1 or len(surd) == 1)
     scale = -below if minus else below
     above = ordered(to_sympy(surds.write({term: coefficient * scale for term, coefficient in surd.items()})))
-    written = typeset(above)
+    written = _product(above.args) if above.is_Mul else typeset(above)
     if below > 1:
         written = Fraction(written, number(below))
     return row(_MINUS, written) if minus else written
@@ -215,7 +219,8 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
         return False
     if before.is_Rational and not before.is_Integer:
         return True  # or the letter would seem to stand below the line
-    if before.is_Integer and factor.is_Pow and factor.args[1] == sympy.S.Half:
+    closed = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
+    if closed and (before.is_Integer or before is sympy.pi):
         return False
     plain = bool(before.is_Symbol or isinstance(before, Quantity))
     if _numeric(factor):
@@ -305,7 +310,10 @@ def _matrix(expression: MatrixLeaf) -> Math:
 def _blocks(expression: Blocks) -> Math:
     rows, *blocks = expression.args
     width = len(blocks) // int(rows)
-    written = [typeset(_bare(block)) for block in blocks]
+    written = [
+        typeset_value(block.args[0][0]) if isinstance(block, MatrixLeaf) and block.scalar else typeset(_bare(block))
+        for block in blocks
+    ]
     return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 

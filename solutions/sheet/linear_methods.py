@@ -266,6 +266,7 @@ f_value = quantity("fValue", subscripted("f"))
 f_point = quantity("fPoint", lambda component: row(Script(variable("f"), component), _POINT))
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
+F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)
 grad_s, grad_a = letter("gradS", _gradient("s"), matrix=True), letter("gradA", _gradient("a"), matrix=True)
 sv, av = letter("sv", "s", matrix=True), letter("av", "a", matrix=True)
 s_bar, a_bar = letter("sbar", _bar("s"), matrix=True), letter("abar", _bar("a"), matrix=True)
@@ -315,6 +316,7 @@ with evaluate(False):
         "forgot-identity",
         dt * Ai,
         "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
+        when=lambda given: given.step is not None,
     )
     EULER_B = Formula(
         "linearise-euler-b",
@@ -331,6 +333,14 @@ with evaluate(False):
         title="The dynamics at the operating point",
         source="Åström & Murray 2008, section 5.4",
         hint="Put the operating point into every component of f.",
+    )
+    EULER_F = Formula(
+        "linearise-euler-f",
+        F_bar,
+        s_bar + dt * f_bar,
+        title="Euler step at the operating point",
+        source="LaValle 2006, section 14.3.2",
+        hint="The state moves by Δt times its rate.",
     )
     AFFINE_TERM = Formula(
         "linearise-affine",
