@@ -18,7 +18,7 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
 from rldrill.problems.family import Givens
-from rldrill.problems.mathematics import Math, row, variable
+from rldrill.problems.mathematics import Math, mathematics, row, variable
 
 Letter = Annotated[str, AfterValidator(letter)]
 
@@ -81,6 +81,7 @@ class Robot:
     constants: Mapping[str, tuple[Fraction, ...]]
     state: Mapping[str, tuple[Angle, ...]]
     action: Mapping[str, tuple[Angle, ...]]
+    reward: str = ""
 
 
 @cache
@@ -102,6 +103,7 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
         constants={name: tuple(map(Fraction, texts)) for name, texts in row_["constants"].items()},
         state={name: tuple(map(read_angle, texts)) for name, texts in row_["state"].items()},
         action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
+        reward=row_.get("reward", ""),
     )
 
 
@@ -114,6 +116,7 @@ def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
     """A robot for that use and level, with values for its letters."""
     robot = rng.choice(_fit(use, level))
     return {
+        **({"reward": robot.reward} if robot.reward else {}),
         "story": robot.story,
         "dynamics": robot.dynamics,
         "where": robot.where,
@@ -125,19 +128,38 @@ def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
 
 
 def situation(given: System) -> Iterator[Block]:
-    """What the system does: its story, its equations, and the values of the letters."""
-    if given.story:
-        yield Paragraph(given.story)
-    states, actions = (_column(names) for names in (given.states, tuple(given.action)))
-    yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. The rates $f(s, a)$ of the state are:")
+    """What the system does: its story, the rates of its state, and the values of the letters."""
+    yield from _story(given, "The rates $f(s, a)$ of the state are:")
     for name, text in given.dynamics.items():
         yield Equation(_rate(name), (written(text),), ("=",))
     if given.where:
         yield Paragraph("where")
         for name, text in given.where.items():
             yield Equation(written_letter(name), (written(text),), ("=",))
+    yield from _values(given)
+
+
+def plan(given: System, reward: str) -> Iterator[Block]:
+    """The same for a system of which the next state and the reward are given."""
+    yield from _story(given, "The next state is $f(s, a)$:")
+    for index, text in enumerate(given.dynamics.values(), 1):
+        yield Equation(mathematics(f"f_{index}" if len(given.dynamics) > 1 else "f"), (written(text),), ("=",))
+    yield Paragraph("The reward is")
+    yield Equation(mathematics("r(s, a)"), (written(reward),), ("=",))
+    yield from _values(given)
+
+
+def _story(given: System, then: str) -> Iterator[Block]:
+    if given.story:
+        yield Paragraph(given.story)
+    states, actions = (_column(names) for names in (given.states, tuple(given.action)))
+    yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. {then}")
+
+
+def _values(given: System) -> Iterator[Block]:
     if given.constants:
-        yield Paragraph(f"The constants are ${_assignments(given.constants)}$.")
+        what = "constant is" if len(given.constants) == 1 else "constants are"
+        yield Paragraph(f"The {what} ${_assignments(given.constants)}$.")
     yield Paragraph("The operating point is")
     for head, values in (("s", {name: given.state[name] for name in given.states}), ("a", given.action)):
         yield _point(head, values)

@@ -72,6 +72,13 @@ def _factors(expression: Expr) -> tuple[Expr, ...]:
     return expression.args if expression.is_Mul else (expression,)
 
 
+@lru_cache(maxsize=4096)
+def second(text: str, first: str, then: str) -> Expr:
+    """The second derivative of an expression by two letters, as one writes it."""
+    (expression,) = expressions((("", text),))
+    return readable(sympy.diff(expression, symbol(first), symbol(then)))
+
+
 @cache
 def part_derivative(part: str, by: str) -> sympy.Symbol:
     """The derivative of a named part by a letter, as a letter of its own."""

@@ -22,7 +22,8 @@ _ABOVE = dict(
         strict=True,
     )
 )
-_DIFFERENTIALS = (Glyph("∂", "variable"), Glyph("d", "variable"))
+_PARTIAL = Glyph("∂", "variable")
+_DIFFERENTIALS = (_PARTIAL, Glyph("d", "variable"), Script(_PARTIAL, above=Glyph("2", "number")))
 _MARKS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Pow, evaluate, sqrt
+from sympy import Add, Expr, Pow, evaluate, sqrt
 
 from rldrill.problems.mathematics import (
     Accent,
@@ -361,7 +361,7 @@ with evaluate(False):
         A_tilde,
         Blocks(2, Ai, Cc, 0, 1),
         title="C pulled into the state, (s, 1)",
-        source="Boyd, EE363, lecture 1",
+        source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The state gets a last entry that is always 1; C is the column that multiplies it.",
     )
     AUGMENTED_B = Formula(
@@ -369,7 +369,7 @@ with evaluate(False):
         B_tilde,
         Blocks(2, Bi, 0),
         title="B for the state (s, 1)",
-        source="Boyd, EE363, lecture 1",
+        source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
 
@@ -399,6 +399,21 @@ V_i = quantity("Vi", lambda index: Script(variable("V′"), row(variable("s"), p
 f_iss, f_ias, f_iaa = (
     quantity(f"fi{''.join(by)}", _component(*by), matrix=True) for by in (("s", "s"), ("a", "s"), ("a", "a"))
 )
+
+
+def _second(line: Math, first: Math, then: Math) -> Math:
+    above = Script(variable("∂"), above=Glyph("2", "number"))
+    of = line if isinstance(line, Glyph) and line.text == "r" else Script(variable("f"), line)
+    if first == then:
+        below: Math = row(variable("∂"), Script(_letter(first), above=Glyph("2", "number")))
+    else:
+        below = row(variable("∂"), _letter(first), variable("∂"), _letter(then))
+    return Fraction(row(above, of), below)
+
+
+#: ∂²f₁/∂θ² and the like; of the reward, with r in place of the number.
+second = quantity("second", _second)
+g = letter("g")
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, section II, with rewards for costs"
@@ -413,6 +428,14 @@ with evaluate(False):
         hint="Change the old action by k, and by K for every deviation from the old state.",
         note="Linearise the dynamics, make the reward quadratic, solve the LQR problem, repeat; "
         "iLQR leaves the second derivatives of f out.",
+    )
+    SECOND_DERIVATIVE = Formula(
+        "ddp-second",
+        second(i, j, g),
+        second(i, j, g),
+        title="Second derivatives, of the reward and for DDP also of the dynamics",
+        source=_DDP,
+        hint="Differentiate twice, by every pair of letters; the order does not matter.",
     )
     DDP_S = Formula(
         "ddp-q-s",
@@ -477,3 +500,8 @@ with evaluate(False):
         source=_DDP,
         hint="The same inverse as for k, times the mixed Hessian.",
     )
+
+
+def ilqr(formula: Formula) -> Expr:
+    """A Hessian of Q as iLQR has it: without the sum over the second derivatives of the dynamics."""
+    return Add(*formula.right.args[:-1], evaluate=False)
