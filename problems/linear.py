@@ -1,6 +1,6 @@
 """Linear systems with quadratic rewards, as problems give them."""
 
-from typing import Self
+from typing import Any, Self
 
 from pydantic import Field, model_validator
 
@@ -95,7 +95,7 @@ def times(first: int, last: int) -> str:
     return ", ".join(map(str, range(first, last + 1))) if last - first < 3 else f"{first}, …, {last}"
 
 
-def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Rows]:
+def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
     """Small matrices of whole numbers: A, B with one action, Q diagonal, R the price."""
     if states == 1:
         return {"A": ((rng.nonzero(-2, 3),),), "B": ((rng.whole(1, 2),),), "Q": ((rng.whole(1, 3),),), "R": ((price,),)}

@@ -11,11 +11,11 @@ from rldrill.problems.mathematics import Grid, Math, mathematics, number
 Rows = tuple[tuple[Scalar, ...], ...]
 
 
-def _rows(value: object) -> object:
+def _rows(value: Any) -> Any:
     return value if isinstance(value, list | tuple) else ((value,),)
 
 
-def _by_time(value: Any) -> object:
+def _by_time(value: Any) -> Any:
     """One matrix for all times, or a list of matrices, one for every time."""
     rows = _rows(value)
     deep = rows and isinstance(rows[0], list | tuple) and rows[0] and isinstance(rows[0][0], list | tuple)

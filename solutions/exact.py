@@ -9,6 +9,7 @@ import sympy
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from rldrill.problems.exact import Logarithm, Parameter, Weight
+from rldrill.solutions import surds
 from rldrill.solutions.rational import RationalFunction
 
 #: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
@@ -92,13 +93,11 @@ def simplest(value: Value) -> Value:
 
 
 def tidy(value: Value) -> Value:
-    """A number of roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
-    if not isinstance(value, sympy.Expr) or value.is_Atom or value.free_symbols or value.has(sympy.exp, sympy.log):
+    """A number of square roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
+    if not isinstance(value, sympy.Expr) or value.is_Atom:
         return value
-    value = sympy.expand(value)
-    if any(node.is_Pow and node.exp.is_negative for node in sympy.preorder_traversal(value)):
-        value = sympy.expand(sympy.radsimp(value))
-    return simplest(value)
+    surd = surds.read(value)
+    return value if surd is None else surds.write(surd)
 
 
 def parameters(value: Value) -> frozenset[str]:

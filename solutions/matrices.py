@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 from flint import fmpq, fmpq_mat
 
 from rldrill.problems.matrices import Rows
+from rldrill.solutions import surds
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_zero, simplest, tidy
 
 
@@ -89,11 +90,12 @@ class ExactMatrix:
                 raise ZeroDivisionError("the matrix is singular")
             rows[k], rows[pivot] = rows[pivot], rows[k]
             head = rows[k][k]
-            rows[k] = [tidy(ONE * entry / head) for entry in rows[k]]
+            factor = tidy(ONE / head)
+            rows[k] = [times(factor, entry) for entry in rows[k]]
             for i in range(size):
                 if i != k:
-                    factor = rows[i][k]
-                    rows[i] = [tidy(entry - factor * above) for entry, above in zip(rows[i], rows[k], strict=True)]
+                    factor = -rows[i][k]
+                    rows[i] = [entry + times(factor, above) for entry, above in zip(rows[i], rows[k], strict=True)]
         return matrix(line[size:] for line in rows)
 
 
@@ -133,9 +135,19 @@ def product(left: AnyMatrix, right: AnyMatrix) -> AnyMatrix:
     return matrix([_inner(line, column) for column in columns] for line in left.tolist())
 
 
+def times(a: Value, b: Value) -> Value:
+    """The product of two values, multiplied out."""
+    return _inner((a,), (b,))
+
+
 def _inner(line: Sequence[Value], column: Sequence[Value]) -> Value:
-    terms = (a * b for a, b in zip(line, column, strict=True) if a != 0 and b != 0)
-    return sum(terms, ZERO)
+    total: surds.Surd = {}
+    for a, b in zip(line, column, strict=True):
+        left, right = surds.read(a), surds.read(b)
+        if left is None or right is None:
+            return sum((a * b for a, b in zip(line, column, strict=True) if a != 0 and b != 0), ZERO)
+        total = surds.add(total, surds.multiply(left, right))
+    return surds.write(total)
 
 
 def identity(size: int) -> fmpq_mat:

@@ -31,10 +31,11 @@ def question(given: Given) -> Question:
     n, m, last = len(given.start), given.actions, given.horizon
     wanted = []
     for time in range(last - 1, -1, -1):
-        wanted.append((f"What is the gain $L_{{{time}}}$ of the best action $a_{{{time}}} = −L_{{{time}}} s_{{{time}}}$",
-                       Matrix(m, n), 2))  # fmt: skip
-        wanted.append((f"What is the matrix $P_{{{time}}}$ of the value $V_{{{time}}}(s) = s^⊤ P_{{{time}}} s$",
-                       Matrix(n, n), 2))  # fmt: skip
+        action, value = f"a_{{{time}}} = −L_{{{time}}} s_{{{time}}}", f"V_{{{time}}}(s) = s^⊤ P_{{{time}}} s"
+        wanted += [
+            (f"What is the gain $L_{{{time}}}$ of the best action ${action}$", Matrix(m, n), 2),
+            (f"What is the matrix $P_{{{time}}}$ of the value ${value}$", Matrix(n, n), 2),
+        ]
     wanted.append(("What is the best first action $a_0$", Matrix(m, 1), 1))
     return Question(
         (

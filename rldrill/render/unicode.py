@@ -23,7 +23,8 @@ _ABOVE = dict(
         strict=True,
     )
 )
-_DIFFERENTIALS = (Glyph("∂", "variable"), Glyph("d", "variable"))
+_PARTIAL = Glyph("∂", "variable")
+_DIFFERENTIALS = (_PARTIAL, Glyph("d", "variable"), Script(_PARTIAL, above=Glyph("2", "number")))
 _MARKS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 
 
@@ -39,7 +40,8 @@ def unicode(math: Math) -> str:
         case Row(items):
             return _row(items)
         case Fraction(numerator, denominator):
-            return f"{_grouped(numerator)}/{_grouped(denominator)}"
+            above = unicode(numerator).strip() if _is_plain_product(numerator) else _grouped(numerator)
+            return f"{above}/{_grouped(denominator)}"
         case Script(body, below, above):
             return _script(body, below, above)
         case Fence(body, left, right):
@@ -101,6 +103,14 @@ def _row(items: tuple[Math, ...]) -> str:
                 if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
                     text += " "
     return text
+
+
+def _is_plain_product(item: Math) -> bool:
+    """A number and letters side by side: 2π/3 needs no brackets above the line."""
+    return isinstance(item, Row) and all(
+        isinstance(part, Root) or (isinstance(part, Glyph) and part.style in ("number", "variable"))
+        for part in item.items
+    )
 
 
 def _is_word(item: Math) -> bool:

@@ -41,8 +41,9 @@ class _Code(StrPrinter):
         base, exponent = expression.args
         if exponent == -1:
             return f"inverse({self._print(base)})"
-        if exponent == sympy.S.Half:
-            return f"root({self._print(base)})"
+        if exponent.is_Rational and exponent.q == 2:
+            root = f"root({self._print(base)})**{abs(exponent.p)}"
+            return f"inverse({root})" if exponent.is_negative else f"({root})"
         if exponent.is_Integer and exponent.is_negative:
             return f"inverse(({self._print(base)})**{-exponent})"
         return f"(({self._print(base)})**({self._print(exponent)}))"

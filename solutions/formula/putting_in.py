@@ -65,6 +65,8 @@ def put_in(expression: Expr, known: Known) -> Expr:
         return _product(arguments)
     if isinstance(expression, Transposed) and getattr(arguments[0], "scalar", False):
         return arguments[0]
+    if isinstance(expression, Blocks) and any(isinstance(block, MatrixLeaf) for block in arguments):
+        return computed(evaluated(Blocks(*arguments)))  # blocks of numbers are one matrix at once
     if expression.is_Pow:
         # An exponent counts steps; it is not part of the working.
         return _power(arguments[0], evaluated(arguments[1]))
@@ -167,7 +169,7 @@ def _without_ones(factors: list[Expr]) -> list[Expr]:
 def _power(base: Expr, exponent: Expr) -> Expr:
     if 1 in (base, exponent):
         return base
-    if exponent == 0:
+    if exponent == 0 or base == 1:
         return sympy.S.One
     return Pow(base, exponent, evaluate=False)
 

@@ -1,6 +1,7 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from math import lcm
 from typing import Any
 
 import sympy
@@ -26,6 +27,7 @@ from rldrill.problems.mathematics import (
     variable,
     word,
 )
+from rldrill.solutions import surds
 from rldrill.solutions.exact import Value, in_one_quotient, ordered, to_sympy
 from rldrill.solutions.formula.notation import (
     GLYPHS,
@@ -59,6 +61,7 @@ from rldrill.solutions.formula.notation import (
 _MINUS = operator("−")
 _PLUS = operator("+")
 _TIMES = operator("·")
+_LONG = 10**6
 
 
 def typeset(expression: Expr) -> Math:
@@ -70,11 +73,16 @@ def typeset(expression: Expr) -> Math:
     if expression.is_Symbol:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
     if expression.is_Rational:
-        return number(expression)
+        return _rational(expression)
     if expression.is_Add:
         return _sum(expression.args)
     if expression.is_Mul:
-        return _product(expression.args)
+        head, *rest = expression.args
+        return (
+            typeset_value(expression)
+            if rest == [sympy.pi] and head.is_Rational and not head.is_Integer
+            else _product(expression.args)
+        )
     if expression.is_Pow:
         return _power(*expression.args)
     for kind, writer in _WRITERS.items():
@@ -91,8 +99,22 @@ def typeset(expression: Expr) -> Math:
     raise TypeError(f"{expression.func.__name__} has no typesetting")
 
 
+def _rational(value: Expr) -> Math:
+    """A fraction, unless it is a decimal that is long but ends."""
+    places = 0
+    if value.q > _LONG:
+        places = next((places for places in range(7, 15) if 10**places % value.q == 0), 0)
+    if not places:
+        return number(value)
+    digits = str(abs(value.p) * 10**places // value.q).rjust(places + 1, "0")
+    return number(f"{'-' if value.p < 0 else ''}{digits[:-places]}.{digits[-places:]}")
+
+
 def typeset_value(value: Value) -> Math:
     """A computed value as mathematics: sympy's own order, since it is a result and not a formula."""
+    surd = surds.read(value) if isinstance(value, sympy.Expr) and not value.is_Rational else None
+    if surd:
+        return _surd(surd)
     expression = ordered(in_one_quotient(to_sympy(value)))
     if expression.is_Add:
         return _sum(expression.args)
@@ -108,6 +130,18 @@ def typeset_value(value: Value) -> Math:
         quotient = Fraction(typeset_value(-numerator if minus else numerator), typeset_value(denominator))
         return row(_MINUS, quotient) if minus else quotient
     return typeset(expression)
+
+
+def _surd(surd: surds.Surd) -> Math:
+    """A sum of roots over one common denominator: (1 + √5)/2."""
+    below = lcm(*(int(coefficient.q) for coefficient in surd.values()))
+    minus = max(surd.values()) < 0 and (below > 1 or len(surd) == 1)
+    scale = -below if minus else below
+    above = ordered(to_sympy(surds.write({term: coefficient * scale for term, coefficient in surd.items()})))
+    written = _product(above.args) if above.is_Mul else typeset(above)
+    if below > 1:
+        written = Fraction(written, number(below))
+    return row(_MINUS, written) if minus else written
 
 
 def _quotient(expression: Expr) -> tuple[Expr, Expr]:
@@ -170,7 +204,7 @@ def _product(factors: Sequence[Expr]) -> Math:
         rest = [factor for factor in flat if factor.is_commutative is False]
         dot = [_TIMES] if isinstance(rest[0], VectorLeaf) else []
         return row(_product(scalars), *dot, _product(rest))
-    if flat[0].is_Number and flat[0].is_negative:
+    if flat[0].is_Number and flat[0].is_negative and len(flat) > 1:
         return row(_MINUS, _product([-flat[0], *flat[1:]]))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
@@ -208,6 +242,9 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
         return True
     if before.is_Rational and not before.is_Integer:
         return True  # or the letter would seem to stand below the line
+    closed = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
+    if closed and (before.is_Integer or before is sympy.pi):
+        return False
     plain = bool(before.is_Symbol or isinstance(before, Quantity))
     if _numeric(factor):
         return True
@@ -231,6 +268,9 @@ def _power(base: Expr, exponent: Expr) -> Math:
     if exponent.is_Rational and exponent.is_negative and base.is_commutative is not False:
         rest = base if exponent == -1 else sympy.Pow(base, -exponent, evaluate=False)
         return Fraction(number(1), typeset(rest))
+    if isinstance(base, sympy.sin | sympy.cos | sympy.tan) and exponent.is_Integer:
+        written = word(base.func.__name__)
+        return row(Script(written, above=typeset(exponent)), Fence(typeset(_bare(base.args[0]))))
     simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
     return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
 
@@ -312,7 +352,10 @@ def _matrix(expression: MatrixLeaf) -> Math:
 def _blocks(expression: Blocks) -> Math:
     rows, *blocks = expression.args
     width = len(blocks) // int(rows)
-    written = [typeset(_bare(block)) for block in blocks]
+    written = [
+        typeset_value(block.args[0][0]) if isinstance(block, MatrixLeaf) and block.scalar else typeset(_bare(block))
+        for block in blocks
+    ]
     return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 

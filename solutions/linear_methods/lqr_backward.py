@@ -29,9 +29,7 @@ def solve(given: Given, work: Work) -> None:
     """Two parts for every time; the last is the action."""
     known = linear.known(given)
     last = given.horizon
-    work.say(
-        "$P_t$ is the matrix of the value; in the cost-to-go convention the same steps are taken with $S_t = −P_t$."
-    )
+    work.say("$P_t$ is the matrix of the value; in the cost-to-go convention it reads $S_t = −P_t$.")
     P = {last: work.step(LQR_TERMINAL, T=last, **known)}
     L = {}
     labels = iter(_LABELS)
@@ -77,5 +75,5 @@ def _best(given: Given, first: int) -> tuple[Array, Array]:
         H[here, here] += now["R"]
         reach, steer = now["A"] @ reach, now["A"] @ steer
         steer[:, here] += now["B"]
-    plan = -np.linalg.solve(H, F)
-    return plan, -(W + F.T @ plan)
+    plan = np.linalg.inv(-H) @ F
+    return np.asarray(plan, dtype=float), -(W + F.T @ plan)

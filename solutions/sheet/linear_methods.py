@@ -3,15 +3,17 @@
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Pow, evaluate, sqrt
+from sympy import Add, Expr, Pow, evaluate, sqrt
 
 from rldrill.problems.mathematics import (
     Accent,
     Fence,
     Fraction,
+    Glyph,
     Math,
     Script,
     listed,
+    mathematics,
     punctuation,
     row,
     variable,
@@ -168,6 +170,8 @@ Pi = letter("Pi", "P", matrix=True)
 Li = letter("Li", "L", matrix=True)
 modes = letter("modes", "T", matrix=True)
 Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
+#: The gain that is the same at all times.
+L_always = quantity("Lt", lambda _: variable("L"), matrix=True)
 closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
 a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
 p1, beta = letter("Pk", "P"), letter("betak", "β")
@@ -224,15 +228,18 @@ with evaluate(False):
 
 
 # Linearisation --------------------------------------------------------------------------------------
-def _derivative(of: str, by: str = "") -> Callable[..., Math]:
-    """Written ∂f₂/∂θ; with ``by``, ∂f₂/∂s₁ at the operating point."""
+def _letter(name: Math) -> Math:
+    """The name of a state or action as its letter: θ₁ for ``θ_1``."""
+    return mathematics(name.text) if isinstance(name, Glyph) else name
 
-    def layout(component: Math, variable_: Math) -> Math:
-        below = Script(variable(by), variable_) if by else variable_
-        quotient = Fraction(row(variable("∂"), Script(variable(of), component)), row(variable("∂"), below))
-        return row(quotient, _POINT) if by else quotient
 
-    return layout
+def _over_letter(above: Math, below: Math) -> Math:
+    return Fraction(row(variable("∂"), above), row(variable("∂"), _letter(below)))
+
+
+def _by_entry(by: str) -> Callable[..., Math]:
+    """Written ∂f₂/∂s₁ at the operating point."""
+    return lambda line, column: row(_over_letter(Script(variable("f"), line), Script(variable(by), column)), _POINT)
 
 
 def _bar(head: str) -> Math:
@@ -249,14 +256,17 @@ def _entry(head: str) -> Callable[..., Math]:
 
 _POINT = Fence(listed((_bar("s"), _bar("a"))))
 j = letter("j")
-partial = quantity("partial", _derivative("f"))
-partial_s = quantity("partialS", _derivative("f", "s"))
-partial_a = quantity("partialA", _derivative("f", "a"))
+#: ∂f₂/∂θ, and ∂D/∂θ of a named part of the dynamics.
+partial = quantity("partial", lambda line, name: _over_letter(Script(variable("f"), line), name))
+partial_part = quantity("partialPart", lambda part, name: _over_letter(_letter(part), name))
+part_value = quantity("partValue", _letter)
+partial_s, partial_a = quantity("partialS", _by_entry("s")), quantity("partialA", _by_entry("a"))
 Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
 f_value = quantity("fValue", subscripted("f"))
 f_point = quantity("fPoint", lambda component: row(Script(variable("f"), component), _POINT))
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
+F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)
 grad_s, grad_a = letter("gradS", _gradient("s"), matrix=True), letter("gradA", _gradient("a"), matrix=True)
 sv, av = letter("sv", "s", matrix=True), letter("av", "a", matrix=True)
 s_bar, a_bar = letter("sbar", _bar("s"), matrix=True), letter("abar", _bar("a"), matrix=True)
@@ -306,6 +316,7 @@ with evaluate(False):
         "forgot-identity",
         dt * Ai,
         "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
+        when=lambda given: given.step is not None,
     )
     EULER_B = Formula(
         "linearise-euler-b",
@@ -315,13 +326,21 @@ with evaluate(False):
         source="LaValle 2006, section 14.3.2",
         hint="Differentiate s + Δt f(s, a) by a: the first term does not depend on a.",
     )
-    VELOCITY_AT_POINT = Formula(
+    PART_VALUE = Formula(
         "linearise-f",
         f_value(i),
         f_point(i),
         title="The dynamics at the operating point",
         source="Åström & Murray 2008, section 5.4",
         hint="Put the operating point into every component of f.",
+    )
+    EULER_F = Formula(
+        "linearise-euler-f",
+        F_bar,
+        s_bar + dt * f_bar,
+        title="Euler step at the operating point",
+        source="LaValle 2006, section 14.3.2",
+        hint="The state moves by Δt times its rate.",
     )
     AFFINE_TERM = Formula(
         "linearise-affine",
@@ -342,7 +361,7 @@ with evaluate(False):
         A_tilde,
         Blocks(2, Ai, Cc, 0, 1),
         title="C pulled into the state, (s, 1)",
-        source="Boyd, EE363, lecture 1",
+        source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The state gets a last entry that is always 1; C is the column that multiplies it.",
     )
     AUGMENTED_B = Formula(
@@ -350,7 +369,7 @@ with evaluate(False):
         B_tilde,
         Blocks(2, Bi, 0),
         title="B for the state (s, 1)",
-        source="Boyd, EE363, lecture 1",
+        source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
 
@@ -380,6 +399,21 @@ V_i = quantity("Vi", lambda index: Script(variable("V′"), row(variable("s"), p
 f_iss, f_ias, f_iaa = (
     quantity(f"fi{''.join(by)}", _component(*by), matrix=True) for by in (("s", "s"), ("a", "s"), ("a", "a"))
 )
+
+
+def _second(line: Math, first: Math, then: Math) -> Math:
+    above = Script(variable("∂"), above=Glyph("2", "number"))
+    of = line if isinstance(line, Glyph) and line.text == "r" else Script(variable("f"), line)
+    if first == then:
+        below: Math = row(variable("∂"), Script(_letter(first), above=Glyph("2", "number")))
+    else:
+        below = row(variable("∂"), _letter(first), variable("∂"), _letter(then))
+    return Fraction(row(above, of), below)
+
+
+#: ∂²f₁/∂θ² and the like; of the reward, with r in place of the number.
+second = quantity("second", _second)
+g = letter("g")
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, section II, with rewards for costs"
@@ -394,6 +428,14 @@ with evaluate(False):
         hint="Change the old action by k, and by K for every deviation from the old state.",
         note="Linearise the dynamics, make the reward quadratic, solve the LQR problem, repeat; "
         "iLQR leaves the second derivatives of f out.",
+    )
+    SECOND_DERIVATIVE = Formula(
+        "ddp-second",
+        second(i, j, g),
+        second(i, j, g),
+        title="Second derivatives, of the reward and for DDP also of the dynamics",
+        source=_DDP,
+        hint="Differentiate twice, by every pair of letters; the order does not matter.",
     )
     DDP_S = Formula(
         "ddp-q-s",
@@ -458,3 +500,8 @@ with evaluate(False):
         source=_DDP,
         hint="The same inverse as for k, times the mixed Hessian.",
     )
+
+
+def ilqr(formula: Formula) -> Expr:
+    """A Hessian of Q as iLQR has it: without the sum over the second derivatives of the dynamics."""
+    return Add(*formula.right.args[:-1], evaluate=False)

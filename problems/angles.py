@@ -1,0 +1,81 @@
+"""Angles as problem files have them, in radians: ``pi/6``, ``-2*pi/3``, or a plain number."""
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+
+from rldrill.problems import mathematics as maths
+from rldrill.problems.exact import read_fraction
+from rldrill.problems.mathematics import Math, operator, row, variable
+
+_PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Angle:
+    """A rational number of radians, or a rational multiple of π."""
+
+    number: Fraction
+    of_pi: bool = False
+
+    def __str__(self) -> str:
+        if not self.of_pi:
+            return str(self.number)
+        head = {1: "", -1: "-"}.get(self.number.numerator, f"{self.number.numerator}*")
+        return f"{head}pi" + (f"/{self.number.denominator}" if self.number.denominator > 1 else "")
+
+
+def read_angle(value: object) -> Angle:
+    """Read an angle.
+
+    Raises:
+        ValueError: it is neither a number nor a multiple of π.
+    """
+    if isinstance(value, Angle):
+        return value
+    if isinstance(value, str) and (match := _PI.fullmatch(value.replace("−", "-").strip())):
+        sign, times, below = match.groups()
+        if below and int(below) == 0:
+            raise ValueError(f"{value!r} divides by zero")
+        factor = Fraction(int(times or 1), int(below or 1))
+        return Angle(-factor if sign == "-" else factor, of_pi=bool(factor))
+    try:
+        return Angle(read_fraction(value))
+    except ValueError:
+        raise ValueError(f"{str(value)[:40]!r} is not a number; write it as 3/4, 0.75 or pi/6") from None
+
+
+def shown(angle: Angle) -> Math:
+    """An angle as mathematics."""
+    number = angle.number
+    if not angle.of_pi:
+        return maths.number(number)
+    above: Any = (
+        variable("π") if abs(number.numerator) == 1 else row(maths.number(abs(number.numerator)), variable("π"))
+    )
+    written = maths.Fraction(above, maths.number(number.denominator)) if number.denominator > 1 else above
+    return row(operator("−"), written) if number < 0 else written
+
+
+def text(angle: Angle) -> str:
+    """An angle for use between ``$`` signs."""
+    number = angle.number
+    if not angle.of_pi:
+        return str(number).replace("-", "−")
+    sign = "−" if number < 0 else ""
+    times = "" if abs(number.numerator) == 1 else str(abs(number.numerator))
+    # One fraction needs plain digits above; a factor of π stands before it.
+    below = f"/{number.denominator}" if number.denominator > 1 else ""
+    return f"{sign}{times}π{below}"
+
+
+#: A number or a multiple of π, in a problem's givens.
+AngleField = Annotated[
+    Angle,
+    BeforeValidator(read_angle),
+    PlainSerializer(str, return_type=str),
+    WithJsonSchema({"type": ["string", "number"], "description": "a number, or a multiple of pi: 'pi/6'"}),
+]

@@ -1,0 +1,87 @@
+"""One backward step of differential dynamic programming: the quadratic Q, and the change of the action."""
+
+from fractions import Fraction
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact
+from rldrill.problems.expressions import Expression, letters
+from rldrill.problems.family import Question
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid
+from rldrill.problems.parts import Matrix, Part
+from rldrill.problems.robots import System, draw_system, plan
+
+TITLE = "Backward step of DDP"
+SOURCE = "Tassa, Erez & Todorov 2012, section II"
+REVISION = 1
+
+
+class Given(System):
+    """A system of which the dynamics give the next state, its reward, and the value of the next state.
+
+    ``gradient`` and ``hessian`` are the next value's at the next state. With ``second_order`` the second
+    derivatives of the dynamics count (DDP), without they do not (iLQR).
+    """
+
+    reward: Expression
+    gradient: tuple[Exact, ...] = Field(min_length=1)
+    hessian: MatrixField
+    second_order: bool = True
+
+    @model_validator(mode="after")
+    def _next(self) -> Self:
+        if self.step is not None or self.where:
+            raise ValueError("the dynamics give the next state itself here; leave out 'step' and 'where'")
+        known = {*self.state, *self.action, *self.constants}
+        if unknown := [name for name in letters(self.reward) if name not in known]:
+            raise ValueError(f"the reward holds {unknown[0]!r}, which has no value")
+        n = len(self.state)
+        if len(self.gradient) != n:
+            raise ValueError(f"gradient has {len(self.gradient)} entries, but the state {n}")
+        check_shape("hessian", self.hessian, n, n, f"with {n} states ")
+        check_symmetric("hessian", self.hessian)
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """iLQR with numbers; then DDP with numbers; then DDP with two states."""
+    system = draw_system(rng, "ddp", level)
+    n = len(system["state"])
+    hessian = tuple(tuple(-rng.whole(1, 3) if i == j else Fraction(0) for j in range(n)) for i in range(n))
+    gradient = tuple(rng.nonzero(-3, 3) for _ in range(n))
+    return Given(**system, gradient=gradient, hessian=hessian, second_order=level > 1)
+
+
+def question(given: Given) -> Question:
+    """The system and the next value; all derivatives of Q, then k and K."""
+    n, m = len(given.state), len(given.action)
+    kept = (
+        "This is a step of DDP: the second derivatives of $f$ count."
+        if given.second_order
+        else "This is a step of iLQR: $f$ is taken as linear, so its second derivatives are left out."
+    )
+    first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
+    wanted = (
+        ("Q_s", first, n, 1, 1), ("Q_a", first, m, 1, 1), ("Q_{s s}", then, n, n, 2), ("Q_{a s}", then, m, n, 2),
+        ("Q_{a a}", then, m, m, 2), ("k", "change of the action", m, 1, 1), ("K", "gain", m, n, 1),
+    )  # fmt: skip
+    return Question(
+        (
+            *plan(given, given.reward),
+            Paragraph("There the gradient and the Hessian of the next state's value are"),
+            Equation(mathematics("V′_s"), (grid(tuple((entry,) for entry in given.gradient)),), ("=",)),
+            Equation(mathematics("V′_{s s}"), (grid(given.hessian),), ("=",)),
+            Paragraph(
+                "$Q(s, a) = r(s, a) + V′(f(s, a))$ is expanded to second order around the operating point; there is no "
+                f"discount. {kept} The change of the action that makes it greatest is $a − ā = k + K (s − s̄)$."
+            ),
+        ),
+        tuple(
+            Part(label, f"What is the {what} ${head}$?", Matrix(rows, columns), points=points, zero=True)
+            for label, (head, what, rows, columns, points) in zip("abcdefg", wanted, strict=True)
+        ),
+    )

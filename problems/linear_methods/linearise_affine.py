@@ -1,0 +1,51 @@
+"""The constant term C of a linearisation, and the matrices that pull it into the state."""
+
+from typing import Self
+
+from pydantic import model_validator
+
+from rldrill.problems.document import Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.family import Question
+from rldrill.problems.parts import Matrix, Part
+from rldrill.problems.robots import System, discretised, draw_system, situation
+
+TITLE = "Linearisation with a constant term"
+SOURCE = "Åström & Murray 2008, section 5.4"
+REVISION = 1
+
+
+class Given(System):
+    """A system with its Euler step; what is asked for are C and the matrices for the state (s, 1)."""
+
+    @model_validator(mode="after")
+    def _steps(self) -> Self:
+        if self.step is None:
+            raise ValueError("step is missing: the 1 that is added to the state stays 1 from one time to the next")
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One tank; then two states; then a robot on wheels."""
+    step = rng.fraction("1/2", "1/3", "1/4", "1") if level < 3 else rng.fraction("1/10", "1/5", "1/2")
+    return Given(**draw_system(rng, "affine", level), step=step)
+
+
+def question(given: Given) -> Question:
+    """The system and its operating point; C, then both matrices."""
+    n, m = len(given.state), len(given.action)
+    return Question(
+        (
+            *situation(given),
+            discretised(given),
+            Paragraph(
+                "The linearisation of $F$ at the operating point is multiplied out, $F(s, a) ≈ A_Δ s + B_Δ a + C$. "
+                "Then $C$ is pulled into the state: with $s̃_t = (s_t, 1)^⊤$ it reads $s̃_{t+1} = Ã s̃_t + B̃ a_t$."
+            ),
+        ),
+        (
+            Part("a", "What is $C$?", Matrix(n, 1), points=2),
+            Part("b", "What is the matrix $Ã$?", Matrix(n + 1, n + 1), points=2),
+            Part("c", "What is the matrix $B̃$?", Matrix(n + 1, m)),
+        ),
+    )

@@ -1,0 +1,198 @@
+"""Robots with their published dynamics, from ``robots.toml``, and dynamics as problems give them."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from rldrill.problems import mathematics as maths
+from rldrill.problems.angles import Angle, AngleField, read_angle, shown
+from rldrill.problems.document import Block, Equation, Paragraph
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact
+from rldrill.problems.exact import shown as exact_shown
+from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
+from rldrill.problems.family import Givens
+from rldrill.problems.mathematics import Math, mathematics, row, variable
+
+Letter = Annotated[str, AfterValidator(letter)]
+
+
+def _positive(step: Fraction) -> Fraction:
+    if step <= 0:
+        raise ValueError(f"{step} is not above 0")
+    return step
+
+
+class System(Givens):
+    """Dynamics in letters, their constants, and an operating point.
+
+    Every state's expression in ``dynamics`` is its rate of change; with a ``step`` Δt the system is
+    discretised, s + Δt f(s, a). ``where`` names parts of the expressions, each in terms of those before it.
+    """
+
+    dynamics: dict[Letter, Expression] = Field(min_length=1, max_length=6)
+    where: dict[Letter, Expression] = Field(default_factory=dict, max_length=8)
+    constants: dict[Letter, Exact] = Field(default_factory=dict)
+    state: dict[Letter, AngleField]
+    action: dict[Letter, AngleField] = Field(min_length=1, max_length=4)
+    step: Annotated[Exact, AfterValidator(_positive)] | None = None
+    story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$")
+
+    @model_validator(mode="after")
+    def _closed(self) -> Self:
+        if missing := set(self.dynamics) ^ set(self.state):
+            raise ValueError(f"state and dynamics must have the same letters; {min(missing)!r} is in one only")
+        groups = (self.state, self.action, self.constants, self.where)
+        names = [name for group in groups for name in group]
+        if doubled := [name for name in names if names.count(name) > 1]:
+            raise ValueError(f"the letter {doubled[0]!r} stands for two things")
+        known = {*self.state, *self.action, *self.constants}
+        for name, text in (*self.where.items(), *self.dynamics.items()):
+            if unknown := [used for used in letters(text) if used not in known]:
+                raise ValueError(f"the expression of {name!r} holds {unknown[0]!r}, which has no value")
+            if name in self.where:
+                known.add(name)
+        if self.story.count("$") % 2:
+            raise ValueError("story: a $ is missing")
+        return self
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """The letters of the state, in the order of the dynamics."""
+        return tuple(self.dynamics)
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A robot of ``robots.toml``: its dynamics, the values that are drawn, and where it comes from."""
+
+    name: str
+    source: str
+    story: str
+    levels: Mapping[str, tuple[int, ...]]
+    dynamics: Mapping[str, str]
+    where: Mapping[str, str]
+    constants: Mapping[str, tuple[Fraction, ...]]
+    state: Mapping[str, tuple[Angle, ...]]
+    action: Mapping[str, tuple[Angle, ...]]
+    reward: str = ""
+
+
+@cache
+def robots() -> tuple[Robot, ...]:
+    """All robots."""
+    with (Path(__file__).parent / "robots.toml").open("rb") as file:
+        rows = tomllib.load(file)["robot"]
+    return tuple(map(_robot, rows))
+
+
+def _robot(row_: Mapping[str, Any]) -> Robot:
+    return Robot(
+        name=row_["name"],
+        source=row_["source"],
+        story=row_["story"],
+        levels={use: tuple(levels) for use, levels in row_["levels"].items()},
+        dynamics=row_["dynamics"],
+        where=row_.get("where", {}),
+        constants={name: tuple(map(Fraction, texts)) for name, texts in row_["constants"].items()},
+        state={name: tuple(map(read_angle, texts)) for name, texts in row_["state"].items()},
+        action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
+        reward=row_.get("reward", ""),
+    )
+
+
+@cache
+def _fit(use: str, level: int) -> tuple[Robot, ...]:
+    return tuple(robot for robot in robots() if level in robot.levels.get(use, ()))
+
+
+def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
+    """A robot for that use and level, with values for its letters."""
+    robot = rng.choice(_fit(use, level))
+    return {
+        **({"reward": robot.reward} if robot.reward else {}),
+        "story": robot.story,
+        "dynamics": robot.dynamics,
+        "where": robot.where,
+        **{
+            field: {name: rng.choice(values) for name, values in getattr(robot, field).items()}
+            for field in ("constants", "state", "action")
+        },
+    }
+
+
+def situation(given: System) -> Iterator[Block]:
+    """What the system does: its story, the rates of its state, and the values of the letters."""
+    yield from _story(given, "The rates $f(s, a)$ of the state are:")
+    for name, text in given.dynamics.items():
+        yield Equation(_rate(name), (written(text),), ("=",))
+    if given.where:
+        yield Paragraph("where")
+        for name, text in given.where.items():
+            yield Equation(written_letter(name), (written(text),), ("=",))
+    yield from _values(given)
+
+
+def plan(given: System, reward: str) -> Iterator[Block]:
+    """The same for a system of which the next state and the reward are given."""
+    yield from _story(given, "The next state is $f(s, a)$:")
+    for index, text in enumerate(given.dynamics.values(), 1):
+        yield Equation(mathematics(f"f_{index}" if len(given.dynamics) > 1 else "f"), (written(text),), ("=",))
+    yield Paragraph("The reward is")
+    yield Equation(mathematics("r(s, a)"), (written(reward),), ("=",))
+    yield from _values(given)
+
+
+def _story(given: System, then: str) -> Iterator[Block]:
+    if given.story:
+        yield Paragraph(given.story)
+    states, actions = (_column(names) for names in (given.states, tuple(given.action)))
+    yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. {then}")
+
+
+def _values(given: System) -> Iterator[Block]:
+    if given.constants:
+        what = "constant is" if len(given.constants) == 1 else "constants are"
+        yield Paragraph(f"The {what} ${_assignments(given.constants)}$.")
+    yield Paragraph("The operating point is")
+    for head, values in (("s", {name: given.state[name] for name in given.states}), ("a", given.action)):
+        yield _point(head, values)
+
+
+def discretised(given: System) -> Paragraph:
+    """The sentence that gives the Euler step."""
+    return Paragraph(
+        "Time is discretised by an Euler step: $s_{t+1} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
+        f"$Δ t = {exact_shown(given.step or Fraction(0))}$."
+    )
+
+
+def _column(names: tuple[str, ...]) -> str:
+    inside = ", ".join(_text(name) for name in names)
+    return f"({inside})^⊤" if len(names) > 1 else inside
+
+
+def _text(name: str) -> str:
+    head, _, index = name.partition("_")
+    return f"{head}_{index}" if index else head
+
+
+def _rate(name: str) -> Math:
+    return maths.Fraction(row(variable("d"), written_letter(name)), row(variable("d"), variable("t")))
+
+
+def _assignments(values: Mapping[str, Fraction]) -> str:
+    return ", ".join(f"{_text(name)} = {value}" for name, value in values.items())
+
+
+def _point(head: str, values: Mapping[str, Angle]) -> Equation:
+    """The operating point by its letters, and as a column."""
+    column = tuple(map(shown, values.values()))
+    right = column[0] if len(column) == 1 else maths.Grid(tuple((entry,) for entry in column))
+    return Equation(maths.Accent(variable(head), "bar"), (right,), ("=",))

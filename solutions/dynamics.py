@@ -1,0 +1,178 @@
+"""Dynamics of problems as expressions: their derivatives, worked out once for every robot, then put into."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, lru_cache
+
+import numpy as np
+import sympy
+from sympy import Expr
+
+from rldrill.problems.angles import Angle
+from rldrill.problems.expressions import worked_out, written_letter
+from rldrill.problems.mathematics import Fraction, row, variable
+from rldrill.problems.robots import System
+from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.formula.notation import GLYPHS, letter
+from rldrill.solutions.oracle import Array, at
+
+_FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt, "exp": sympy.exp}
+_NUMERIC = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp}
+#: The texts of expressions by their letters, in a form that can be remembered.
+Texts = tuple[tuple[str, str], ...]
+
+
+def symbol(name: str) -> sympy.Symbol:
+    """The letter of a robot as a letter of formulas."""
+    plain = sympy.Symbol(name)
+    return plain if plain in GLYPHS else letter(name, written_letter(name))
+
+
+class _Symbols(dict[str, Expr]):
+    def __missing__(self, name: str) -> Expr:
+        return symbol(name)
+
+
+@lru_cache(maxsize=256)
+def expressions(texts: Texts, where: Texts = (), *, evaluate: bool = True) -> tuple[Expr, ...]:
+    """Texts as sympy expressions, what ``where`` names put in; unevaluated, they keep their order."""
+    with sympy.evaluate(evaluate):
+        symbols = _Symbols()
+        for name, text in where:
+            symbols[name] = _expression(text, symbols)
+        return tuple(_expression(text, symbols) for _, text in texts)
+
+
+def _expression(text: str, symbols: Mapping[str, Expr]) -> Expr:
+    return sympy.sympify(worked_out(text, symbols, _FUNCTIONS, lambda n: sympy.Rational(n.numerator, n.denominator)))
+
+
+@lru_cache(maxsize=4096)
+def chained(text: str, by: str, parts: tuple[str, ...]) -> Expr:
+    """The derivative of one expression by a letter as one writes it, by the chain rule.
+
+    Args:
+        text: the expression.
+        by: the letter.
+        parts: the named parts in it whose own derivative by this letter is not zero.
+    """
+    (expression,) = expressions((("", text),))
+    own = readable(sympy.diff(expression, symbol(by)))
+    written = [own] if own != 0 else []
+    for part in parts:
+        factors = _factors(readable(sympy.diff(expression, symbol(part))))
+        written.append(sympy.Mul(*factors, part_derivative(part, by), evaluate=False))
+    if len(written) < 2:
+        return written[0] if written else sympy.S.Zero
+    return sympy.Add(*written, evaluate=False)
+
+
+def _factors(expression: Expr) -> tuple[Expr, ...]:
+    if expression == 1:
+        return ()
+    return expression.args if expression.is_Mul else (expression,)
+
+
+@lru_cache(maxsize=4096)
+def second(text: str, first: str, then: str) -> Expr:
+    """The second derivative of an expression by two letters, as one writes it."""
+    (expression,) = expressions((("", text),))
+    return readable(sympy.diff(expression, symbol(first), symbol(then)))
+
+
+@cache
+def part_derivative(part: str, by: str) -> sympy.Symbol:
+    """The derivative of a named part by a letter, as a letter of its own."""
+    above, below = (row(variable("∂"), written_letter(name)) for name in (part, by))
+    return letter(f"d_{part}_d_{by}", Fraction(above, below))
+
+
+@lru_cache(maxsize=4096)
+def readable(expression: Expr) -> Expr:
+    """The same expression unevaluated: quotients as quotients, numbers and letters before functions and sums."""
+    if expression.is_Add:
+        terms = sorted(map(readable, expression.args), key=_negative)
+        return sympy.Add(*terms, evaluate=False)
+    if expression.is_Mul or (expression.is_Pow and expression.exp.is_negative):
+        above, below = sympy.fraction(expression)
+        if below != 1:
+            quotient = sympy.Pow(readable(below), -1, evaluate=False)
+            first = _product(above)
+            return quotient if first == [sympy.S.One] else sympy.Mul(*first, quotient, evaluate=False)
+        return sympy.Mul(*_product(above), evaluate=False)
+    if expression.is_Pow:
+        return sympy.Pow(readable(expression.base), expression.exp, evaluate=False)
+    if expression.is_Function:
+        return expression.func(*map(readable, expression.args), evaluate=False)
+    return expression
+
+
+def _product(expression: Expr) -> list[Expr]:
+    factors = [readable(factor) if not factor.is_Mul else factor for factor in sympy.Mul.make_args(expression)]
+    return sorted(factors, key=lambda factor: (not factor.is_Number, not factor.is_Symbol, factor.is_Add))
+
+
+def _negative(expression: Expr) -> bool:
+    return bool(expression.could_extract_minus_sign())
+
+
+@lru_cache(maxsize=1024)
+def exchanged(expression: Expr) -> Expr:
+    """Sines for cosines and the other way round."""
+    if not expression.args:
+        return expression
+    arguments = [exchanged(argument) for argument in expression.args]
+    kind = {sympy.sin: sympy.cos, sympy.cos: sympy.sin}.get(expression.func, expression.func)
+    return kind(*arguments, evaluate=False)
+
+
+def texts(mapping: Mapping[str, str]) -> Texts:
+    """A mapping of texts in a form that can be remembered."""
+    return tuple(mapping.items())
+
+
+@lru_cache(maxsize=256)
+def angle(value: Angle) -> Value:
+    """An angle as an exact value."""
+    number = exact(value.number)
+    return to_sympy(number) * sympy.pi if value.of_pi else number
+
+
+def known(given: System) -> dict[str, Value]:
+    """The values of all letters at the operating point."""
+    return {
+        **{name: exact(value) for name, value in given.constants.items()},
+        **{name: angle(value) for name, value in (*given.state.items(), *given.action.items())},
+    }
+
+
+# For the independent solvers -------------------------------------------------------------------------
+def radians(value: Angle) -> float:
+    """An angle in floating point."""
+    return at(value.number) * (np.pi if value.of_pi else 1.0)
+
+
+def numbers(given: System) -> dict[str, complex]:
+    """The values of all letters in floating point."""
+    return {
+        **{name: complex(at(value)) for name, value in given.constants.items()},
+        **{name: complex(radians(value)) for name, value in (*given.state.items(), *given.action.items())},
+    }
+
+
+def numeric(of: Texts, where: Texts, values: Mapping[str, complex]) -> list[complex]:
+    """What expressions are worth, in complex floating point."""
+    values = dict(values)
+    for name, text in where:
+        values[name] = worked_out(text, values, _NUMERIC, complex)
+    return [complex(worked_out(text, values, _NUMERIC, complex)) for _, text in of]
+
+
+_TINY = 1e-30
+
+
+def complex_step(
+    function: Callable[[Mapping[str, complex]], Sequence[complex]], values: Mapping[str, complex], by: Sequence[str]
+) -> Array:
+    """The Jacobian of a function by some letters: the imaginary part of a step in the imaginary direction."""
+    columns = [[value.imag / _TINY for value in function({**values, name: values[name] + 1j * _TINY})] for name in by]
+    return np.array(columns).T

@@ -1,0 +1,160 @@
+"""Derivatives of reward and dynamics, the quadratic Q by the chain rule, and its maximum."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.linear_methods.ddp_backward import Given
+from rldrill.solutions import dynamics, matrices
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.sheet.linear_methods import (
+    DDP_A,
+    DDP_AA,
+    DDP_AS,
+    DDP_K,
+    DDP_S,
+    DDP_SS,
+    INPUT_JACOBIAN,
+    K_WITH_PLUS,
+    SECOND_DERIVATIVE,
+    STATE_JACOBIAN,
+    DDP_k,
+    ilqr,
+    partial,
+    partial_part,
+)
+from rldrill.solutions.work import Work
+
+ILQR_FOR_DDP = slip(
+    "ilqr-for-ddp",
+    "DDP keeps the second derivatives of the dynamics: V′ₛ · f_{ss} and the like belong to Q's; only iLQR drops them.",
+    when=lambda given: given.second_order,
+)
+DDP_FOR_ILQR = slip(
+    "ddp-for-ilqr",
+    "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
+    when=lambda given: not given.second_order,
+)
+MISCONCEPTIONS = (ILQR_FOR_DDP, DDP_FOR_ILQR, K_WITH_PLUS)
+
+
+def solve(given: Given, work: Work) -> None:
+    """First derivatives, second derivatives, then k and K."""
+    names, actions = given.states, tuple(given.action)
+    known: dict[str, Any] = {
+        "V_s": matrices.column(map(exact, given.gradient)),
+        "V_ss": matrices.given(given.hessian),
+        "Vi": {index: exact(entry) for index, entry in enumerate(given.gradient, 1)},
+    }
+    values = dynamics.known(given)
+    texts = tuple(given.dynamics.values())
+    for code, by, formula in (("s", names, STATE_JACOBIAN), ("a", actions, INPUT_JACOBIAN)):
+        known[f"r_{code}"] = matrices.column(_first(work, formula, values, given.reward, "r", name) for name in by)
+        known[f"f_{code}"] = matrices.matrix(
+            [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
+        )
+    Q = {"Q_s": work.answer("a", work.step(DDP_S, **known))}
+    Q["Q_a"] = work.answer("b", work.step(DDP_A, **known))
+    curved = given.second_order != (work.makes(ILQR_FOR_DDP) or work.makes(DDP_FOR_ILQR))
+    known["components"] = tuple(range(1, len(texts) + 1)) if curved else ()
+    if not curved:
+        work.say("iLQR leaves out the sums with the second derivatives of $f$.")
+    for label, code, formula, rows, columns in (
+        ("c", "ss", DDP_SS, names, names), ("d", "as", DDP_AS, actions, names), ("e", "aa", DDP_AA, actions, actions),
+    ):  # fmt: skip
+        known[f"r_{code}"] = _second(work, values, given.reward, "r", rows, columns)
+        known[f"fi{code}"] = {
+            index: _second(work, values, texts[index - 1], index, rows, columns) for index in known["components"]
+        }
+        Q[f"Q_{code}"] = work.answer(label, work.step(formula, right=None if curved else ilqr(formula), **known))
+    if work.misconception is None and not _is_negative(Q["Q_aa"]):
+        raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
+    work.answer("f", work.step(DDP_k, **Q))
+    work.answer("g", work.step(DDP_K, **Q))
+
+
+def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of: int | str, name: str) -> Value:
+    right = dynamics.chained(text, name, ())
+    into = partial_part if of == "r" else partial
+    return ZERO if right == 0 else work.step(formula, into=into, right=right, i=of, j=name, **values)
+
+
+def _second(
+    work: Work, values: Mapping[str, Value], text: str, of: int | str, rows: tuple[str, ...], columns: tuple[str, ...]
+) -> AnyMatrix:
+    """A Hessian; every second derivative is worked out once."""
+    found: dict[frozenset[str], Value] = {}
+    for first in rows:
+        for then in columns:
+            right = dynamics.second(text, first, then)
+            if frozenset((first, then)) not in found:
+                indices = {"i": of, "j": first, "g": then}
+                found[frozenset((first, then))] = (
+                    ZERO if right == 0 else work.step(SECOND_DERIVATIVE, right=right, **{**values, **indices})
+                )
+    return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
+
+
+def _is_negative(matrix: AnyMatrix) -> bool:
+    """Whether a symmetric matrix is negative definite: all pivots of its elimination are negative."""
+    rows = matrix.tolist()
+    for k, pivot in enumerate(rows):
+        if sign(pivot[k]) >= 0:
+            return False
+        for line in rows[k + 1 :]:
+            factor = line[k] / pivot[k]
+            line[k:] = [entry - factor * above for entry, above in zip(line[k:], pivot[k:], strict=True)]
+    return True
+
+
+def oracle(given: Given) -> Answers:
+    """Q as a function: its gradient by complex steps, its Hessian by differences of gradients."""
+    values = dynamics.numbers(given)
+    names = (*given.states, *given.action)
+    n = len(given.states)
+    after = _next(given, values)
+    home = np.real(after(values))
+    slope = np.array([at(entry) for entry in given.gradient])
+    curve = np.array([[at(entry) for entry in line] for line in given.hessian])
+
+    def worth(point: Mapping[str, complex]) -> list[complex]:
+        moved = np.array(after(point)) - home
+        (reward,) = dynamics.numeric((("r", given.reward),), (), point)
+        return [reward + slope @ moved + moved @ curve @ moved / 2]
+
+    def gradient(point: Mapping[str, complex]) -> Array:
+        return dynamics.complex_step(worth, point, names)[0]
+
+    hessian = np.array([_difference(gradient, values, name) for name in names])
+    g, aa = gradient(values), hessian[n:, n:]
+    return {
+        "a": g[:n], "b": g[n:], "c": hessian[:n, :n], "d": hessian[n:, :n], "e": aa,
+        "f": -np.linalg.solve(aa, g[n:]), "g": -np.linalg.solve(aa, hessian[n:, :n]),
+    }  # fmt: skip
+
+
+def _next(given: Given, values: Mapping[str, complex]) -> Callable[[Mapping[str, complex]], list[complex]]:
+    """The next state; for iLQR by the tangent plane at the operating point."""
+    names = (*given.states, *given.action)
+    texts = dynamics.texts(given.dynamics)
+
+    def curved(point: Mapping[str, complex]) -> list[complex]:
+        return dynamics.numeric(texts, (), point)
+
+    home, slope = np.array(curved(values)), dynamics.complex_step(curved, values, names)
+
+    def flat(point: Mapping[str, complex]) -> list[complex]:
+        return list(home + slope @ np.array([point[name] - values[name] for name in names]))
+
+    return curved if given.second_order else flat
+
+
+def _difference(function: Callable[[Mapping[str, complex]], Array], values: Mapping[str, complex], name: str) -> Array:
+    """The derivative of a function by one letter, from four points beside it."""
+    h = 2.0**-9
+    there = {step: function({**values, name: values[name] + step * h}) for step in (-2, -1, 1, 2)}
+    return (there[-2] - 8 * there[-1] + 8 * there[1] - there[2]) / (12 * h)
