@@ -208,6 +208,27 @@ class ModelAndPolicy(Givens):
         return self.policy or equiprobable(self.mdp)
 
 
+class Lookahead(Givens):
+    """What the actions of one state do, the values of the next states and the discount."""
+
+    dynamics: Dynamics
+    values: dict[Name, Open] = Field(min_length=1)
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _values_fit(self) -> Self:
+        if len(self.dynamics.states) != 1:
+            raise ValueError("dynamics must hold the actions of one state only")
+        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
+        check_keys(self.values, (*reached, self.state), "the value", needed=reached)
+        return self
+
+    @property
+    def state(self) -> str:
+        """The state in which the actions are taken."""
+        return self.dynamics.states[0]
+
+
 def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
     """The policy as a question gives it; nothing where there is nothing to choose."""
     if all(len(actions) == 1 for actions in given.mdp.actions.values()):

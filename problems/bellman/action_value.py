@@ -1,14 +1,10 @@
 """The values of actions in one state under a policy, from given values of the states."""
 
-from typing import Self
-
-from pydantic import Field, model_validator
-
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Open, Parameter
-from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Dynamics, Name, Transition, check_keys, transitions_table, values_table
+from rldrill.problems.exact import Parameter
+from rldrill.problems.family import Question
+from rldrill.problems.models import Dynamics, Lookahead, Transition, transitions_table, values_table
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
@@ -18,25 +14,8 @@ SOURCE = "Sutton & Barto 2018, section 3.5"
 REVISION = 1
 
 
-class Given(Givens):
+class Given(Lookahead):
     """What the actions of one state do, the values of the states under the policy, and the discount."""
-
-    dynamics: Dynamics
-    values: dict[Name, Open] = Field(min_length=1)
-    gamma: Discount
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        if len(self.dynamics.states) != 1:
-            raise ValueError("dynamics must hold the actions of one state only")
-        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
-        check_keys(self.values, (*reached, self.state), "the value", needed=reached)
-        return self
-
-    @property
-    def state(self) -> str:
-        """The state whose actions are valued."""
-        return self.dynamics.states[0]
 
 
 def draw(level: int, rng: Draws) -> Given:

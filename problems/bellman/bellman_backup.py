@@ -2,17 +2,16 @@
 
 from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Open, Parameter
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import Parameter
+from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Dynamics,
-    Name,
+    Lookahead,
     PolicyField,
-    check_keys,
     check_policy,
     policy_table,
     transitions_table,
@@ -27,27 +26,15 @@ SOURCE = "Sutton & Barto 2018, section 3.5"
 REVISION = 1
 
 
-class Given(Givens):
+class Given(Lookahead):
     """What the actions of one state do, the policy there, the values of the next states and the discount."""
 
-    dynamics: Dynamics
     policy: PolicyField
-    values: dict[Name, Open] = Field(min_length=1)
-    gamma: Discount
 
     @model_validator(mode="after")
-    def _fits(self) -> Self:
-        if len(self.dynamics.states) != 1:
-            raise ValueError("dynamics must hold the actions of one state only")
-        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
-        check_keys(self.values, (*reached, *self.dynamics.states), "the value", needed=reached)
+    def _policy_fits(self) -> Self:
         check_policy(self.policy, self.dynamics)
         return self
-
-    @property
-    def state(self) -> str:
-        """The state whose value is asked for."""
-        return self.dynamics.states[0]
 
 
 def draw(level: int, rng: Draws) -> Given:

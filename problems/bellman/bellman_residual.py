@@ -57,7 +57,8 @@ def draw(level: int, rng: Draws) -> Given:
     optimal = level == 3 or (level == 2 and rng.chance(Fraction(1, 2)))
     gamma = rng.fraction("1/2", "1/3", "2/3", "4/5") if level < 3 else rng.fraction("1/2", "4/5")
     unit = gamma.denominator  # so that γ times a value is whole
-    values = {state: unit * count for state, count in zip(mdp.states, rng.distinct(len(mdp.states), 1, 6), strict=True)}
+    counts = rng.distinct(len(mdp.states), 1, max(len(mdp.states) + 1, 12 // unit))
+    values = {state: unit * count for state, count in zip(mdp.states, counts, strict=True)}
     chances = {
         state: dict(zip(actions, rng.split(len(actions), (2, 4)) if len(actions) > 1 else (Fraction(1),), strict=True))
         for state, actions in mdp.actions.items()

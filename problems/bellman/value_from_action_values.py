@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, PolicyField, check_keys, policy_table, sums_to_one
+from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import action_values_table
@@ -32,10 +32,7 @@ class Given(Givens):
         for state, row in self.values.items():
             if not row:
                 raise ValueError(f"values: the action values of {state!r} are missing")
-            chances = self.policy[state]
-            check_keys(chances, tuple(row), f"the policy in {state!r}", needed=())
-            if not sums_to_one(list(chances.values())):
-                raise ValueError(f"the policy's probabilities in {state!r} do not sum to 1")
+            check_chances(self.policy[state], state, tuple(row))
         return self
 
 

@@ -36,8 +36,8 @@ def solve(given: Given, work: Work) -> None:
     values = _totals(given, R, work)
     values = {given.goal: ZERO} | work.answer("a", {state: values[state] for state in given.onward})
     best = {state: _best(state, after, R, values, work) for state, after in given.onward.items()}
-    work.say(f"The best path from {given.start} is {_path(given.start, best)}.")
-    work.say("Each part of it is the best path from where that part begins: this is the principle of optimality.")
+    work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
+    work.say("Each part of it is a best path from where that part begins: this is the principle of optimality.")
     if given.forks:
         work.answer("b", {state: best[state] for state in given.forks})
     if given.through is not None:
