@@ -7,9 +7,9 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter, Probability, shown
+from rldrill.problems.exact import Discount, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, Policy, PolicyField, check_chances, check_keys, policy_table, read_policy
+from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, read_policy
 from rldrill.problems.parts import Number, Part, Vector
 from rldrill.problems.phrases import discount, in_open, terminal_note
 from rldrill.problems.runs import Trajectory, trajectory_table
@@ -40,8 +40,8 @@ class Given(Givens):
             for state, action in zip(episode.states, episode.actions, strict=False):
                 if not self.behaviour.get(state, {}).get(action):
                     raise ValueError(f"behaviour: {action!r} is taken in {state!r}, where it has no probability")
-        for state, chances in self.behaviour.items():
-            check_chances(chances, state, tuple(chances), "the behaviour policy")
+        for state, acted in self.behaviour.items():
+            check_chances(acted, state, tuple(acted), "the behaviour policy")
         check_keys(self.target, tuple(self.behaviour), "the target policy", needed=tuple(self.behaviour))
         for state, chances in self.target.items():
             check_chances(chances, state, tuple(self.behaviour[state]), "the target policy")
@@ -67,7 +67,9 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     first, second = rng.shuffled(setting.states)[:2]
     behaviour = {state: _chances(rng, setting, ("1/2", "1/4", "3/4")) for state in (first, second)}
-    target: dict[str, Policy] = {state: _chances(rng, setting, ("1/4", "3/4", "1/3", "2/3")) for state in behaviour}
+    target: dict[str, dict[str, Scalar]] = {
+        state: {**_chances(rng, setting, ("1/4", "3/4", "1/3", "2/3"))} for state in behaviour
+    }
     if level == 3:
         left, right = setting.actions[:2]
         target |= {first: {left: Parameter("p"), right: Parameter("1-p")}, second: target[second]}

@@ -65,6 +65,8 @@ def is_close(value: Value, key: Value) -> bool:
 
 def apart(key: Value, other: Value) -> bool:
     """Whether a marker can tell two answers from each other, even rounded to three digits."""
+    if key == other:
+        return False
     if parameters(key) or parameters(other):
         return not equivalent(key, other)
     return not within(other, key, tolerance(key) + tolerance(other))

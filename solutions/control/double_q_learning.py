@@ -57,10 +57,10 @@ def oracle(given: Given) -> Answers:
     states = list(given.values)
     actions = [list(row) for row in given.values.values()]
     Q = np.full((2, len(states), max(map(len, actions))), -np.inf)
-    for number, table in enumerate((given.values, given.second)):
+    for number, rows in enumerate((given.values, given.second)):
         for row, state in enumerate(states):
             for column, action in enumerate(actions[row]):
-                Q[number, row, column] = at(table[state][action])
+                Q[number, row, column] = at(rows[state][action])
     for time, table in enumerate(given.updates):
         mine, other = table - 1, 2 - table
         row = states.index(run.states[time])

@@ -1,5 +1,7 @@
 """The probability of every action, then their average of the action values."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.control.epsilon_greedy import Given
@@ -51,7 +53,7 @@ def solve(given: Given, work: Work) -> None:
     if work.makes(VALUE_OF_BEST):
         work.answer("b", values[given.best[0]])
         return
-    known = {
+    known: dict[str, Any] = {
         "pi": {(action, given.state): chance for action, chance in chances.items()},
         "Q": {(given.state, action): value for action, value in values.items()},
         "actions": {given.state: tuple(values)},

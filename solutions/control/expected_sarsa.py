@@ -36,7 +36,7 @@ def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> d
     if state in given.trajectory.terminal:
         return dict.fromkeys(values, ONE)
     if given.policy is not None:
-        return {action: exact(given.policy[state].get(action, 0)) for action in values}  # type: ignore[arg-type]
+        return {action: exact(given.policy[state].get(action, 0)) for action in values}
     assert given.epsilon is not None  # the givens have one or the other
     return epsilon_greedy(work, state, values, exact(given.epsilon))
 

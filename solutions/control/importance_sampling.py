@@ -1,5 +1,7 @@
 """The ratio of every episode, then its return, then both estimates."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.control.importance_sampling import Given
@@ -31,7 +33,7 @@ MISCONCEPTIONS = (
 def solve(given: Given, work: Work) -> None:
     """Ratios; returns; the mean of their products, and with the ratios as weights."""
     acted = knowns.policy(given.behaviour)
-    known = {"pi": dict.fromkeys(acted, ZERO) | knowns.policy(given.target), "behaviour": acted}
+    known: dict[str, Any] = {"pi": dict.fromkeys(acted, ZERO) | knowns.policy(given.target), "behaviour": acted}
     runs = [knowns.trajectory(episode) | {"T": len(episode.rewards)} for episode in given.episodes]
     ratios = tuple(work.step(IMPORTANCE_RATIO, i=number, **run, **known) for number, run in enumerate(runs, 1))
     answer = work.answer("a", ratios if len(ratios) > 1 else ratios[0])
@@ -41,7 +43,7 @@ def solve(given: Given, work: Work) -> None:
         if len(runs) > 1:
             work.say(f"The return of episode {number} is called $R_{number}$ from here on:")
         returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
-    weighing = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
+    weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
     work.answer("b", work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
     if len(runs) > 1:
         work.answer("c", work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
