@@ -12,7 +12,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, read_policy
 from rldrill.problems.parts import Number, Part, Vector
 from rldrill.problems.phrases import discount, in_open, terminal_note
-from rldrill.problems.runs import Trajectory, trajectory_table
+from rldrill.problems.runs import Trajectory, timeline
 from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Importance sampling"
@@ -103,7 +103,7 @@ def question(given: Given) -> Question:
     runs: list[Block] = []
     for number, episode in enumerate(given.episodes, 1):
         runs += [Paragraph(f"Episode {number}:")] if several else []
-        runs.append(trajectory_table(episode))
+        runs.append(timeline(episode))
     blocks = (
         Paragraph(
             "The behaviour policy $b$ acted; the values of the target policy $π$ are wanted. They take an action $a$ "
@@ -112,8 +112,8 @@ def question(given: Given) -> Question:
         policy_table(given.target, b=given.behaviour),
         *(Paragraph(f"The probability ${shown(Parameter(p))}$ is left open.") for p in left_open),
         Paragraph(
-            f"The agent acted for {f'{len(given.episodes)} episodes' if several else 'one episode'} "
-            f"(a reward stands at the time at which it is received). {discount(given.gamma)}"
+            f"The agent acted for {f'{len(given.episodes)} episodes' if several else 'one episode'}. "
+            f"{discount(given.gamma)}"
         ),
         *runs,
         *terminal_note(tuple(dict.fromkeys(state for episode in given.episodes for state in episode.terminal))),
