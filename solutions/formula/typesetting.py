@@ -412,7 +412,7 @@ _WRITERS: dict[type, Any] = {
     VectorLeaf: lambda expression: vector(expression.args[0]),
     MatrixLeaf: _matrix,
     Blocks: _blocks,
-    Negative: lambda expression: Fence(typeset(expression.args[0])),
+    Negative: lambda expression: Fence(typeset_value(expression.args[0])),
     sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
     sympy.exp: _exponential,
     sympy.log: _logarithm,

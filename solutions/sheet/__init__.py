@@ -19,6 +19,7 @@ SECTIONS = {
     "backup_diagrams": "Backup diagrams",
     "bayes": "Bayesian methods",
     "function_approximation": "Function approximation",
+    "beyond_the_sheet": "Beyond the sheet",
 }
 
 

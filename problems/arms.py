@@ -1,0 +1,55 @@
+"""Planar arms as problems give them."""
+
+from collections.abc import Sequence
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.angles import Angle, AngleField, read_angle, text
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, shown
+from rldrill.problems.family import Givens
+
+_RIGHT = tuple(map(read_angle, ("0", "pi/2", "pi", "-pi/2")))
+_SLANTED = tuple(map(read_angle, ("pi/6", "pi/3", "pi/2", "2*pi/3", "-pi/6", "-pi/3", "-pi/2", "5*pi/6")))
+_DIAGONAL = tuple(map(read_angle, ("pi/4", "pi/2", "3*pi/4", "-pi/4", "-pi/2")))
+
+
+class PlanarArm(Givens):
+    """The lengths of an arm's links, and its joint angles, each relative to the link before."""
+
+    lengths: tuple[Exact, ...] = Field(min_length=2, max_length=6)
+    angles: tuple[AngleField, ...]
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if len(self.angles) != len(self.lengths):
+            raise ValueError(f"angles holds {len(self.angles)}, but there are {len(self.lengths)} links")
+        if min(self.lengths) <= 0:
+            raise ValueError(f"lengths: {min(self.lengths)} is not above 0")
+        return self
+
+
+def draw_angles(rng: Draws, level: int, count: int) -> tuple[Angle, ...]:
+    """Right angles; then multiples of 30°, or of 45°, so that all sums have short sines."""
+    if level == 1:
+        return (rng.choice(_RIGHT), *(rng.choice((_RIGHT[1], _RIGHT[3])) for _ in range(count - 1)))
+    angles: Sequence[Angle] = rng.choice((_SLANTED, _SLANTED, _DIAGONAL))
+    return tuple(rng.choice(angles) for _ in range(count))
+
+
+def situation(given: PlanarArm) -> tuple[Paragraph | Table, ...]:
+    """The arm in words, and its links."""
+    rows = tuple(
+        (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
+        for index, (length, angle) in enumerate(zip(given.lengths, given.angles, strict=True), 1)
+    )
+    return (
+        Paragraph(
+            f"An arm with {len(rows)} links moves in the plane; its base is at the origin. Link $i$ has the length "
+            "$l_i$. $θ_1$ is the angle of the first link against the $x$ axis; every other $θ_i$ is the angle of "
+            "link $i$ against the link before it. Angles are in radians, counter-clockwise."
+        ),
+        Table(("link $i$", "$l_i$", "$θ_i$"), rows),
+    )

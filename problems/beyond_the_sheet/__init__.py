@@ -1,0 +1,1 @@
+"""What the lecture's introduction names without a formula: kinematics and meta-learning."""

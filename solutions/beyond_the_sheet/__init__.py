@@ -1,0 +1,1 @@
+"""Kinematics and meta-learning, solved."""

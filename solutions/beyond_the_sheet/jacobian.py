@@ -1,0 +1,51 @@
+"""The Jacobian column by column; the velocity from it; the determinant where it is square."""
+
+import numpy as np
+
+from rldrill.problems.beyond_the_sheet.jacobian import Given
+from rldrill.solutions import arms, matrices
+from rldrill.solutions.exact import ONE, exact, is_zero
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.beyond_the_sheet import (
+    ABSOLUTE_ANGLES,
+    END_POINT_VELOCITY,
+    JACOBIAN_X,
+    JACOBIAN_Y,
+    SINGULAR,
+    TRANSPOSED_J,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (TRANSPOSED_J, ABSOLUTE_ANGLES)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The determinant does not depend on how the base is turned."""
+    arm = arms.known(given)
+    arm["phi"] = arms.link_angles(work, arm)
+    joints = tuple(arm["length"])
+    rows = [[work.step(formula, j=joint, **arm) for joint in joints] for formula in (JACOBIAN_X, JACOBIAN_Y)]
+    if given.orientation:
+        work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
+        rows.append([ONE for _ in joints])
+    J = work.answer("a", matrices.matrix(rows))
+    velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
+    work.answer("b", tuple(velocity.entries()))
+    if given.square:
+        work.answer("c", is_zero(work.step(SINGULAR, **arm)))
+
+
+def oracle(given: Given) -> Answers:
+    """Differences of end points, and the singular values of what comes out."""
+    angles, h = arms.joint_angles(given), 2.0**-10
+    unit = np.eye(len(angles)) * h
+
+    def slope(turn: np.ndarray) -> np.ndarray:
+        there = {step: arms.end_point(given, angles + step * turn) for step in (-3, -2, -1, 1, 2, 3)}
+        return (45 * (there[1] - there[-1]) - 9 * (there[2] - there[-2]) + there[3] - there[-3]) / (60 * h)
+
+    J = np.array([slope(turn) for turn in unit]).T[: len(given.rows)]
+    answers = {"a": J, "b": J @ np.array([at(rate) for rate in given.rates])}
+    if given.square:
+        answers["c"] = bool(np.linalg.svd(J, compute_uv=False)[-1] < 1e-9)
+    return answers

@@ -1,0 +1,209 @@
+"""What the lecture names without formulas: kinematics of arms, and meta-learning."""
+
+from collections.abc import Callable
+
+from sympy import cos, evaluate, sin
+
+from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable, word
+from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.notation import (
+    Blocks,
+    Counting,
+    SumOver,
+    Transposed,
+    alpha,
+    i,
+    letter,
+    n,
+    quantity,
+    subscripted,
+)
+
+
+def _jacobian_entry(head: str) -> Callable[[Math], Math]:
+    return lambda column: Script(variable("J"), listed((variable(head), column)))
+
+
+j = letter("j")
+theta = quantity("thetaj", subscripted("θ"))
+phi = quantity("phi", subscripted("φ"))
+length = quantity("length", subscripted("l"))
+x, y, heading = letter("xe", "x"), letter("ye", "y"), letter("headinge", "φ")
+Jx, Jy = quantity("Jx", _jacobian_entry("x")), quantity("Jy", _jacobian_entry("y"))
+Jacobian = letter("Jac", "J", matrix=True)
+rates, velocity = letter("rates", "ω", matrix=True), letter("velocity", "v", matrix=True)
+determinant = letter("detJ", row(word("det"), variable("J")))
+
+with evaluate(False):
+    LINK_ANGLE = Formula(
+        "link-angle",
+        phi(i),
+        SumOver(theta(j), j, Counting(1, i)),
+        title="Angle of a link against the base",
+        source="Craig 2005, section 3.3",
+        hint="Each joint turns everything behind it, so the angles of all joints before the link add up.",
+    )
+    ABSOLUTE_ANGLES = misread(
+        LINK_ANGLE,
+        "absolute-for-relative-angles",
+        theta(i),
+        "A joint's angle counts from the link before: the angles of all joints up to the link are added.",
+    )
+    FORWARD_X = Formula(
+        "forward-kinematics-x",
+        x,
+        SumOver(length(i) * cos(phi(i)), i, Counting(1, n)),
+        title="End point of a planar arm, x",
+        source="Siciliano et al. 2009, section 2.9.1",
+        hint="Add the links as vectors; along x each contributes its length times the cosine of its angle.",
+    )
+    FORWARD_Y = Formula(
+        "forward-kinematics-y",
+        y,
+        SumOver(length(i) * sin(phi(i)), i, Counting(1, n)),
+        title="End point of a planar arm, y",
+        source="Siciliano et al. 2009, section 2.9.1",
+        hint="Add the links as vectors; along y each contributes its length times the sine of its angle.",
+    )
+    JACOBIAN_X = Formula(
+        "jacobian-x",
+        Jx(j),
+        -SumOver(length(i) * sin(phi(i)), i, Counting(j, n)),
+        title="Jacobian of a planar arm, row of x",
+        source="Siciliano et al. 2009, section 3.2.1",
+        hint="Joint j moves the links from j on; differentiate their part of x by its angle.",
+    )
+    JACOBIAN_Y = Formula(
+        "jacobian-y",
+        Jy(j),
+        SumOver(length(i) * cos(phi(i)), i, Counting(j, n)),
+        title="Jacobian of a planar arm, row of y",
+        source="Siciliano et al. 2009, section 3.2.1",
+        hint="Joint j moves the links from j on; differentiate their part of y by its angle.",
+    )
+    END_POINT_VELOCITY = Formula(
+        "jacobian",
+        velocity,
+        Jacobian * rates,
+        title="Velocity of the end point",
+        source="Siciliano et al. 2009, section 3.1",
+        hint="Each joint contributes its column of J times its angular velocity.",
+    )
+    TRANSPOSED_J = misread(
+        END_POINT_VELOCITY,
+        "transposed-jacobian",
+        Transposed(Jacobian) * rates,
+        "Velocities are mapped by J itself; its transpose maps forces to joint torques.",
+        when=lambda given: given.square,
+    )
+    SINGULAR = Formula(
+        "jacobian-determinant",
+        determinant,
+        length(1) * length(2) * sin(theta(2)),
+        title="Determinant of the Jacobian of a planar arm",
+        source="Siciliano et al. 2009, example 3.2",
+        hint="It vanishes where the arm is stretched out or folded back.",
+        note="The same for three links, where the orientation is the third row.",
+    )
+
+
+# Denavit and Hartenberg ------------------------------------------------------------------------------
+T_i = quantity("Ti", lambda below: Script(variable("T"), below), matrix=True)
+T_total = letter("Ttotal", "T", matrix=True)
+th, d, al = quantity("th", subscripted("θ")), quantity("d", subscripted("d")), quantity("al", subscripted("α"))
+a_link = quantity("alink", subscripted("a"))
+before, after = letter("before", "T", matrix=True), letter("after", Script(variable("T"), variable("i")), matrix=True)
+
+with evaluate(False):
+    LINK_TRANSFORM = Formula(
+        "denavit-hartenberg",
+        T_i(i),
+        Blocks(
+            4,
+            cos(th(i)), -sin(th(i)) * cos(al(i)), sin(th(i)) * sin(al(i)), a_link(i) * cos(th(i)),
+            sin(th(i)), cos(th(i)) * cos(al(i)), -cos(th(i)) * sin(al(i)), a_link(i) * sin(th(i)),
+            0, sin(al(i)), cos(al(i)), d(i),
+            0, 0, 0, 1,
+        ),
+        title="Transform of one link, Rot_z(θ) Trans_z(d) Trans_x(a) Rot_x(α)",
+        source="Siciliano et al. 2009, eq. 2.52",
+        hint="Turn by θ and shift by d along z, then shift by a and turn by α along the new x.",
+    )  # fmt: skip
+    CRAIGS = misread(
+        LINK_TRANSFORM,
+        "modified-convention",
+        Blocks(
+            4,
+            cos(th(i)), -sin(th(i)), 0, a_link(i),
+            sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)), -sin(al(i)) * d(i),
+            sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)), cos(al(i)) * d(i),
+            0, 0, 0, 1,
+        ),
+        "Here the turn by θ comes first and the turn by α last; the other order is Craig's modified convention.",
+    )  # fmt: skip
+    CHAIN = Formula(
+        "link-product",
+        T_total,
+        before * after,
+        title="Transforms of a chain of links",
+        source="Siciliano et al. 2009, eq. 2.50",
+        hint="From the base outwards, each new link is multiplied from the right.",
+        sign="←",
+    )
+    WRONG_ORDER = misread(
+        CHAIN,
+        "wrong-order",
+        after * before,
+        "Each link's transform is given in the frame of the link before, so it is multiplied from the right.",
+        when=lambda given: len(given.links) > 1,
+    )
+
+
+# Meta-learning ---------------------------------------------------------------------------------------
+def _adapted(index: Math) -> Math:
+    return Script(variable("θ′"), index)
+
+
+def _loss(argument: Math, index: Math) -> Math:
+    return row(Script(variable("∇"), variable("θ")), Script(variable("L"), index), Fence(argument))
+
+
+theta0, beta = letter("theta0", "θ"), letter("beta", "β")
+adapted = quantity("adapted", _adapted)
+curvature, optimum = quantity("curvature", subscripted("c")), quantity("optimum", subscripted("m"))
+loss_gradient = quantity("lossGradient", lambda index: _loss(_adapted(index), index))
+inner_gradient = quantity("innerGradient", lambda index: _loss(variable("θ"), index))
+Tasks = letter("tasks", "N")
+
+with evaluate(False):
+    MAML_INNER = Formula(
+        "maml-inner",
+        adapted(i),
+        theta0 - alpha * curvature(i) * (theta0 - optimum(i)),
+        title="MAML: adaptation to one task",
+        source="Finn, Abbeel & Levine 2017, section 2.2",
+        hint="One gradient step on the task's own loss, from the shared θ.",
+        also=(theta0 - alpha * inner_gradient(i),),
+    )
+    MAML_OUTER = Formula(
+        "maml-step",
+        theta0,
+        theta0 - beta * SumOver((1 - alpha * curvature(i)) * curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
+        title="MAML: step of the shared parameter",
+        source="Finn, Abbeel & Levine 2017, eq. 1",
+        hint="The adapted θ′ depends on θ: the chain rule gives the factor 1 − αc.",
+        sign="←",
+        also=(theta0 - beta * SumOver(loss_gradient(i), i, Tasks),),
+    )
+    FIRST_ORDER = misread(
+        MAML_OUTER,
+        "first-order",
+        theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
+        "The full gradient goes through the adaptation: dθ′/dθ = 1 − αc; leaving it out is first-order MAML.",
+    )
+    NOT_ADAPTED = misread(
+        MAML_OUTER,
+        "gradient-before-adaptation",
+        theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
+        "The outer loss is that of the adapted parameters θ′, not of the θ from before.",
+    )
