@@ -137,7 +137,7 @@ class Work:
 
         Args:
             formula: a formula of the sheet.
-            into: the quantity (a class of ``notation``) to name the result by, where it is not the formula's own (V₂ for V).
+            into: the quantity to name the result by, where it is not the formula's own (V₂ for V).
             sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
