@@ -50,7 +50,8 @@ def question(given: Given) -> Question:
         Paragraph("In state $s$ the actions have these features:"),
         features_table(given.features),
         Paragraph(
-            f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences $h(s, a) = θ^⊤ f(s, a)$."
+            f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences "
+            "$h(s, a) = θ^⊤ f(s, a)$."
         ),
     )
     return Question(
