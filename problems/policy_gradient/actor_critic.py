@@ -117,8 +117,8 @@ def question(given: Given) -> Question:
         (
             Part("a", f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
                  Vector(errors)),
-            Part("b", f"{values} after that{opened}?", Table("V", given.visited), zero=True),
-            Part("c", f"What are the actor's weights $θ$ after that{opened}?", Vector(weight_names(given.theta)),
+            Part("b", f"{values} after the run{opened}?", Table("V", given.visited), zero=True),
+            Part("c", f"What are the actor's weights $θ$ after the run{opened}?", Vector(weight_names(given.theta)),
                  points=3),
         ),
     )  # fmt: skip

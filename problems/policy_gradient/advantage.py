@@ -89,17 +89,18 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two certain actions and V(s) given; then three actions and a policy; then GAE with λ left open."""
     setting = draw_setting(rng)
-    gamma = rng.fraction("1/2", "1/2", "4/5")
     if level == 3:
         first, second, third = rng.shuffled(setting.states)[:3]
-        states = (first, second, first, rng.choice((third, setting.terminal)))
+        states = (first, second, first, third, rng.choice((second, setting.terminal)))
         run = Trajectory(
             states=states,
             rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
             terminal=tuple(state for state in states if state == setting.terminal),
         )
         values = {state: rng.nonzero(-3, 8) for state in setting.states if state in states}
-        return Given(run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=gamma)
+        return Given(
+            run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=rng.fraction("1/2", "2/3", "1")
+        )
     state, *others = rng.shuffled(setting.states)[:3]
     actions = setting.actions[: 1 + level]
     shape = Shape(states=3, actions=1 + level, branches=level)

@@ -63,7 +63,7 @@ def draw(level: int, rng: Draws) -> Given:
     theta, rows = draw_log_policy(rng, ("s",), actions)
     if level == 3:
         theta = (Logarithm("ln x"), theta[1])
-    return Given(features=rows["s"], theta=theta, action=None if level == 3 else rng.choice(actions))
+    return Given(features=rows["s"], theta=theta, action=rng.choice(actions))
 
 
 def question(given: Given) -> Question:
