@@ -1,0 +1,106 @@
+"""Identities of the function approximation families, and what is wrong with givens that do not fit."""
+
+from typing import Any
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError
+
+whole = st.integers(-5, 5)
+texts = st.fractions(-4, 4, max_denominator=3).map(str)
+discounts = st.sampled_from(["0", "1/2", "9/10", "1"])
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+@given(st.lists(whole, min_size=1, max_size=3), st.integers(1, 5))
+@settings(deadline=None, max_examples=20)
+def test_basis_functions_are_1_at_their_centre(position: list[int], width: int) -> None:
+    assert solved("rbf", position=position, centres=[position], sigma=width)["a"] == (1,)
+    assert solved("piecewise-linear-rbf", position=position, centres=[position], width=width)["a"] == (1,)
+
+
+@given(whole, st.integers(1, 6))
+@settings(deadline=None, max_examples=20)
+def test_a_piecewise_linear_function_is_0_from_its_width_on_and_even(position: int, width: int) -> None:
+    centres = [[position + far] for far in (width, -width, width + 1, 1, -1)]
+    *outside, right, left = solved("piecewise-linear-rbf", position=[position], centres=centres, width=width)["a"]
+    assert outside == [0, 0, 0]
+    assert right == left == 1 - fmpq(1, width)
+
+
+@given(texts, texts, texts, texts, discounts)
+@settings(deadline=None, max_examples=20)
+def test_semi_gradient_td_with_one_feature_for_every_state_is_td_zero(
+    first: str, second: str, here: str, there: str, gamma: str
+) -> None:
+    run = {"states": ["a", "b", "a", "end"], "rewards": [first, second, "2"], "terminal": ["end"]}
+    learnt = solved(
+        "semi-gradient-td", trajectory=run, features={"a": [1, 0], "b": [0, 1]}, theta=[here, there],
+        alpha="1/3", gamma=gamma,
+    )["b"]  # fmt: skip
+    table = solved("td-zero", trajectory=run, values={"a": here, "b": there}, alpha="1/3", gamma=gamma)["a"]
+    assert learnt == tuple(table.values())
+
+
+@given(st.lists(texts, min_size=4, max_size=4), texts, discounts)
+@settings(deadline=None, max_examples=20)
+def test_semi_gradient_sarsa_with_one_feature_for_every_state_is_sarsa(
+    theta: list[str], reward: str, gamma: str
+) -> None:
+    run = {"states": ["a", "b", "a"], "actions": ["x", "y", "x"], "rewards": [reward, "1"]}
+    learnt = solved(
+        "semi-gradient-td", trajectory=run, features={"a": [1, 0], "b": [0, 1]}, theta=theta, actions=["x", "y"],
+        alpha="1/2", gamma=gamma,
+    )["b"]  # fmt: skip
+    values = {"a": {"x": theta[0], "y": theta[2]}, "b": {"x": theta[1], "y": theta[3]}}
+    table = solved("sarsa", trajectory=run, values=values, alpha="1/2", gamma=gamma)["a"]
+    assert (learnt[0], learnt[3]) == (table["a", "x"], table["b", "y"])
+    assert [str(learnt[1]), str(learnt[2])] == theta[1:3]
+
+
+@given(st.lists(texts, min_size=6, max_size=6), st.integers(0, 1))
+@settings(deadline=None, max_examples=20)
+def test_one_feature_picks_one_weight_from_every_block(theta: list[str], place: int) -> None:
+    features = [int(index == place) for index in range(2)]
+    answers = solved("linear-value", theta=theta, actions=["x", "y", "z"], features=features, action="y")
+    assert [str(value) for value in answers["b"].values()] == theta[place::2]
+    assert answers["a"] == (0, 0, *features, 0, 0)
+
+
+TD = {
+    "trajectory": {"states": ["a", "b"], "rewards": [1]}, "features": {"a": [1, 0], "b": [0, 1]}, "theta": [1, 2],
+    "alpha": 1, "gamma": 1,
+}  # fmt: skip
+VALUE = {"theta": [1, 2, 3, 4], "actions": ["x", "y"], "features": [1, 2], "action": "x"}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("rbf", {"position": [1], "centres": [[1, 2]], "sigma": 1}, "number 1 has 2 coordinates, but position has 1"),
+        ("rbf", {"position": [1], "centres": [[1]], "sigma": 0}, "the width must be above 0"),
+        ("rbf", {"position": [], "centres": [[]], "sigma": 1}, "given.position"),
+        ("piecewise-linear-rbf", {"position": [1], "centres": [[1]], "width": -1}, "it must be above 0, not -1"),
+        ("linear-value", VALUE | {"theta": [1, 2, 3]}, "2 features and 2 actions need 4 weights, not 3"),
+        ("linear-value", VALUE | {"action": "z"}, "'z' is not among the actions"),
+        ("linear-value", VALUE | {"actions": ["x", "x"]}, "one is named twice"),
+        ("linear-value", VALUE | {"features": None}, "give either features or bumps"),
+        ("semi-gradient-td", TD | {"features": {"a": [1, 0]}}, "the row of features of 'b' is missing"),
+        ("semi-gradient-td", TD | {"theta": [1, 2, 3]}, "'a' has 2 features, but theta 3"),
+        ("semi-gradient-td", TD | {"actions": ["x", "y"], "theta": [1, 2, 3]}, "cannot be shared among 2 actions"),
+        ("semi-gradient-td", TD | {"actions": ["x", "y"], "theta": [1, 2, 3, 4]}, "Sarsa needs the action taken"),
+    ],
+)
+def test_wrong_givens(name: str, given_: Any, fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given_)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)

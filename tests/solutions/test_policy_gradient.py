@@ -1,0 +1,258 @@
+"""Identities of the policy gradient families, and what is wrong with givens that do not fit."""
+
+from typing import Any
+
+import pytest
+import sympy
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError
+from rldrill.problems.exact import Logarithm, read_weight, shown
+from rldrill.solutions.exact import exact, simplest
+from rldrill.solutions.formula.putting_in import put_in
+from rldrill.solutions.sheet.policy_gradient import PREFERENCE, SCORE_FUNCTION, SOFTMAX_POLICY
+from rldrill.solutions.sheet.policy_gradient import theta as theta_of_index
+from rldrill.solutions.softmax import action_features, by_number
+from rldrill.solutions.vector import Vector
+
+ACTIONS = ("left", "right", "stay")
+numbers = st.fractions(-4, 4, max_denominator=3)
+texts = numbers.map(str)
+weights = st.one_of(texts, st.sampled_from(["ln 2", "ln 3"]))
+rows = st.lists(st.integers(0, 3), min_size=2, max_size=2)
+discounts = st.sampled_from(["0", "1/2", "9/10", "1"])
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+def equal(one: Any, other: Any) -> bool:
+    difference = one - other
+    return bool(difference == 0 or (isinstance(difference, sympy.Expr) and sympy.simplify(difference) == 0))
+
+
+def log_probability(theta: list[sympy.Symbol], features: dict[str, list[int]], action: str) -> sympy.Expr:
+    """The logarithm of the sheet's softmax, its sums written out, the weights left as symbols."""
+    known = {"s": "s", "features": (1, 2), "choices": tuple(features)} | action_features({"s": features})  # type: ignore[dict-item]
+    written = put_in(SOFTMAX_POLICY.right, {"s": "s", "a": action, "choices": tuple(features)})
+    preferences = {
+        put_in(PREFERENCE.left, {"s": "s", "a": other}): put_in(PREFERENCE.right, known | {"a": other})
+        for other in features
+    }
+    expression = written.xreplace(preferences)
+    letters = {node: theta[int(node.args[0]) - 1] for node in expression.atoms(theta_of_index)}
+    return sympy.log(expression.xreplace(letters).doit())
+
+
+@given(st.lists(rows, min_size=2, max_size=3), st.lists(weights, min_size=2, max_size=2), st.integers(0, 1))
+@settings(deadline=None, max_examples=8)
+def test_the_score_function_is_the_derivative_of_log_softmax(
+    table: list[list[int]], theta: list[str], chosen: int
+) -> None:
+    features = dict(zip(ACTIONS, table, strict=False))
+    action = ACTIONS[chosen]
+    letters = list(sympy.symbols("w1 w2", real=True))
+    log = log_probability(letters, features, action)
+    values = [sympy.sympify(exact(read_weight(text))) for text in theta]
+    at = dict(zip(letters, values, strict=True))
+    known = by_number(values) | action_features({"s": features}) | {"s": "s", "choices": tuple(features)}  # type: ignore[arg-type]
+    known["H"] = {("s", other): PREFERENCE.value(known | {"a": other}) for other in features}
+    known["pi"] = {(other, "s"): simplest(SOFTMAX_POLICY.value(known | {"a": other})) for other in features}
+    score = SCORE_FUNCTION.value(known | {"a": action})
+    for letter, entry in zip(letters, score, strict=True):
+        assert equal(sympy.diff(log, letter).subs(at), sympy.sympify(entry))
+
+
+@given(
+    st.lists(rows, min_size=2, max_size=2),
+    st.lists(weights, min_size=2, max_size=2),
+    st.lists(texts, min_size=2, max_size=2),
+)
+@settings(deadline=None, max_examples=5)
+def test_reinforce_is_the_derivative_of_the_weighted_log_likelihood(
+    table: list[list[int]], theta: list[str], rewards: list[str]
+) -> None:
+    features = dict(zip(ACTIONS, table, strict=False))
+    run = {"states": ["s", "s", "end"], "actions": ["left", "right"], "rewards": rewards, "terminal": ["end"]}
+    answers = solved("reinforce", trajectory=run, features={"s": features}, theta=theta, alpha=1, gamma="1/2")
+    letters = list(sympy.symbols("w1 w2", real=True))
+    objective = sum(
+        sympy.sympify(G) * log_probability(letters, features, action)
+        for G, action in zip(answers["a"], ("left", "right"), strict=True)
+    )
+    values = [sympy.sympify(exact(read_weight(text))) for text in theta]
+    at = dict(zip(letters, values, strict=True))
+    for letter, value, slope, after in zip(letters, values, answers["b"], answers["c"], strict=True):
+        assert equal(sympy.diff(objective, letter).subs(at), sympy.sympify(slope))
+        assert equal(value + sympy.sympify(slope), sympy.sympify(after))
+
+
+@given(st.lists(rows, min_size=3, max_size=3), st.sampled_from([["1/2", "1/4", "1/4"], ["1/5", "1/5", "3/5"]]))
+@settings(deadline=None, max_examples=20)
+def test_scores_are_zero_on_average(table: list[list[int]], chances: list[str]) -> None:
+    scores = solved(
+        "score-function",
+        features=dict(zip(ACTIONS, table, strict=True)),
+        policy=dict(zip(ACTIONS, chances, strict=True)),
+    )
+    total = sum((Vector(v) * fmpq(*map(int, p.split("/"))) for v, p in zip(scores.values(), chances, strict=True)), 0)
+    assert all(entry == 0 for entry in total)
+
+
+@given(st.lists(rows, min_size=3, max_size=3), st.lists(texts, min_size=3, max_size=3), texts)
+@settings(deadline=None, max_examples=15)
+def test_a_baseline_does_not_change_the_expected_gradient(
+    table: list[list[int]], rewards: list[str], baseline: str
+) -> None:
+    features = dict(zip(ACTIONS, table, strict=True))
+    theta = ["ln 2", "ln 3"]
+    probabilities = solved("score-function", features=features, theta=theta)["a"]
+
+    def expected(of: str, **more: Any) -> Vector:
+        total: Any = 0
+        for action, reward in zip(ACTIONS, rewards, strict=True):
+            run = {"states": ["s", "end"], "actions": [action], "rewards": [reward], "terminal": ["end"]}
+            answers = solved(of, trajectory=run, features={"s": features}, theta=theta, alpha=1, gamma=1, **more)
+            total = Vector(answers["b"]) * probabilities[action] + total
+        return Vector(total)
+
+    assert expected("reinforce") == expected("reinforce-baseline", baseline={"s": baseline})
+
+
+@given(st.lists(texts, min_size=3, max_size=3), discounts)
+@settings(deadline=None, max_examples=15)
+def test_without_a_baseline_it_is_reinforce(rewards: list[str], gamma: str) -> None:
+    run = {"states": ["s", "t", "s", "end"], "actions": ["left", "right", "right"], "rewards": rewards}
+    run["terminal"] = ["end"]
+    features = {"s": {"left": [1, 0], "right": [0, 1]}, "t": {"left": [2, 1], "right": [0, 0]}}
+    given_ = {"trajectory": run, "features": features, "theta": ["ln 2", "ln 2"], "alpha": "1/2", "gamma": gamma}
+    with_zero = solved("reinforce-baseline", **given_, baseline={"s": 0, "t": 0})
+    assert with_zero == solved("reinforce", **given_)
+    if gamma == "0":
+        assert [str(G) for G in with_zero["a"]] == rewards
+
+
+@given(texts, texts, texts, discounts)
+@settings(deadline=None, max_examples=15)
+def test_the_critic_of_actor_critic_is_td_zero(reward: str, here: str, there: str, gamma: str) -> None:
+    run = {"states": ["s", "t", "s"], "rewards": [reward, "1"]}
+    values, features = {"s": here, "t": there}, {"left": [1, 0], "right": [0, 1]}
+    learnt = solved(
+        "actor-critic", trajectory=run | {"actions": ["left", "right"]}, features={"s": features, "t": features},
+        theta=["0", "0"], values=values, alpha="1/3", beta="1/2", gamma=gamma,
+    )  # fmt: skip
+    assert learnt["b"] == solved("td-zero", trajectory=run, values=values, alpha="1/3", gamma=gamma)["a"]
+
+
+@given(st.sampled_from(["1/5", "1/2", "9/10"]), texts, st.sampled_from(["1/10", "1/5"]))
+@settings(deadline=None)
+def test_without_a_change_of_policy_the_objective_is_the_advantage(chance: str, advantage: str, epsilon: str) -> None:
+    sample = {"state": "s", "action": "left", "old": chance, "new": chance, "advantage": advantage}
+    answers = solved("ppo-clip", samples=[sample], epsilon=epsilon)
+    assert answers["a"] == 1
+    assert str(answers["d"]) == advantage
+    assert answers["e"] is False
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=25)
+def test_the_clipped_objective_never_exceeds_the_unclipped_one(seed: int) -> None:
+    answers = rldrill.draw("ppo-clip", level=1, seed=seed).solve()
+    assert answers["d"] <= answers["b"]
+    assert answers["e"] == (answers["d"] < answers["b"])
+
+
+@given(st.lists(texts, min_size=3, max_size=3), st.lists(texts, min_size=2, max_size=2), discounts)
+@settings(deadline=None, max_examples=20)
+def test_gae_is_the_td_error_for_lambda_0_and_monte_carlo_for_lambda_1(
+    rewards: list[str], values: list[str], gamma: str
+) -> None:
+    run = {"states": ["s", "t", "s", "end"], "rewards": rewards, "terminal": ["end"]}
+    known = {"trajectory": run, "values": dict(zip("st", values, strict=True))}
+    one_step = solved("advantage", run=known | {"lam": 0}, gamma=gamma)
+    assert one_step["a"] == one_step["b"]
+    whole = solved("advantage", run=known | {"lam": 1}, gamma=gamma)["b"]
+    returns = solved("return", rewards=rewards, gamma=gamma)["a"]
+    V = [exact(read_weight(values[0])), exact(read_weight(values[1]))]
+    assert whole == tuple(G - value for G, value in zip(returns, (V[0], V[1], V[0]), strict=True))
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=25)
+def test_advantages_are_zero_on_average(seed: int) -> None:
+    solution = rldrill.draw("advantage", level=2, seed=seed).solution
+    ahead = solution.problem.given.lookahead  # type: ignore[attr-defined]
+    chances = ahead.policy[ahead.state]
+    assert sum(exact(chances[action]) * value for (_, action), value in solution.answers["c"].items()) == 0
+
+
+@given(st.lists(rows, min_size=3, max_size=3), st.lists(texts, min_size=2, max_size=2))
+@settings(deadline=None, max_examples=20)
+def test_the_linear_policy_does_not_depend_on_the_scale_of_the_weights(
+    table: list[list[int]], theta: list[str]
+) -> None:
+    features = {"s": dict(zip(ACTIONS, table, strict=True))}
+    doubled = [str(2 * sympy.Rational(weight)) for weight in theta]
+    assert (
+        solved("linear-policy", theta=theta, features=features)["b"]
+        == (solved("linear-policy", theta=doubled, features=features)["b"])
+    )
+
+
+def test_a_weight_may_be_a_logarithm() -> None:
+    assert read_weight("ln 2") == read_weight(" ln(2) ") == Logarithm("ln 2")
+    assert shown(read_weight("ln x")) == "ln x"
+    assert equal(exact(Logarithm("ln 2")), sympy.log(2))
+    answers = solved("score-function", theta=["ln x"], features={"a": [1], "b": [0]}, action="a")
+    assert str(sympy.sympify(answers["b"][0])) == "1/(x + 1)"
+    with pytest.raises(ValueError, match="above 1"):
+        read_weight("ln 1")
+    with pytest.raises(ValueError, match="is not a number"):
+        read_weight("ln two words")
+
+
+RUN = {"states": ["s", "end"], "actions": ["left"], "rewards": [1], "terminal": ["end"]}
+FEATURES = {"s": {"left": [1, 0], "right": [0, 1]}}
+REINFORCE = {"trajectory": RUN, "features": FEATURES, "theta": [0, 0], "alpha": 1, "gamma": 1}
+SAMPLE = {"state": "s", "action": "left", "old": "1/2", "new": "1/4", "advantage": 1}
+AHEAD = {"transitions": [["s", "go", "t", 1, 1]]}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("reinforce", REINFORCE | {"theta": [0]}, "'left' has 2 features, but theta 1"),
+        ("reinforce", REINFORCE | {"features": {"s": {"right": [0, 1]}}}, "'left' is taken in 's' but has no features"),
+        ("reinforce", REINFORCE | {"features": {"s": {}}}, "'s' has no action"),
+        ("reinforce", REINFORCE | {"features": {"t": FEATURES["s"]}}, "the row of features of 's' is missing"),
+        ("reinforce", REINFORCE | {"trajectory": RUN | {"terminal": []}}, "must end in a terminal state"),
+        ("reinforce", REINFORCE | {"trajectory": RUN | {"actions": []}}, "1 steps need as many actions, not 0"),
+        ("reinforce-baseline", REINFORCE | {"baseline": {}}, "the baseline of 's' is missing"),
+        ("actor-critic", REINFORCE | {"values": {}, "beta": 1}, "the value of 's' is missing"),
+        ("score-function", {"features": FEATURES["s"]}, "either the weights theta or the policy's"),
+        ("score-function", {"features": FEATURES["s"], "policy": {"left": 1, "right": 1}}, "do not sum to 1"),
+        ("score-function", {"features": FEATURES["s"], "theta": [1, 1], "action": "up"}, "'up' has no features"),
+        ("linear-policy", {"theta": [1], "features": FEATURES}, "'left' has 2 features, but theta 1"),
+        ("ppo-clip", {"samples": [SAMPLE | {"old": 0}], "epsilon": "1/5"}, "its probability was not 0"),
+        ("ppo-clip", {"samples": [SAMPLE], "epsilon": 1}, "given.epsilon"),
+        ("ppo-clip", {"samples": [], "epsilon": "1/5"}, "given.samples"),
+        ("ppo-clip", {"samples": [SAMPLE | {"preferences": {"left": 0}}], "epsilon": "1/5"}, "give either the new"),
+        ("advantage", {"gamma": 1}, "give either lookahead or run"),
+        ("advantage", {"lookahead": {"dynamics": AHEAD, "values": {"t": 1}}, "gamma": 1}, "value of 's' is missing"),
+        (
+            "advantage",
+            {"lookahead": {"dynamics": AHEAD, "values": {"t": 1, "s": 2}, "policy": {"s": "go"}}, "gamma": 1},
+            "the value of 's' follows from it",
+        ),
+    ],
+)
+def test_wrong_givens(name: str, given_: Any, fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given_)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)
