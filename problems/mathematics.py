@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, TypeAlias
+from unicodedata import normalize
 
 Style = Literal["variable", "word", "number", "operator", "relation", "punctuation"]
 
@@ -156,10 +157,11 @@ def number(value: object) -> Math:
 
 
 _TOKEN = re.compile(
-    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+\u0302?[₀-₉'′]*)
+    r"""(?P<quoted>"[^"]*")|(?P<number>\d+(?:\.\d+)?(?:/\d+)?)|(?P<letters>[^\W\d_]+[\u0302-\u0304]?[₀-₉'′]*)
     |(?P<space>\s+)|(?P<other>.)""",
     re.VERBOSE,
 )
+_MARKS: dict[str, Literal["hat", "bar", "tilde"]] = {"\u0302": "hat", "\u0304": "bar", "\u0303": "tilde"}
 _RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
 _OPERATORS = set("+−-·×*±")
 _OPENING = {"(": ")", "[": "]", "{": "}"}
@@ -219,8 +221,10 @@ def _single(tokens: Sequence[re.Match[str]], at: int) -> tuple[Math, int]:
         return name(token[1:-1]), at + 1
     if match.lastgroup == "number":
         return number(token), at + 1
-    if match.lastgroup == "letters" and token.endswith("\u0302"):
-        return Accent(name(token[:-1]), "hat"), at + 1
+    if match.lastgroup == "letters":
+        plain = normalize("NFD", token)  # ā may be one character or two
+        if plain[-1] in _MARKS and (len(plain) == 2 or plain == token):
+            return Accent(name(plain[:-1]), _MARKS[plain[-1]]), at + 1
     if match.lastgroup == "letters":
         return name(token.replace("'", "′")), at + 1
     if token == "⊤":

@@ -50,10 +50,7 @@ def draw(level: int, rng: Draws) -> Given:
         link = Link(theta=theta, d=rng.whole(0, 3), a=rng.whole(1, 4), alpha=read_angle(rng.choice(("pi/2", "-pi/2"))))
         return Given(links=(link,))
     arm = rng.choice(_arms())
-    links = tuple(
-        Link(**{name: rng.choice(texts) for name, texts in row.items()})
-        for row in arm["links"][:level]
-    )
+    links = tuple(Link(**{name: rng.choice(texts) for name, texts in row.items()}) for row in arm["links"][:level])
     return Given(links=links, name=arm["name"])
 
 

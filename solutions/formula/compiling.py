@@ -159,6 +159,8 @@ def _least(values: Sequence[Value]) -> Value:
 
 
 def _root(value: Value) -> Value:
+    if isinstance(value, fmpq) and value < 0:
+        raise NoSolution("there is no root of a negative number")
     return simplest(sympy.sqrt(sympy.sympify(value, strict=True)))
 
 

@@ -26,6 +26,7 @@ from rldrill.solutions.sheet.linear_methods import (
     ilqr,
     partial,
     partial_part,
+    second,
 )
 from rldrill.solutions.work import Work
 
@@ -93,9 +94,10 @@ def _second(
             right = dynamics.second(text, first, then)
             if frozenset((first, then)) not in found:
                 indices = {"i": of, "j": first, "g": then}
-                found[frozenset((first, then))] = (
-                    ZERO if right == 0 else work.step(SECOND_DERIVATIVE, right=right, **{**values, **indices})
-                )
+                found[frozenset((first, then))] = ZERO
+                if right != 0:
+                    value = work.step(SECOND_DERIVATIVE, into=second, right=right, **{**values, **indices})
+                    found[frozenset((first, then))] = value
     return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
 
 

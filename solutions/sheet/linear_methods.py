@@ -412,8 +412,10 @@ def _second(line: Math, first: Math, then: Math) -> Math:
 
 
 #: ∂²f₁/∂θ² and the like; of the reward, with r in place of the number.
-second = quantity("second", _second)
-g = letter("g")
+second = quantity("secondD", _second)
+g = letter("g", "k")
+f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
+second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("s"), k) for k in by)), _POINT))
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, section II, with rewards for costs"
@@ -431,8 +433,8 @@ with evaluate(False):
     )
     SECOND_DERIVATIVE = Formula(
         "ddp-second",
-        second(i, j, g),
-        second(i, j, g),
+        f_ijk(i, j, g),
+        second_at(i, j, g),
         title="Second derivatives, of the reward and for DDP also of the dynamics",
         source=_DDP,
         hint="Differentiate twice, by every pair of letters; the order does not matter.",

@@ -8,12 +8,14 @@ import sympy
 from flint import fmpq, fmpq_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sympy import Expr
 
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.exact import NoSolution, to_sympy
-from rldrill.solutions.formula.compiling import evaluate
-from rldrill.solutions.formula.notation import ArgMaxOver
+from rldrill.solutions.formula.compiling import evaluate, needs
+from rldrill.solutions.formula.notation import ArgMaxOver, Quantity
 from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
+from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.solution import solver
 from rldrill.solutions.vector import Vector
@@ -42,8 +44,8 @@ class Anything(Mapping[Any, Any]):
         return len(self._known)
 
 
-def known(data: st.DataObject) -> dict[str, Any]:
-    """Values for all letters and quantities of the sheet."""
+def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
+    """Values for all letters and quantities of an expression."""
 
     def number(_: Any = None) -> fmpq:
         value = data.draw(fractions)
@@ -52,7 +54,7 @@ def known(data: st.DataObject) -> dict[str, Any]:
     def vector(_: Any = None) -> Vector:
         return Vector([number(), number()])
 
-    def matrix(_: Any) -> fmpq_mat:
+    def matrix(_: Any = None) -> fmpq_mat:
         return fmpq_mat(2, 2, [number() for _ in range(4)])
 
     fixed: dict[str, Any] = {
@@ -76,12 +78,20 @@ def known(data: st.DataObject) -> dict[str, Any]:
     fixed |= {"coins": ("red", "blue"), "theta_of": {"red": fmpq(1, 4), "blue": fmpq(2, 3)}}
     fixed |= {name: number() for name in ("mu_hat", "sigma2", "prior_mean", "prior_variance", "slope", "free")}
     fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
-    return Anything(lambda code: fixed[code] if code in fixed else _number_or_quantity(code, number))  # type: ignore[return-value]
+    fixed |= {"components": (1, 2), "tasks": (1, 2)}
+    return {
+        code: fixed[code] if code in fixed else _value(expression, code, number, matrix) for code in needs(expression)
+    }
 
 
-def _number_or_quantity(code: str, number: Any) -> Any:
-    letters = ("alpha", "gamma", "lam", "epsilon", "beta", "sigma", "width", "c")
-    return number() if code in letters else Anything(number)
+def _value(expression: Expr, code: str, number: Any, matrix: Any) -> Any:
+    """What a letter or a quantity may be worth: what does not commute is a matrix."""
+    for node in sympy.preorder_traversal(expression):
+        if isinstance(node, Quantity) and node.code == code:
+            return Anything(number if node.is_commutative else matrix)
+        if node.is_Symbol and node.name == code:
+            return number() if node.is_commutative else matrix()
+    raise KeyError(code)
 
 
 READINGS = {key: formula.right for key, formula in formulas().items()} | {
@@ -97,7 +107,7 @@ READINGS = {key: formula.right for key, formula in formulas().items()} | {
 @settings(max_examples=12, deadline=None)
 def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObject) -> None:
     expression = READINGS[name]
-    values = known(data)
+    values = known(data, expression)
     try:
         value = evaluate(expression, values)
     except NoSolution:  # a singular matrix, or a sum that is zero: nothing to compare
@@ -116,7 +126,9 @@ def assert_same(value: Any, written_out: Any) -> None:
     if isinstance(value, Vector):  # where all is zero, nothing of it is written out
         assert value.matrix() == (written_out or sympy.zeros(2, 1))
         return
-    if isinstance(value, fmpq_mat):
-        assert sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out
+    if is_matrix(value):
+        written = sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()])
+        # A matrix times a number that is 0 is written out as 0.
+        assert written.is_zero_matrix if written_out == 0 else sympy.simplify(written - written_out).is_zero_matrix
     else:
         assert sympy.simplify(to_sympy(value) - written_out) == 0

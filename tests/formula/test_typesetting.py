@@ -108,6 +108,7 @@ def test_values_are_written_as_by_hand(value: object, text: str) -> None:
         ('V^π("smoking hot")', "V^π(smoking hot)"),
         ("a_t = −L_t s_t", "aₜ = −Lₜsₜ"),
         ("R_{0}^{(2)}", "R₀⁽²⁾"),
+        ("f(\u0101) + s\u0303_t", "f(a\u0304) + s\u0303ₜ"),
         ("V^*(s)", "V*(s)"),
         ("2 * 3", "2·3"),
     ],

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 import sympy
-from flint import fmpq, fmpq_mat
+from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,6 +15,7 @@ from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import to_sympy
 from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Step
 
@@ -46,8 +47,9 @@ def same(value: Any, written_out: Any) -> bool:
     if isinstance(value, Vector):
         written_out = written_out or sympy.zeros(len(value.entries), 1)
         return bool(sympy.simplify(value.matrix() - written_out).is_zero_matrix)
-    if isinstance(value, fmpq_mat):
-        return bool(sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()]) == written_out)
+    if is_matrix(value):
+        written = sympy.Matrix(value.nrows(), value.ncols(), [to_sympy(x) for x in value.entries()])
+        return bool(sympy.simplify(written - written_out).is_zero_matrix)
     return bool(sympy.simplify(to_sympy(value) - written_out) == 0)
 
 

@@ -1,0 +1,90 @@
+"""Identities of kinematics and of meta-learning."""
+
+from typing import Any
+
+import pytest
+import sympy
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.errors import FileError
+from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import to_sympy
+
+angles = st.sampled_from(["0", "pi/6", "pi/3", "pi/2", "2*pi/3", "-pi/2", "pi"])
+lengths = st.integers(1, 4)
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+def same(one: Any, other: Any) -> bool:
+    return bool(sympy.simplify(to_sympy(one) - to_sympy(other)) == 0)
+
+
+@given(st.lists(angles, min_size=2, max_size=3), st.lists(lengths, min_size=3, max_size=3))
+@settings(deadline=None, max_examples=20)
+def test_denavit_and_hartenberg_agree_with_the_planar_arm(turns: list[str], long: list[int]) -> None:
+    long = long[: len(turns)]
+    x, y = solved("forward-kinematics", lengths=long, angles=turns)["b"]
+    links = [{"theta": t, "d": 0, "a": a, "alpha": 0} for t, a in zip(turns, long, strict=True)]
+    whole = solved("denavit-hartenberg", links=links)["abcd"[len(turns)]]
+    assert same(whole[0, 3], x)
+    assert same(whole[1, 3], y)
+
+
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=15)
+def test_a_transform_keeps_lengths_and_handedness(seed: int) -> None:
+    for transform in draw("denavit-hartenberg", 3, seed).answers.values():
+        turn = sympy.Matrix(3, 3, lambda i, j: to_sympy(transform[i, j]))  # noqa: B023
+        assert sympy.simplify(turn.T * turn) == sympy.eye(3)
+        assert sympy.simplify(turn.det()) == 1
+
+
+@given(angles, angles, lengths, lengths)
+@settings(deadline=None, max_examples=20)
+def test_two_links_are_singular_when_stretched_or_folded(one: str, two: str, first: int, second: int) -> None:
+    answers = solved("jacobian", lengths=[first, second], angles=[one, two], rates=[1, 1])
+    J = sympy.Matrix(2, 2, lambda i, j: to_sympy(answers["a"][i, j]))
+    assert (sympy.simplify(J.det()) == 0) is answers["c"]
+    assert answers["c"] is (two in ("0", "pi"))
+
+
+def test_a_jacobian_that_is_not_square_is_not_asked_about() -> None:
+    assert set(solved("jacobian", lengths=[1, 1, 1], angles=[0, 0, 0], rates=[1, 1, 1])) == {"a", "b"}
+
+
+@given(st.integers(0, 10_000), st.fractions("1/10", 1, max_denominator=10))
+@settings(deadline=None, max_examples=20)
+def test_an_open_step_size_agrees_with_a_closed_one(seed: int, alpha: Any) -> None:
+    solution = draw("maml-step", 3, seed)
+    closed = solved("maml-step", **solution.problem.data()["given"] | {"alpha": str(alpha)})["b"]
+    here = to_sympy(solution.answers["b"]).subs(sympy.Symbol("alpha", positive=True), sympy.Rational(alpha))
+    assert sympy.simplify(here - to_sympy(closed)) == 0
+
+
+def test_a_task_that_is_learnt_in_one_step_teaches_nothing() -> None:
+    # α c = 1: the adapted parameter is the best one, whatever θ was.
+    answers = solved("maml-step", theta=7, tasks=[[2, 3]], alpha="1/2", beta="1/10")
+    assert answers == {"a": fmpq(3), "b": fmpq(7)}
+
+
+@pytest.mark.parametrize(
+    ("family", "given_", "message"),
+    [
+        ("forward-kinematics", {"lengths": [1, 0], "angles": [0, 0]}, "not above 0"),
+        ("forward-kinematics", {"lengths": [1, 1], "angles": [0]}, "angles holds 1"),
+        ("forward-kinematics", {"lengths": [1, 1], "angles": [0, "x"]}, "pi/6"),
+        ("jacobian", {"lengths": [1, 1], "angles": [0, 0], "rates": [1]}, "rates holds 1"),
+        ("denavit-hartenberg", {"links": []}, "given.links"),
+        ("maml-step", {"theta": 0, "tasks": [[0, 1]], "alpha": "1/2", "beta": 1}, "curvature"),
+        ("maml-step", {"theta": 0, "tasks": [[1, 1]], "alpha": "1/2", "beta": 0}, "beta"),
+    ],
+)
+def test_wrong_givens_are_one_sentence(family: str, given_: dict[str, Any], message: str) -> None:
+    with pytest.raises(FileError, match=message):
+        solved(family, **given_)

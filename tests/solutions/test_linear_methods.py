@@ -1,0 +1,229 @@
+"""Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rldrill
+from rldrill.problems.errors import FileError
+from rldrill.problems.expressions import parsed, worked_out
+from rldrill.problems.robots import robots
+from rldrill.solutions import dynamics, matrices, surds
+from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import sign, simplest, to_sympy
+
+whole = st.integers(-3, 3)
+positive = st.integers(1, 4)
+seeds = st.integers(0, 10_000)
+
+
+def solved(family: str, **given_: Any) -> Any:
+    return rldrill.read({"family": family, "given": given_}).solve()
+
+
+def entries(matrix: Any) -> list[Any]:
+    return [to_sympy(entry) for line in matrix.tolist() for entry in line]
+
+
+@given(whole, positive, positive, positive, st.integers(1, 3))
+@settings(deadline=None, max_examples=25)
+def test_the_value_is_the_total_reward_of_the_best_actions(a: int, b: int, q: int, r: int, horizon: int) -> None:
+    system = {"A": a, "B": b, "Q": q, "R": r, "start": [2], "horizon": horizon}
+    backward = solved("lqr-backward", **system)
+    labels = "abcdefgh"
+    gains = [[[str(backward[labels[2 * k]][0, 0])]] for k in reversed(range(horizon))]
+    rollout = solved("lqr-reward", **system, L=[*gains, [[0]]])
+    assert rollout["b"] == 4 * backward[labels[2 * horizon - 1]][0, 0]  # V(2) = 2 P 2
+
+
+@given(whole, positive, positive, positive, st.integers(-9, 9))
+@settings(deadline=None, max_examples=25)
+def test_no_other_gain_earns_more(a: int, b: int, q: int, r: int, other: int) -> None:
+    system = {"A": a, "B": b, "Q": q, "R": r, "start": [1], "horizon": 1}
+    best = solved("lqr-backward", **system)["b"][0, 0]
+    assert solved("lqr-reward", **system, L=[[[f"{other}/3"]], [[0]]])["b"] <= best
+
+
+def test_matrices_that_change_with_time_are_solved_like_constant_ones() -> None:
+    A, B, Q, R = [[1, 1], [0, 1]], [[0], [1]], [[1, 0], [0, 2]], [[3]]
+    constant = solved("lqr-backward", A=A, B=B, Q=Q, R=R, start=[1, 2], horizon=2)
+    varying = solved("lqr-backward", A=[A, A], B=[B, B], Q=[Q, Q, Q], R=[R, R, R], start=[1, 2], horizon=2)
+    assert {label: entries(value) for label, value in constant.items()} == {
+        label: entries(value) for label, value in varying.items()
+    }
+
+
+@given(seeds, st.integers(1, 3))
+@settings(deadline=None, max_examples=25)
+def test_the_stationary_value_solves_its_equation_and_is_stable(seed: int, level: int) -> None:
+    solution = draw("lqr-infinite", level, seed)
+    A, B, Q = (matrices.given(getattr(solution.problem.given, name)) for name in "ABQ")
+    P, L, closed = (solution.answers[label] for label in "abc")
+    right = -Q + A.transpose() * P * A - A.transpose() * P * B * L
+    assert all(sympy.simplify(entry) == 0 for entry in entries(right - P))
+    assert all(sign(P[i, i]) < 0 for i in range(P.nrows()))
+    modes = np.linalg.eigvals(np.array(entries(closed), dtype=float).reshape(closed.nrows(), -1))
+    assert max(abs(modes)) < 1
+
+
+def test_a_long_horizon_comes_to_the_infinite_one() -> None:
+    system = {"A": 2, "B": 1, "Q": 1, "R": 1}
+    limit = solved("lqr-infinite", **system)["a"][0, 0]
+    finite = solved("lqr-backward", **system, start=[1], horizon=12)["x"][0, 0]
+    assert abs(float(limit) - float(to_sympy(finite))) < 1e-8
+
+
+@given(st.lists(whole, min_size=9, max_size=9), st.lists(whole, min_size=3, max_size=3))
+@settings(deadline=None, max_examples=15)
+def test_larger_systems_solve_their_equation_to_twelve_decimals(a: list[int], b: list[int]) -> None:
+    A = [[str(sympy.Rational(entry, 4)) for entry in a[3 * i : 3 * i + 3]] for i in range(3)]
+    Q = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    try:
+        answers = solved("lqr-infinite", A=A, B=[[entry] for entry in b], Q=Q, R=2)
+    except FileError:  # it cannot be held: no action reaches what runs away
+        return
+    P, L = (np.array(entries(answers[label]), dtype=float).reshape(-1, 3) for label in "ab")
+    A_, B_ = np.array(a, dtype=float).reshape(3, 3) / 4, np.array(b, dtype=float).reshape(3, 1)
+    left_over = -np.eye(3) + A_.T @ P @ A_ - A_.T @ P @ B_ @ L - P
+    assert np.abs(left_over).max() < 1e-8 * max(1, np.abs(P).max())
+
+
+@pytest.mark.parametrize(("A", "Q"), [([[2, 0], [0, 1]], [[1, 0], [0, 1]])])
+def test_a_system_that_cannot_be_held_is_refused(A: Any, Q: Any) -> None:
+    with pytest.raises(FileError, match="no action"):
+        solved("lqr-infinite", A=A, B=[[0], [1]], Q=Q, R=[[1]])
+
+
+POINT = {
+    "dynamics": {"x": "a*x + b*u"},
+    "constants": {"a": 3, "b": "1/2"},
+    "state": {"x": 2},
+    "action": {"u": 5},
+}
+
+
+def test_linear_dynamics_are_their_own_linearisation() -> None:
+    answers = solved("linearise", **POINT)
+    assert entries(answers["a"]) == [3]
+    assert entries(answers["b"]) == [sympy.Rational(1, 2)]
+    assert entries(solved("linearise-affine", **POINT, step=1)["a"]) == [0]  # C vanishes
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=15)
+def test_the_affine_model_is_right_at_the_operating_point(seed: int) -> None:
+    solution = draw("linearise-affine", 2, seed)
+    given_ = solution.problem.given
+    A, B = solution.answers["b"], solution.answers["c"]
+    state = matrices.column([*(dynamics.angle(given_.state[name]) for name in given_.states), 1])
+    action = matrices.column(dynamics.angle(value) for value in given_.action.values())
+    after = A * state + B * action
+    values = dynamics.numbers(given_)
+    rates = dynamics.numeric(dynamics.texts(given_.dynamics), dynamics.texts(given_.where), values)
+    for index, (name, rate) in enumerate(zip(given_.states, rates, strict=True)):
+        expected = (values[name] + float(given_.step) * rate).real
+        assert abs(float(to_sympy(after[index, 0])) - expected) < 1e-9
+    assert after[len(rates), 0] == 1
+
+
+@given(whole, positive, positive, positive, positive)
+@settings(deadline=None, max_examples=20)
+def test_ddp_of_a_linear_system_is_lqr(a: int, b: int, q: int, r: int, p: int) -> None:
+    ddp = solved(
+        "ddp-backward",
+        dynamics={"x": "c*x + d*u"}, reward="-(q*x^2 + p*u^2)", constants={"c": a, "d": b, "q": q, "p": r},
+        state={"x": 0}, action={"u": 0}, gradient=[0], hessian=-2 * p,
+    )  # fmt: skip
+    gain = solved("lqr-gain", A=[[a]], B=[[b]], R=[[r]], P=[[-p]])["a"][0, 0]
+    assert ddp["g"][0, 0] == -gain
+    assert ddp["f"][0, 0] == 0
+
+
+def test_ddp_and_ilqr_differ_by_the_curvature_alone() -> None:
+    problem = {
+        "dynamics": {"x": "x + u^2"}, "reward": "-u^2", "state": {"x": 1}, "action": {"u": 1},
+        "gradient": [-3], "hessian": -1,
+    }  # fmt: skip
+    ddp, ilqr = (solved("ddp-backward", **problem, second_order=kept) for kept in (True, False))
+    assert ddp["e"][0, 0] - ilqr["e"][0, 0] == -6  # V′ times the second derivative of u²
+    assert all(entries(ddp[label]) == entries(ilqr[label]) for label in "abcd")
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"dynamics": {"x": "a*x + w*u"}}, "'w', which has no value"),
+        ({"dynamics": {"x": "__import__('os')"}}, "not understood"),
+        ({"dynamics": {"x": "x.real"}}, "not understood"),
+        ({"dynamics": {"x": "x**99"}}, "whole number from 1 to 4"),
+        ({"dynamics": {"x": "x" + "+x" * 400}}, "longer than"),
+        ({"dynamics": {"x": "(" * 280}}, "is not an expression"),
+        ({"state": {"y": 1}}, "same letters"),
+        ({"state": {"x": "pi/0"}}, "divides by zero"),
+        ({"action": {"x": 1}}, "two things"),
+        ({"constants": {"ab": 1}}, "not a letter"),
+        ({"step": 0}, "not above 0"),
+    ],
+)
+def test_systems_that_do_not_fit_are_one_sentence(changed: dict[str, Any], message: str) -> None:
+    with pytest.raises(FileError) as error:
+        solved("linearise", **(POINT | changed))
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"R": 0}, "R must be positive definite"),
+        ({"Q": -1}, "Q must be positive semidefinite"),
+        ({"B": [[1], [2]]}, "B is 2×1"),
+        ({"A": [[[1]], [[1]], [[1]]]}, "A holds 3 matrices"),
+        ({"horizon": 0}, "given.horizon"),
+    ],
+)
+def test_systems_with_wrong_weights_are_one_sentence(changed: dict[str, Any], message: str) -> None:
+    system: dict[str, Any] = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 2}
+    with pytest.raises(FileError, match=message):
+        solved("lqr-backward", **(system | changed))
+
+
+def test_every_robot_reads_and_names_its_source() -> None:
+    for robot in robots():
+        assert robot.source
+        for text in (*robot.dynamics.values(), *robot.where.values(), *([robot.reward] if robot.reward else [])):
+            parsed(text)
+
+
+def test_angles_survive_being_written() -> None:
+    problem = rldrill.draw("linearise", 2, 3).problem
+    assert problem.family.read(json.loads(json.dumps(problem.data()["given"]))) == problem.given
+
+
+def test_an_expression_is_never_executed() -> None:
+    with pytest.raises(ValueError, match="not understood"):
+        parsed("(lambda: x)()")
+    assert worked_out("2*x^2 - x/4", {"x": 4}, {}, float) == 31
+
+
+terms = st.tuples(st.sampled_from([1, 2, 3, 5, 6]), st.fractions(-4, 4, max_denominator=6))
+
+
+@given(st.lists(terms, min_size=1, max_size=3), st.lists(terms, min_size=1, max_size=3))
+@settings(deadline=None, max_examples=60)
+def test_sums_of_roots_calculate_as_sympys_do(first: Any, second: Any) -> None:
+    a, b = (sum((sympy.Rational(c) * sympy.sqrt(n) for n, c in part), sympy.Integer(0)) for part in (first, second))
+    x, y = surds.read(simplest(a)), surds.read(simplest(b))
+    assert x is not None
+    assert y is not None
+    assert sympy.expand(to_sympy(surds.write(surds.multiply(x, y))) - a * b) == 0
+    assert sympy.expand(to_sympy(surds.write(surds.add(x, y))) - a - b) == 0
+    if y:
+        inverse = surds.inverse(y)
+        assert inverse is not None
+        assert surds.multiply(y, inverse) == surds.read(simplest(1))
