@@ -72,7 +72,7 @@ def test_the_rule_at_its_bounds(text: str, key: object, right: bool) -> None:
         ("1/(1-gamma)", True), ("-1/(gamma - 1)", True), ("(1+γ)/(1-γ^2)", True), ("1 + gamma", False),
         ("1.0/(1-gamma)", True), ("1.0002/(1-gamma)", True), ("1.01/(1-gamma)", False), ("1", False),
         # Agrees with the key at seven points that somebody might think are the ones compared.
-        ("1.0/(1-gamma) + 100*(γ-1/7)*(γ-3/11)*(γ-5/13)*(γ-9/17)*(γ-13/19)*(γ-19/23)*(γ-1/2)", False),
+        ("1.0/(1-gamma) + 100000*(γ-1/7)*(γ-3/11)*(γ-5/13)*(γ-9/17)*(γ-13/19)*(γ-19/23)*(γ-1/2)", False),
         ("1/(1-gamma) + sqrt(γ)*(γ-1/7)*(γ-3/11)*(γ-5/13)*(γ-9/17)*(γ-13/19)*(γ-19/23)", False),
     ],
 )  # fmt: skip
