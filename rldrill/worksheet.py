@@ -170,7 +170,7 @@ _SHEET_HELPERS = r"""
   block(below: 0.6em, grid(columns: (1fr, auto), column-gutter: 0.5em,
     { part.label; part.ask }, small(part.points)))
   block(width: 100%, stroke: 0.4pt + luma(190), radius: 2pt, inset: 0.6em, above: 0.6em,
-    { v(calc.max(1.2cm, part.space + extra)); part.field })
+    { v(calc.max(0.6cm, part.space + extra)); part.field })
 })
 #let problem(head, statement, ..parts) = (
   spaces: parts.pos().len(),

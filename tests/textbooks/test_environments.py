@@ -1,0 +1,65 @@
+"""Known values of whole environments: a drawn grid world, and Gymnasium's toy-text environments."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rldrill
+from rldrill.problems.errors import FileError
+from rldrill.problems.models import Model
+from rldrill.solutions.oracle import optimal_values, tensors
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+
+
+def optimal(**given: Any) -> Any:
+    return rldrill.read({"family": "optimal-value", "given": given}).solve()["a"]
+
+
+def test_the_4_by_3_world_of_aima() -> None:
+    # Russell & Norvig, 3rd ed., figure 17.3, three decimals, row by row from above.
+    figure = ["0.812", "0.868", "0.918", "0.762", "0.660", "0.705", "0.655", "0.611", "0.388"]
+    values = rldrill.load(EXAMPLES / "aima-4x3.toml").solve()["a"]
+    assert [f"{float(int(v.numerator) / int(v.denominator)):.3f}" for v in values.values()] == figure
+
+
+def test_the_frozen_lake() -> None:
+    pytest.importorskip("gymnasium")
+    # The values at γ = 0.9 that tutorials of value iteration print for the slippery 4×4 lake, to three decimals.
+    known = {"0": "0.069", "1": "0.061", "2": "0.074", "4": "0.092", "8": "0.145", "9": "0.247", "10": "0.300",
+             "13": "0.380", "14": "0.639"}  # fmt: skip
+    values = optimal(gamma="9/10", mdp={"gymnasium": "FrozenLake-v1"})
+    assert {
+        state: f"{float(int(values[state].numerator) / int(values[state].denominator)):.3f}" for state in known
+    } == known
+
+
+def test_best_actions_that_go_round_for_ever_are_told() -> None:
+    pytest.importorskip("gymnasium")
+    # Without discount the upper row of the lake is worth the same everywhere, so best actions may never leave it.
+    with pytest.raises(FileError, match="can go on for ever"):
+        optimal(gamma=1, mdp={"gymnasium": "FrozenLake-v1"})
+
+
+def test_the_cliff() -> None:
+    pytest.importorskip("gymnasium")
+    # Sutton & Barto, Example 6.6: the optimal path runs along the edge: up, eleven steps right, down.
+    assert optimal(gamma=1, mdp={"gymnasium": "CliffWalking-v1"})["36"] == -13
+
+
+def test_the_taxi() -> None:
+    pytest.importorskip("gymnasium")
+    given = {"gymnasium": "Taxi-v4", "options": {}}
+    try:
+        model = Model.model_validate(given)
+    except ValueError:  # older releases of gymnasium have version 3
+        given["gymnasium"] = "Taxi-v3"
+        model = Model.model_validate(given)
+    values = optimal(gamma="9/10", mdp=given)
+    states = (*model.states, *model.terminal)
+    P, R = tensors(model, states)
+    swept = optimal_values(P, R, 0.9, len(model.states))[: len(model.states)]
+    exact = [int(value.numerator) / int(value.denominator) for value in values.values()]
+    assert np.allclose(exact, swept, atol=1e-9)
