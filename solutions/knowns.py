@@ -1,7 +1,7 @@
 """What problems give, as what formulas need: exact values by the formulas' letters."""
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
 from rldrill.problems.beliefs import Motion
@@ -65,6 +65,11 @@ def motion(given: Motion) -> dict[tuple[str, str, str], Value]:
 def likelihood(given: Mapping[str, Mapping[str, Scalar]]) -> dict[tuple[str, str], Value]:
     """What a sensor reads, as p(z|s) with the reading first."""
     return {(reading, state): exact(chance) for reading, row in given.items() for state, chance in row.items()}
+
+
+def features(given: Mapping[str, Sequence[Scalar]]) -> dict[tuple[int, str], Value]:
+    """Features of states (or other vectors) by the number of the component, counted from 1, and the state."""
+    return {(index, state): exact(value) for state, row in given.items() for index, value in enumerate(row, 1)}
 
 
 def trajectory(run: Trajectory) -> dict[str, Any]:

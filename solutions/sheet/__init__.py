@@ -18,6 +18,7 @@ SECTIONS = {
     "linear_methods": "Linear methods",
     "backup_diagrams": "Backup diagrams",
     "bayes": "Bayesian methods",
+    "inverse_rl": "Inverse reinforcement learning",
     "function_approximation": "Function approximation",
     "beyond_the_sheet": "Beyond the sheet",
 }

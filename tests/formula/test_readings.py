@@ -77,6 +77,8 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
     fixed |= {"heads": 2, "tails": 3, "beta_a": 3, "beta_b": 1, "v": "x", "abscissa": "x", "ordinate": "y"}
     fixed |= {"coins": ("red", "blue"), "theta_of": {"red": fmpq(1, 4), "blue": fmpq(2, 3)}}
     fixed |= {name: number() for name in ("mu_hat", "sigma2", "prior_mean", "prior_variance", "slope", "free")}
+    fixed |= {"component": 1, "trajectories": (1, 2), "last": {1: 2, 2: 1}, "policy": "slow", "policies": ACTIONS}
+    fixed |= {"violated": ACTIONS, "worth_expert": number(), "xi": number(), "step_length": number()}
     fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
     fixed |= {"components": (1, 2), "tasks": (1, 2)}
     return {

@@ -1,0 +1,33 @@
+"""Features of states: what inverse reinforcement learning is given instead of rewards."""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+
+from rldrill.problems.exact import Exact
+from rldrill.problems.models import Name, check_keys
+
+#: The features of every state, as many for each.
+FeaturesField = dict[Name, tuple[Exact, ...]]
+
+
+def check_features(features: Mapping[str, tuple[Fraction, ...]], states: Iterable[str]) -> None:
+    """Demand as many features, one at least, of every state.
+
+    Raises:
+        ValueError: they are missing, given for an unknown state, or not as many as for the others.
+    """
+    needed = tuple(dict.fromkeys(states))
+    check_keys(features, needed, "the feature vector", needed=needed)
+    check_lengths(features, "features")
+
+
+def check_lengths(vectors: Mapping[str, tuple[Fraction, ...]], what: str) -> None:
+    """Demand vectors of one length, with one component at least.
+
+    Raises:
+        ValueError: they are not.
+    """
+    lengths = {len(vector) for vector in vectors.values()}
+    if len(lengths) > 1 or 0 in lengths:
+        told = ", ".join(f"{name!r} has {len(vector)}" for name, vector in vectors.items())
+        raise ValueError(f"{what}: all must have the same number of components, one at least, but {told}")

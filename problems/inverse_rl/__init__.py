@@ -1,0 +1,1 @@
+"""Problems: Inverse reinforcement learning."""

@@ -1,0 +1,96 @@
+"""Apprenticeship learning by projection: distances, projected points and the weights of the next reward."""
+
+from fractions import Fraction
+from string import ascii_lowercase
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.feature_vectors import check_lengths
+from rldrill.problems.parts import Number, Part, Vector
+
+TITLE = "Apprenticeship learning"
+SOURCE = "Abbeel & Ng 2004, section 3.1"
+REVISION = 1
+
+Mu = tuple[Fraction, ...]
+
+
+class Given(Givens):
+    """The expert's feature expectations, those of the first policy, and those of the policies after it."""
+
+    expert: tuple[Exact, ...]
+    first: tuple[Exact, ...]
+    policies: tuple[tuple[Exact, ...], ...] = Field(min_length=1, max_length=8)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        later = {f"policy {number}": mu for number, mu in enumerate(self.policies, 1)}
+        check_lengths({"expert": self.expert, "first": self.first} | later, "features")
+        if self.policies[0] == self.first:
+            raise ValueError(
+                "policies: the first of them is where the projection starts, so there is no line through both"
+            )
+        return self
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One projection of two features; one of three; two of two features."""
+    size = 3 if level == 2 else 2
+    expert, first = _vector(rng, size), _vector(rng, size)
+    point, policies = first, []
+    for _ in range(2 if level == 3 else 1):
+        mu, share = _beyond(rng, point, expert)
+        policies.append(mu)
+        point = tuple(here + share * (there - here) for here, there in zip(point, mu, strict=True))
+    return Given(expert=expert, first=first, policies=tuple(policies))
+
+
+def _vector(rng: Draws, size: int) -> Mu:
+    return tuple(rng.whole(0, 6) for _ in range(size))
+
+
+def _beyond(rng: Draws, point: Mu, expert: Mu) -> tuple[Mu, Fraction]:
+    """A policy as the algorithm finds it: at least as good as the expert for the weights, so not short of it.
+
+    The projection then lies between the point and the policy; also returned is where, as a share of the way.
+    """
+    for _ in range(200):
+        mu = _vector(rng, len(point))
+        way = [there - here for here, there in zip(point, mu, strict=True)]
+        goal = [there - here for here, there in zip(point, expert, strict=True)]
+        along: Fraction = sum((step * wanted for step, wanted in zip(way, goal, strict=True)), Fraction(0))
+        if sum(wanted**2 for wanted in goal) <= along < sum(step**2 for step in way):
+            return mu, along / sum((step**2 for step in way), Fraction(0))
+    return expert, Fraction(1)  # a start from which no small policy will do: the draw is refused
+
+
+def question(given: Given) -> Question:
+    """The vectors; a distance, then projection and weights policy by policy, then the distance left."""
+    count, size = len(given.policies), len(given.expert)
+    named = (("μ(π_E)", given.expert), *((f"μ(π_{{{n}}})", mu) for n, mu in enumerate((given.first, *given.policies))))
+    blocks = (
+        Paragraph("An apprentice wants the feature expectations of the expert's policy $π_E$. So far there are:"),
+        Table(
+            header=("", *(f"component ${index}$" for index in range(1, size + 1))),
+            rows=tuple((f"${name}$", *(f"${shown(value)}$" for value in mu)) for name, mu in named),
+        ),
+        Paragraph(
+            "The projection method keeps a point $μ̄$, at first $μ(π_0)$. After each new policy $π_i$ it moves to the "
+            "orthogonal projection of $μ(π_E)$ onto the line through $μ̄$ and $μ(π_i)$; the weights of the next reward "
+            "are then $w = μ(π_E) − μ̄$."
+        ),
+    )
+    labels = iter(ascii_lowercase)
+    parts = [Part(next(labels), "What is the distance $‖μ(π_1) − μ(π_E)‖$ (Euclidean)?", Number())]
+    for number in range(1, count + 1):
+        point = Vector(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
+        weights = Vector(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
+        parts.append(Part(next(labels), f"Where is $μ̄$ after $π_{{{number}}}$?", point, 2))
+        parts.append(Part(next(labels), "What are the weights $w$ then?", weights, zero=True))
+    parts.append(Part(next(labels), f"What is the distance $‖w‖$ that is left after $π_{{{count}}}$?", Number()))
+    return Question(blocks, tuple(parts))

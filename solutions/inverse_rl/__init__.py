@@ -1,0 +1,1 @@
+"""Solvers: Inverse reinforcement learning."""

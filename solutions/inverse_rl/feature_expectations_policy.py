@@ -1,0 +1,73 @@
+"""One linear system for every feature, then the mean over the start distribution."""
+
+from collections import defaultdict
+from string import ascii_lowercase
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.inverse_rl.feature_expectations_policy import Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.inverse_rl import FEATURES_FROM, FEATURES_FROM_START, START_IGNORED, mu_of
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (START_IGNORED,)
+
+
+def solve(given: Given, work: Work) -> None:
+    """The system of each feature over all states; then μ(π), component by component."""
+    states = given.states
+    motion = knowns.motion(given.motion)
+    reached = {
+        (state, action): tuple(target for target, chance in rows[state].items() if chance)
+        for action, rows in given.motion.items()
+        for state in states
+    }
+    P: dict[Any, Any] = defaultdict(lambda: ZERO)
+    P.update({(state, action, target): chance for (target, state, action), chance in motion.items()})
+    known: dict[str, Any] = {
+        "P": P,
+        "successors": reached,
+        "actions": {
+            state: tuple(action for action, chance in given.policy[state].items() if chance) for state in states
+        },
+        "pi": knowns.policy(given.policy),
+        "phi": knowns.features(given.features),
+        "gamma": exact(given.gamma),
+    }
+    expectations: dict[tuple[int, str], Any] = {}
+    for label, index in zip(ascii_lowercase, range(1, given.size + 1), strict=False):
+        fixed = {(index, state): ZERO for state in given.terminal}
+        solved = work.system(
+            FEATURES_FROM, mu_of, [{"component": index, "s": state} for state in states], mu_of=fixed, **known
+        )
+        answer = work.answer(label, {state: solved[index, state] for state in states})
+        expectations |= {(index, state): value for state, value in answer.items()}
+    begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
+    total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
+    work.answer(ascii_lowercase[given.size], total)
+
+
+def oracle(given: Given) -> Answers:
+    """The state distribution pushed forward until nothing is left of its discounted weight, all states at once."""
+    states = (*given.states, *given.terminal)
+    count = len(given.states)
+    chain = np.zeros((count, len(states)))
+    for action in given.motion:
+        share = np.array([at(given.policy[state].get(action, 0)) for state in given.states])
+        rows = np.array(
+            [[at(given.motion[action][state].get(target, 0)) for target in states] for state in given.states]
+        )
+        chain += share[:, None] * rows
+    features = np.array([[at(value) for value in given.features[state]] for state in given.states])
+    occupied, total = np.eye(count), np.zeros((count, given.size))
+    for _ in range(100_000):
+        total += occupied @ features
+        occupied = at(given.gamma) * occupied @ chain[:, :count]
+        if occupied.max() < 1e-16:
+            break
+    begins = np.array([at(chance) for chance in given.start_chances.values()])
+    columns = dict(zip(ascii_lowercase, total.T, strict=False))
+    return columns | {ascii_lowercase[given.size]: begins @ total}

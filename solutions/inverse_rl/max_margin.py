@@ -1,0 +1,61 @@
+"""The value of every policy, both sides of every constraint, and the worst violation."""
+
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import ZERO, exact, sign
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
+from rldrill.solutions.work import Work
+
+MARGIN_ON_THE_WRONG_SIDE = slip(
+    "margin-on-the-wrong-side",
+    "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
+    when=lambda given: any(rival.margin for rival in given.policies.values()),
+)
+MISCONCEPTIONS = (MARGIN_ON_THE_WRONG_SIDE, SUM_FOR_MAXIMUM)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Values; then constraint by constraint with ξ = 0; then the slack."""
+    mus = {EXPERT: given.expert} | {name: rival.mu for name, rival in given.policies.items()}
+    known: dict[str, Any] = {
+        "w": dict(enumerate(map(exact, given.w), 1)),
+        "features": tuple(range(1, len(given.w) + 1)),
+        "mu_policy": knowns.features(mus),
+    }
+    worth = work.answer("a", {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
+    side = -1 if work.makes(MARGIN_ON_THE_WRONG_SIDE) else 1
+    sides: dict[str, Any] = {
+        "worth": worth,
+        "worth_expert": worth[EXPERT],
+        "margin": {EXPERT: ZERO} | {name: side * exact(rival.margin) for name, rival in given.policies.items()},
+    }
+    asked = {name: work.step(MAX_MARGIN, policy=name, xi=ZERO, **sides) for name in given.policies}
+    violated = tuple(name for name, bound in asked.items() if sign(worth[EXPERT] - bound) < 0)
+    work.say(f"With $ξ = 0$ {_told(violated)}.")
+    work.answer("b", fmpq(len(asked) - len(violated)))
+    work.answer("c", work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+
+
+def _told(violated: tuple[str, ...]) -> str:
+    return f"the left side is too small for {', '.join(violated)}" if violated else "all constraints hold"
+
+
+def oracle(given: Given) -> Answers:
+    """Slacks tried by bisection until the smallest that does is found, on matrices."""
+    mus = np.array([[at(value) for value in mu] for mu in (given.expert, *(r.mu for r in given.policies.values()))])
+    values = mus @ [at(weight) for weight in given.w]
+    needed = values[1:] + [at(rival.margin) for rival in given.policies.values()]
+    low, high = 0.0, 1.0 + np.abs(needed).sum() + abs(values[0])
+    if (values[0] >= needed - 1e-12).all():
+        high = 0.0
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (low, middle) if (values[0] + middle >= needed).all() else (middle, high)
+    return {"a": values, "b": (values[0] >= needed - 1e-12).sum(), "c": high}

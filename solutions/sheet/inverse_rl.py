@@ -1,0 +1,234 @@
+"""Section 10 of the sheet: inverse reinforcement learning."""
+
+from typing import Any
+
+from sympy import Pow, evaluate, sqrt
+
+from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
+from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.notation import (
+    INFINITY,
+    Actions,
+    Counting,
+    Expectation,
+    Features,
+    MaxOver,
+    MeanOver,
+    P,
+    States,
+    Successors,
+    SumOver,
+    a,
+    called,
+    conditioned,
+    gamma,
+    i,
+    letter,
+    pi,
+    quantity,
+    s,
+    s1,
+    t,
+)
+
+#: What stands beside the formulas that the sheet itself does not have.
+BEYOND = "Beyond the sheet."
+_PI = variable("π")
+_EXPERT = Script(_PI, variable("E"))
+_MU = variable("μ")
+_BAR = Accent(_MU, "bar")
+
+
+def _component(head: Math, index: Math) -> Math:
+    """A vector is written without an index until one of its components is put in."""
+    return head if index == EMPTY else Script(head, index)
+
+
+#: The last time of a trajectory.
+Last = quantity("last", called(variable("T")))
+#: The component that is computed.
+j = letter("component", EMPTY)
+tau = letter("trajectory", "τ")
+Trajectories = letter("trajectories", "D")
+s_t = quantity("visited", lambda time, _: Script(variable("s"), time))
+phi = quantity("phi", lambda index, state: row(_component(variable("φ"), index), Fence(state)))
+mu = quantity("feature_mu", lambda index: row(_component(_MU, index), Fence(_PI)))
+mu_of = quantity("mu_of", lambda index, state: row(_component(_MU, index), Fence(state)))
+mu_expert = quantity("mu_expert", lambda index: row(_component(_MU, index), Fence(_EXPERT)))
+mu_bar = quantity("mu_bar", lambda index: _component(_BAR, index))
+mu_now = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI)))
+w = quantity("w", lambda index: _component(variable("w"), index))
+start = quantity("start_chance", conditioned("p"))
+policy = letter("policy", "π")
+Policies = letter("policies", "Π")
+Violated = letter("violated", "Π′")
+mu_policy = quantity("mu_policy", lambda index, of: row(_component(_MU, index), Fence(of)))
+worth = quantity("worth", lambda of: row(Script(variable("w"), above=word("T")), _MU, Fence(of)))
+worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T")), _MU, Fence(_EXPERT)))
+margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
+xi = letter("xi", "ξ")
+step_length = letter("step_length", "c")
+distance = letter("distance", Fence(row(_MU, Fence(_PI), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
+remaining = letter("remaining", "t")
+
+
+def several_violated(given: Any) -> bool:
+    """Whether more than one constraint is violated, so that a sum is more than the maximum."""
+    expert = sum(weight * value for weight, value in zip(given.w, given.expert, strict=True))
+    values = (
+        sum(weight * value for weight, value in zip(given.w, rival.mu, strict=True)) + rival.margin
+        for rival in given.policies.values()
+    )
+    return sum(value > expert for value in values) > 1
+
+
+with evaluate(False):
+    _DISCOUNTED = SumOver(gamma**t * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY))
+
+    FEATURE_EXPECTATIONS = Formula(
+        "feature-expectations",
+        mu(j),
+        Expectation(_DISCOUNTED, tau, Trajectories),
+        title="Feature expectations",
+        source="Abbeel & Ng 2004, section 2",
+        hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
+    )
+    FEATURES_UNDISCOUNTED = misread(
+        FEATURE_EXPECTATIONS,
+        "undiscounted",
+        Expectation(SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories),
+        "The features at time t count with γᵗ.",
+    )
+    FEATURES_EARLY = misread(
+        FEATURE_EXPECTATIONS,
+        "gamma-one-step-early",
+        Expectation(
+            SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
+        ),
+        "The features of the first state are not discounted: γ⁰ = 1.",
+    )
+    FEATURES_SUMMED = misread(
+        FEATURE_EXPECTATIONS,
+        "sum-for-mean",
+        SumOver(_DISCOUNTED, tau, Trajectories),
+        "An expectation is estimated by the mean of the trajectories, not by their sum.",
+        when=lambda given: len(given.trajectories) > 1,
+    )
+    FEATURES_FROM = Formula(
+        "feature-expectations-from",
+        mu_of(j, s),
+        phi(j, s)
+        + gamma * SumOver(pi(a, s) * SumOver(P(s, a, s1) * mu_of(j, s1), s1, Successors(s, a)), a, Actions(s)),
+        title="Feature expectations from a state",
+        source="Abbeel & Ng 2004, section 2, with the Bellman equation for V",
+        hint="It is a Bellman equation with the feature in place of the reward, one system for every feature.",
+        note=BEYOND,
+    )
+    FEATURES_FROM_START = Formula(
+        "feature-expectations-start",
+        mu(j),
+        SumOver(start(s) * mu_of(j, s), s, States),
+        title="Feature expectations from the start distribution",
+        source="Abbeel & Ng 2004, section 2",
+        hint="Average over the states in which an episode may start, with their probabilities.",
+        note=BEYOND,
+    )
+    START_IGNORED = misread(
+        FEATURES_FROM_START,
+        "start-ignored",
+        MeanOver(mu_of(j, s), s, States),
+        "The states count with the probabilities with which an episode starts there, not all alike.",
+        when=lambda given: len(set(given.start_chances.values())) > 1,
+    )
+
+    REWARD_OF_FEATURES = Formula(
+        "feature-value",
+        worth(policy),
+        SumOver(w(i) * mu_policy(i, policy), i, Features),
+        title="Value of a policy from its feature expectations",
+        source="Abbeel & Ng 2004, section 2",
+        hint="With the reward wᵀφ(s) the value is the same weighted sum of the feature expectations.",
+        note=BEYOND,
+    )
+    MAX_MARGIN = Formula(
+        "max-margin",
+        worth_expert,
+        worth(policy) + margin(policy) - xi,
+        title="Max-margin constraint, for all π",
+        source="Ratliff, Bagnell & Zinkevich 2006, section 2",
+        hint="The expert must be better than every policy by the margin, or the slack ξ has to make up for it.",
+        sign="≥",
+    )
+    SLACK = Formula(
+        "slack",
+        xi,
+        MaxOver(worth(policy) + margin(policy) - worth_expert, policy, Policies),
+        title="Smallest slack that makes all constraints hold",
+        source="Ratliff, Bagnell & Zinkevich 2006, section 2",
+        hint="One ξ serves all constraints, so it is as large as the worst violation, and 0 if there is none.",
+        note="The policies include the expert's own, with the margin 0. " + BEYOND,
+    )
+    SUM_FOR_MAXIMUM = misread(
+        SLACK,
+        "sum-for-maximum",
+        SumOver(worth(policy) + margin(policy) - worth_expert, policy, Violated),
+        "One slack ξ serves all constraints: it is the largest violation, not their sum.",
+        when=several_violated,
+    )
+
+    APPRENTICESHIP = Formula(
+        "apprenticeship",
+        mu(j),
+        mu_expert(j),
+        title="Apprenticeship learning",
+        source="Abbeel & Ng 2004, section 3",
+        hint="Close to the expert's feature expectations a policy earns nearly as much, whatever the weights.",
+        sign="≈",
+    )
+    DISTANCE = Formula(
+        "feature-distance",
+        distance,
+        sqrt(SumOver((mu_now(i) - mu_expert(i)) ** 2, i, Features)),
+        title="Distance of the feature expectations",
+        source="Abbeel & Ng 2004, section 3",
+        hint="Square the differences of the components, add, and take the root.",
+        note=BEYOND,
+    )
+    _TOWARDS = mu_now(i) - mu_bar(i)
+    PROJECTION_LENGTH = Formula(
+        "projection-length",
+        step_length,
+        SumOver(_TOWARDS * (mu_expert(i) - mu_bar(i)), i, Features) * Pow(SumOver(_TOWARDS**2, i, Features), -1),
+        title="Projection step: its length",
+        source="Abbeel & Ng 2004, section 3.1",
+        hint="Project the way to the expert onto the way to the new policy.",
+        note=BEYOND,
+    )
+    PROJECTION = Formula(
+        "projection",
+        mu_bar(j),
+        mu_bar(j) + step_length * (mu_now(j) - mu_bar(j)),
+        title="Projection step",
+        source="Abbeel & Ng 2004, section 3.1",
+        hint="Go the share c of the way from the old point to the feature expectations of the new policy.",
+        sign="←",
+        note=BEYOND,
+    )
+    WEIGHTS = Formula(
+        "apprenticeship-weights",
+        w(j),
+        mu_expert(j) - mu_bar(j),
+        title="Weights of the next reward",
+        source="Abbeel & Ng 2004, section 3.1",
+        hint="The next reward points from the projected point to the expert.",
+        note=BEYOND,
+    )
+    REMAINING = Formula(
+        "remaining-distance",
+        remaining,
+        sqrt(SumOver(w(i) ** 2, i, Features)),
+        title="Remaining distance",
+        source="Abbeel & Ng 2004, section 3.1",
+        hint="It is the length of w; the algorithm stops when it is small.",
+        note=BEYOND,
+    )
