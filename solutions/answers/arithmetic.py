@@ -17,7 +17,7 @@ Number: TypeAlias = Any
 FUNCTIONS = {"sqrt": (1, 1), "exp": (1, 1), "ln": (1, 1), "log": (1, 1), "sin": (1, 1), "cos": (1, 1),
              "tan": (1, 1), "abs": (1, 1), "max": (1, 20), "min": (1, 20)}  # fmt: skip
 
-_EFFORT = 2000  # in hundredths of a millisecond, as measured
+_EFFORT = 3000  # in hundredths of a millisecond, as measured
 _BITS = 4000
 _DEGREE = 24
 # degree, levels and bits of what a function is taken of, with a parameter in it and without
