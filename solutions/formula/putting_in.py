@@ -243,7 +243,7 @@ def _inner(term: Expr) -> Expr:
     if isinstance(term, Greatest | Least | Clipped):
         return reduced(term)
     if term.is_Mul:
-        return Mul(*[_inner(factor) for factor in term.args], evaluate=False)
+        return Mul(*_without_ones([_inner(factor) for factor in term.args]), evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, MaxOf) else term

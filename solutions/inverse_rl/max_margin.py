@@ -36,11 +36,17 @@ def solve(given: Given, work: Work) -> None:
         "worth_expert": worth[EXPERT],
         "margin": {EXPERT: ZERO} | {name: side * exact(rival.margin) for name, rival in given.policies.items()},
     }
-    asked = {name: work.step(MAX_MARGIN, policy=name, xi=ZERO, **sides) for name in given.policies}
-    violated = tuple(name for name, bound in asked.items() if sign(worth[EXPERT] - bound) < 0)
+    violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
-    work.answer("b", fmpq(len(asked) - len(violated)))
+    work.answer("b", fmpq(len(given.policies) - len(violated)))
     work.answer("c", work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+
+
+def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
+    known = sides | {"policy": name, "xi": ZERO}
+    holds = sign(sides["worth_expert"] - work.value(MAX_MARGIN, **known)) >= 0
+    work.step(MAX_MARGIN, sign="≥" if holds else "<", **known)
+    return holds
 
 
 def _told(violated: tuple[str, ...]) -> str:

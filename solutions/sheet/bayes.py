@@ -13,6 +13,7 @@ from rldrill.solutions.formula.notation import (
     IntegralOver,
     States,
     SumOver,
+    Transposed,
     a,
     called,
     conditioned,
@@ -24,8 +25,11 @@ from rldrill.solutions.formula.notation import (
     quantity,
     s,
     s1,
+    subscripted,
+    t,
     z,
 )
+from rldrill.solutions.sheet.linear_methods import At, Bt, Qt, Rt
 
 #: What stands beside the formulas that the sheet itself does not have.
 BEYOND = "Beyond the sheet."
@@ -98,6 +102,25 @@ slope = letter("slope", Script(_HAT, number(1)))
 slope_map = letter("slope_map", Script(_HAT, row(number(1), punctuation(","), word("MAP"))))
 intercept = letter("intercept", Script(_HAT, number(0)))
 
+# A Gaussian belief; A, B as in section 7, R and Q the covariances of the motion's and the sensor's noise
+mean = quantity("mean", subscripted("μ"), matrix=True)
+mean_bar = quantity("mean_bar", subscripted(Accent(variable("μ"), "bar")), matrix=True)
+covariance = quantity("covariance", subscripted("Σ"), matrix=True)
+covariance_bar = quantity("covariance_bar", subscripted(Accent(variable("Σ"), "bar")), matrix=True)
+moved = quantity("moved", subscripted("u"), matrix=True)
+read = quantity("read", subscripted("z"), matrix=True)
+Ct = quantity("Ct", subscripted("C"), matrix=True)
+Kt = quantity("Kt", subscripted("K"), matrix=True)
+identity = letter("identity", "I", matrix=True)
+
+
+def _on_a_line(given: Any) -> bool:
+    return bool(given.on_a_line)
+
+
+def _is_noisy(given: Any) -> bool:
+    return any(any(line) for line in given.process)
+
 
 def _may_stay(given: Any) -> bool:
     """Whether some state is believed in that every action may leave as it is."""
@@ -165,6 +188,73 @@ with evaluate(False):
         motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
         "An action is no measurement: nothing is weighed and normalised, probability flows from state to state.",
         when=_may_stay,
+    )
+
+    KALMAN_MOVE_MEAN = Formula(
+        "kalman-predict-mean",
+        mean_bar(t),
+        At(t) * mean(t - 1) + Bt(t) * moved(t),
+        title="Kalman filter: mean after a motion",
+        source="Thrun, Burgard & Fox 2005, table 3.1, line 2",
+        hint="Put the old mean and the command into the motion model, without noise.",
+        note=BEYOND,
+    )
+    KALMAN_MOVE_COVARIANCE = Formula(
+        "kalman-predict-covariance",
+        covariance_bar(t),
+        At(t) * covariance(t - 1) * Transposed(At(t)) + Rt(t),
+        title="Kalman filter: covariance after a motion",
+        source="Thrun, Burgard & Fox 2005, table 3.1, line 3",
+        hint="A motion makes the belief wider: the covariance of its noise is added.",
+        note=BEYOND,
+    )
+    PROCESS_NOISE_FORGOTTEN = misread(
+        KALMAN_MOVE_COVARIANCE,
+        "process-noise-forgotten",
+        At(t) * covariance(t - 1) * Transposed(At(t)),
+        "Every motion adds the variance of its own noise to the belief.",
+        when=_is_noisy,
+    )
+    KALMAN_GAIN = Formula(
+        "kalman-gain",
+        Kt(t),
+        covariance_bar(t) * Transposed(Ct(t)) * Pow(Ct(t) * covariance_bar(t) * Transposed(Ct(t)) + Qt(t), -1),
+        title="Kalman gain",
+        source="Thrun, Burgard & Fox 2005, table 3.1, line 4",
+        hint="The gain is the share of the predicted variance in the sum of predicted and sensor variance.",
+        note=BEYOND,
+    )
+    VARIANCES_FOR_INVERSES = misread(
+        KALMAN_GAIN,
+        "variances-for-inverses",
+        Qt(t) * Pow(covariance_bar(t) + Qt(t), -1),
+        "The more certain of the two counts more: weigh with the inverse of its variance, not with the variance.",
+        when=_on_a_line,
+    )
+    KALMAN_MEAN = Formula(
+        "kalman-mean",
+        mean(t),
+        mean_bar(t) + Kt(t) * (read(t) - Ct(t) * mean_bar(t)),
+        title="Kalman filter: mean after a measurement",
+        source="Thrun, Burgard & Fox 2005, table 3.1, line 5",
+        hint="Go the share K of the way from the predicted mean to the measurement.",
+        note=BEYOND,
+    )
+    GAIN_ON_PREDICTION = misread(
+        KALMAN_MEAN,
+        "gain-on-prediction",
+        read(t) + Kt(t) * (mean_bar(t) - read(t)),
+        "The gain weighs the innovation z − μ̄: start from the predicted mean and go K of the way to the measurement.",
+        when=_on_a_line,
+    )
+    KALMAN_COVARIANCE = Formula(
+        "kalman-covariance",
+        covariance(t),
+        (identity - Kt(t) * Ct(t)) * covariance_bar(t),
+        title="Kalman filter: covariance after a measurement",
+        source="Thrun, Burgard & Fox 2005, table 3.1, line 6",
+        hint="A measurement makes the belief narrower, by the share K.",
+        note=BEYOND,
     )
 
     MODEL_FITTING = Formula(

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from flint import fmpq
+from flint import fmpq, fmpq_mat
+from sympy import evaluate, factorial, log, sqrt
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import mathematics
@@ -11,9 +12,11 @@ from rldrill.render.latex import latex
 from rldrill.render.stacked import stacked
 from rldrill.render.unicode import unicode, unicode_text
 from rldrill.solutions.exact import generator
+from rldrill.solutions.formula.notation import Counting, Expectation, IntegralOver, S, T, n, t
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.sheet import formulas
+from rldrill.solutions.sheet.bayes import BIC, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V
 from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
@@ -49,6 +52,26 @@ def test_the_step_of_the_design_document() -> None:
         "t": 0, "alpha": fmpq(1, 2), "gamma": fmpq(9, 10),
     }  # fmt: skip
     assert unicode(typeset(put_in(TD_ZERO.right, known))) == "2 + 1/2·((−1) + 9/10·4 − 2)"
+
+
+def test_factorials_expectations_integrals_and_roots_are_written() -> None:
+    with evaluate(False):
+        quotient = factorial(heads) * factorial(heads + 1) / factorial(3)
+        assert unicode(typeset(quotient)) == "(n₁!(n₁ + 1)!)/(3!)"
+        assert unicode(typeset(Expectation(S(t), n, Counting(1, T)))).strip() == "𝔼[sₜ]"
+        assert unicode(typeset(IntegralOver(theta**2, theta, Thetas))).strip() == "∫ θ²dθ"
+        assert unicode(typeset(sqrt(heads + 1))) == "√(n₁ + 1)"
+
+
+def test_a_negative_logarithm_that_is_put_in_has_brackets() -> None:
+    known = {"M": "x", "log_likelihood": -log(4), "free": fmpq(1), "n": fmpq(8)}
+    assert unicode(typeset(put_in(BIC.right, known))) == "−2·(−ln 4) + ln 8"
+
+
+def test_a_1_that_multiplies_a_matrix_is_left_out() -> None:
+    one, two = fmpq_mat(1, 1, [1]), fmpq_mat(1, 1, [2])
+    known = {"t": 1, "At": {1: one}, "covariance": {0: two}, "Rt": {1: one}}
+    assert unicode(typeset(put_in(KALMAN_MOVE_COVARIANCE.right, known))) == "2 + 1"
 
 
 def test_zero_terms_are_dropped_and_unknowns_stay() -> None:

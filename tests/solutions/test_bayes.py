@@ -233,3 +233,76 @@ def test_data_that_do_not_fit_are_one_sentence(name: str, given_: dict[str, Any]
         solved(name, **given_)
     assert fragment in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def kalman(seed: int, **changed: Any) -> Any:
+    given_ = draw("kalman-filter", 2, seed).problem.data()["given"]
+    return solved("kalman-filter", **given_ | changed)
+
+
+@given(seeds)
+@quick
+def test_a_sensor_that_knows_nothing_keeps_the_prediction(seed: int) -> None:
+    answers = kalman(seed, sensor="1e30")
+    for predicted, corrected in (("a", "b"), ("c", "d")):
+        for before, after in zip(answers[predicted], answers[corrected], strict=True):
+            assert abs(before - after) < fmpq(1, 10**20)
+
+
+@given(seeds)
+@quick
+def test_a_perfect_sensor_is_believed_and_the_variance_never_grows_by_measuring(seed: int) -> None:
+    given_ = draw("kalman-filter", 2, seed).problem.data()["given"]
+    answers = kalman(seed, sensor="1e-30")
+    for label, event in zip("bd", given_["steps"], strict=True):
+        assert abs(answers[label][0] - fmpq(int(event["z"][0][0]))) < fmpq(1, 10**20)
+    answers = kalman(seed)
+    assert answers["b"][1] < answers["a"][1]
+    assert answers["d"][1] < answers["c"][1]
+
+
+@given(seeds)
+@quick
+def test_precisions_add(seed: int) -> None:
+    solution = draw("kalman-filter", 1, seed)
+    sensor = solution.problem.given.sensor[0][0]
+    assert 1 / solution.answers["b"][1] == 1 / solution.answers["a"][1] + fmpq(sensor.denominator, sensor.numerator)
+
+
+@given(seeds)
+@quick
+def test_the_order_of_two_measurements_without_motion_between_does_not_matter(seed: int) -> None:
+    given_ = draw("kalman-filter", 2, seed).problem.data()["given"]
+    still = [{"u": 0, "z": event["z"]} for event in given_["steps"]]
+    forth, back = (kalman(seed, process=0, steps=steps) for steps in (still, still[::-1]))
+    assert forth["d"] == back["d"]
+
+
+@given(seeds)
+@quick
+def test_covariances_stay_symmetric(seed: int) -> None:
+    answers = draw("kalman-filter", 3, seed).answers
+    for label in "be":
+        assert answers[label] == answers[label].transpose()
+
+
+KALMAN: dict[str, Any] = {"mean": 1, "covariance": 2, "process": 1, "sensor": 1, "steps": [{"u": 1, "z": 2}]}
+
+
+@pytest.mark.parametrize(
+    ("changed", "fragment"),
+    [
+        ({"covariance": -1}, "covariance must be positive semidefinite"),
+        ({"process": -1}, "process must be positive semidefinite"),
+        ({"sensor": 0}, "sensor must be positive definite"),
+        ({"mean": [[1], [2]]}, "covariance is 1×1, but with a mean of 2 and 1 readings it must be 2×2"),
+        ({"steps": [{"u": [[1], [2]], "z": 1}]}, "u is 2×1"),
+        ({"steps": [{"u": 1, "z": [[1], [2]]}]}, "z is 2×1"),
+        ({"steps": [{"z": 1}]}, "u: is missing"),
+    ],
+)
+def test_models_that_do_not_fit_are_one_sentence(changed: dict[str, Any], fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        solved("kalman-filter", **KALMAN | changed)
+    assert fragment in str(error.value)
+    assert "\n" not in str(error.value)

@@ -116,3 +116,20 @@ def test_the_first_of_anscombes_four_sets() -> None:
 def test_the_variances_of_two_numbers() -> None:
     # By hand: 1 and 3 have the mean 2; their squared distances sum to 2, so 2/2 = 1 and 2/1 = 2.
     assert solved("model-fitting", sample={"values": [1, 3]}) == {"a": fmpq(2), "b": fmpq(1), "c": fmpq(2)}
+
+
+def test_fusing_two_measurements_by_hand() -> None:
+    # A belief of mean 10 and variance 8 that does not move, and a reading of 13 of variance 4: the weights are the
+    # inverse variances 1/8 and 1/4, so (10 + 2·13)/3 = 12, with variance 8/3.
+    step = {"u": 0, "z": 13}
+    answers = solved("kalman-filter", mean=10, covariance=8, process=0, sensor=4, steps=[step])
+    assert answers == {"a": (fmpq(10), fmpq(8)), "b": (fmpq(12), fmpq(8, 3))}
+
+
+def test_the_random_walk_of_russell_and_norvig() -> None:
+    # Russell & Norvig 2010, section 15.4.2 and figure 15.10: μ0 = 0, σ0 = 1.5, σx = 2, σz = 1, first reading 2.5.
+    # Their equation 15.20 gives ((σ0² + σx²) z + σz² μ0)/(σ0² + σx² + σz²) = (25/4 · 5/2)/(29/4) = 125/58 and the
+    # variance (25/4 · 1)/(29/4) = 25/29.
+    step = {"u": 0, "z": "2.5"}
+    answers = solved("kalman-filter", mean=0, covariance="2.25", process=4, sensor=1, steps=[step])
+    assert answers["b"] == (fmpq(125, 58), fmpq(25, 29))

@@ -1,0 +1,187 @@
+"""The Gaussian belief of a robot on a line after moving and measuring; with its velocity at level 3."""
+
+from fractions import Fraction
+from functools import cache
+from string import ascii_lowercase
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.document import Block, Equation, Paragraph, Table
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import shown
+from rldrill.problems.family import Givens, Question
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.matrices import MatrixField, check_shape, check_weights, diagonal, grid
+from rldrill.problems.parts import Matrix, Part, Vector
+
+TITLE = "Kalman filter"
+SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
+REVISION = 1
+
+_ONE = ((Fraction(1),),)
+
+
+class Event(Givens):
+    """What happens in one step: a motion with the command u, then unless z is missing a measurement."""
+
+    u: MatrixField
+    z: MatrixField | None = None
+
+
+class Given(Givens):
+    """The first belief, the models A, B, C, the noises of motion and sensor (their covariances), and the steps.
+
+    Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given.
+    """
+
+    mean: MatrixField
+    covariance: MatrixField
+    A: MatrixField = Field(default=_ONE, validate_default=True)
+    B: MatrixField = Field(default=_ONE, validate_default=True)
+    C: MatrixField = Field(default=_ONE, validate_default=True)
+    process: MatrixField
+    sensor: MatrixField
+    steps: tuple[Event, ...] = Field(min_length=1, max_length=5)
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        n, inputs, readings = len(self.mean), len(self.B[0]), len(self.C)
+        for name, matrix, rows, columns in (
+            ("mean", self.mean, n, 1), ("covariance", self.covariance, n, n), ("A", self.A, n, n),
+            ("B", self.B, n, inputs), ("C", self.C, readings, n), ("process", self.process, n, n),
+            ("sensor", self.sensor, readings, readings),
+        ):  # fmt: skip
+            check_shape(name, matrix, rows, columns, f"with a mean of {n} and {readings} readings ")
+        for event in self.steps:
+            check_shape("u", event.u, inputs, 1, f"with {inputs} inputs ")
+            if event.z is not None:
+                check_shape("z", event.z, readings, 1, f"with {readings} readings ")
+        check_weights("covariance", self.covariance, positive=False)
+        check_weights("process", self.process, positive=False)
+        check_weights("sensor", self.sensor, positive=True)
+        return self
+
+    @property
+    def on_a_line(self) -> bool:
+        """Whether the state is a position that is moved and measured itself."""
+        return len(self.mean) == 1 and self.A == self.B == self.C == _ONE
+
+
+def draw(level: int, rng: Draws) -> Given:
+    """One step on a line; two steps; one step with a velocity that is not measured."""
+    if level == 3:
+        return Given(
+            mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
+            covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
+            A=((1, 1), (0, 1)),
+            B=((0,), (1,)),
+            C=((1, 0),),
+            process=diagonal(rng.whole(0, 2), rng.whole(1, 2)),
+            sensor=((rng.whole(1, 4),),),
+            steps=(Event(u=((rng.nonzero(-2, 2),),), z=((rng.whole(2, 12),),)),),
+        )
+    mean, steps = rng.whole(0, 9), []
+    variance, process, sensor = rng.choice(_handy())
+    place = mean
+    for _ in range(level):
+        u = rng.nonzero(-3, 6)
+        place += u
+        steps.append(Event(u=((u,),), z=((place + rng.nonzero(-4, 4),),)))
+    return Given(
+        mean=((mean,),),
+        covariance=((variance,),),
+        process=((process,),),
+        sensor=((sensor,),),
+        steps=tuple(steps),
+    )
+
+
+@cache
+def _handy() -> tuple[tuple[int, int, int], ...]:
+    """Variances of the belief, the motion and the sensor that give a whole variance after the first measurement."""
+    return tuple(
+        (before, process, sensor)
+        for before in range(1, 9)
+        for process in range(1, 7)
+        for sensor in range(1, 13)
+        if before + process != sensor and (before + process) * sensor % (before + process + sensor) == 0
+    )
+
+
+def question(given: Given) -> Question:
+    """The models and the steps; the belief after every motion and every measurement."""
+    blocks = _line(given) if given.on_a_line else _models(given)
+    rows = (
+        ("$u_t$", *(_column(event.u) for event in given.steps)),
+        ("$z_t$", *("–" if event.z is None else _column(event.z) for event in given.steps)),
+    )
+    times = tuple(f"${time}$" for time in range(1, len(given.steps) + 1))
+    parts: list[Part] = []
+    for time, event in enumerate(given.steps, 1):
+        for ask, kind, points in _wanted(given, time, event):
+            parts.append(Part(ascii_lowercase[len(parts)], ask, kind, points, zero=True))
+    return Question((*blocks, Table(header=("$t$", *times), rows=rows)), tuple(parts))
+
+
+def _column(vector: MatrixField) -> str:
+    numbers = ", ".join(shown(line[0]) for line in vector)
+    return f"${numbers}$" if len(vector) == 1 else f"$({numbers})$"
+
+
+def _line(given: Given) -> tuple[Block, ...]:
+    mean, variance, process, sensor = (
+        shown(rows[0][0]) for rows in (given.mean, given.covariance, given.process, given.sensor)
+    )
+    return (
+        Paragraph(
+            f"A robot believes that its position on a line is normal with mean $μ_0 = {mean}$ and variance "
+            f"$Σ_0 = {variance}$. In every step it first moves by $u_t$ plus normal noise of variance "
+            f"$R = {process}$; then it measures its position as $z_t$, with normal noise of variance $Q = {sensor}$. "
+            "All noises are independent, with mean $0$."
+        ),
+    )
+
+
+def _models(given: Given) -> tuple[Block, ...]:
+    named = (
+        ("A", given.A), ("B", given.B), ("R", given.process), ("C", given.C), ("Q", given.sensor),
+        ("μ_0", given.mean), ("Σ_0", given.covariance),
+    )  # fmt: skip
+    told = (
+        "A robot's state is its position and its velocity"
+        if len(given.mean) == 2
+        else f"A robot's state has {len(given.mean)} components"
+    )
+    return (
+        Paragraph(
+            f"{told}. In every step it becomes $x_t = A x_{{t−1}} + B u_t + ε_t$, and $z_t = C x_t + δ_t$ is measured. "
+            "The noises $ε_t$ and $δ_t$ are normal and independent, with mean $0$ and covariances $R$ and $Q$. The "
+            "first belief is normal, with mean $μ_0$ and covariance $Σ_0$."
+        ),
+        *(Equation(mathematics(name), (grid(rows),), ("=",)) for name, rows in named),
+    )
+
+
+def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Vector | Matrix, int]]:
+    after = f"after the motion of step ${time}$, before the measurement"
+    if given.on_a_line:
+        wanted: list[tuple[str, Vector | Matrix, int]] = [
+            (f"What are mean and variance {after}?", Vector((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")), 1)
+        ]
+        if event.z is not None:
+            entries = Vector((f"μ_{{{time}}}", f"Σ_{{{time}}}"))
+            wanted.append((f"What are mean and variance after the measurement $z_{{{time}}}$?", entries, 2))
+        return wanted
+    n = len(given.mean)
+    wanted = [
+        (f"What is the mean $μ\u0304_{{{time}}}$ {after}?", Matrix(n, 1), 1),
+        (f"What is the covariance $Σ\u0304_{{{time}}}$ {after}?", Matrix(n, n), 2),
+    ]
+    if event.z is not None:
+        wanted += [
+            (f"What is the Kalman gain $K_{{{time}}}$?", Matrix(n, len(given.C)), 2),
+            (f"What is the mean $μ_{{{time}}}$ after the measurement?", Matrix(n, 1), 1),
+            (f"What is the covariance $Σ_{{{time}}}$ after the measurement?", Matrix(n, n), 2),
+        ]
+    return wanted

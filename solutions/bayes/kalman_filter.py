@@ -1,0 +1,131 @@
+"""The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
+
+from collections.abc import Iterator
+from string import ascii_lowercase
+from typing import Any
+
+import numpy as np
+
+from rldrill.problems.bayes.kalman_filter import Given
+from rldrill.solutions.matrices import given as given_matrix
+from rldrill.solutions.matrices import identity, matrix
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.sheet.bayes import (
+    GAIN_ON_PREDICTION,
+    KALMAN_COVARIANCE,
+    KALMAN_GAIN,
+    KALMAN_MEAN,
+    KALMAN_MOVE_COVARIANCE,
+    KALMAN_MOVE_MEAN,
+    PROCESS_NOISE_FORGOTTEN,
+    VARIANCES_FOR_INVERSES,
+)
+from rldrill.solutions.work import Work
+
+MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORGOTTEN)
+
+
+def solve(given: Given, work: Work) -> None:
+    """Every step: the belief moved, then weighed with the measurement."""
+    labels = iter(ascii_lowercase)
+    mean, covariance = given_matrix(given.mean), given_matrix(given.covariance)
+    models: dict[str, Any] = {
+        "At": given_matrix(given.A), "Bt": given_matrix(given.B), "Ct": given_matrix(given.C),
+        "Rt": given_matrix(given.process), "Qt": given_matrix(given.sensor),
+    }  # fmt: skip
+    one = identity(len(given.mean))
+    for time, event in enumerate(given.steps, 1):
+        known: dict[str, Any] = {name: {time: model} for name, model in models.items()} | {"t": time, "identity": one}
+        known |= {
+            "mean": {time - 1: mean},
+            "covariance": {time - 1: covariance},
+            "moved": {time: given_matrix(event.u)},
+        }
+        mean = work.step(KALMAN_MOVE_MEAN, **known)
+        if not given.on_a_line:
+            mean = work.answer(next(labels), mean)
+        covariance = work.step(KALMAN_MOVE_COVARIANCE, **known)
+        if not given.on_a_line:
+            covariance = work.answer(next(labels), covariance)
+        else:
+            mean, covariance = _answered(work, next(labels), mean, covariance)
+        if event.z is not None:
+            known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
+            known["read"] = {time: given_matrix(event.z)}
+            mean, covariance = _measured(given, work, labels, known)
+
+
+def _measured(given: Given, work: Work, labels: Iterator[str], known: dict[str, Any]) -> tuple[Any, Any]:
+    gain = work.step(KALMAN_GAIN, **known)
+    if given.on_a_line:
+        known = known | {"Kt": {known["t"]: gain}}
+        mean, covariance = work.step(KALMAN_MEAN, **known), work.step(KALMAN_COVARIANCE, **known)
+        return _answered(work, next(labels), mean, covariance)
+    known = known | {"Kt": {known["t"]: work.answer(next(labels), gain)}}
+    mean = work.answer(next(labels), work.step(KALMAN_MEAN, **known))
+    return mean, work.answer(next(labels), work.step(KALMAN_COVARIANCE, **known))
+
+
+def _answered(work: Work, label: str, mean: Any, covariance: Any) -> tuple[Any, Any]:
+    """Mean and variance on a line as one answer, and as matrices to go on with."""
+    first, second = work.answer(label, (mean[0, 0], covariance[0, 0]))
+    return matrix([[first]]), matrix([[second]])
+
+
+def oracle(given: Given) -> Answers:
+    """All states and readings as one Gaussian in the first state and all noises; then conditioned at once."""
+    labels = iter(ascii_lowercase)
+    answers: dict[str, Any] = {}
+    A, B, C, R, Q = (_array(rows) for rows in (given.A, given.B, given.C, given.process, given.sensor))
+    n, m, count = len(A), len(C), len(given.steps)
+    spread = np.zeros((n + count * (n + m),) * 2)
+    spread[:n, :n] = _array(given.covariance)
+    mean, state = _array(given.mean)[:, 0], np.eye(n, len(spread))
+    seen = _Readings(np.zeros((0, len(spread))), np.zeros(0))
+    for step, event in enumerate(given.steps):
+        motion = n + step * (n + m)
+        sensor = motion + n
+        spread[motion:sensor, motion:sensor], spread[sensor : sensor + m, sensor : sensor + m] = R, Q
+        state, mean = A @ state, A @ mean + B @ _array(event.u)[:, 0]
+        state[:, motion:sensor] += np.eye(n)
+        _put(given, answers, labels, seen.posterior(state, mean, spread))
+        if event.z is not None:
+            reading = C @ state
+            reading[:, sensor : sensor + m] += np.eye(m)
+            before = seen
+            seen = before.with_more(reading, _array(event.z)[:, 0] - C @ mean)
+            if not given.on_a_line:
+                here = seen.posterior(state, mean, spread)[0]
+                shifted = (before.with_more(reading, _array(event.z)[:, 0] - C @ mean + unit) for unit in np.eye(m))
+                answers[next(labels)] = np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1)
+            _put(given, answers, labels, seen.posterior(state, mean, spread))
+    return answers
+
+
+class _Readings:
+    """What was read: each reading's dependence on the first state and the noises, and its surprise."""
+
+    def __init__(self, rows: Array, surprises: Array) -> None:
+        self.rows, self.surprises = rows, surprises
+
+    def with_more(self, rows: Array, surprises: Array) -> "_Readings":
+        return _Readings(np.vstack([self.rows, rows]), np.append(self.surprises, surprises))
+
+    def posterior(self, state: Array, mean: Array, spread: Array) -> tuple[Array, Array]:
+        """Mean and covariance of a state given all that was read."""
+        joint = spread @ self.rows.T
+        weights = (
+            np.linalg.solve(self.rows @ joint, (state @ joint).T).T if len(self.rows) else np.zeros((len(mean), 0))
+        )
+        return mean + weights @ self.surprises, state @ spread @ state.T - weights @ (state @ joint).T
+
+
+def _put(given: Given, answers: dict[str, Any], labels: Iterator[str], belief: tuple[Array, Array]) -> None:
+    if given.on_a_line:
+        answers[next(labels)] = [belief[0][0], belief[1][0, 0]]
+    else:
+        answers[next(labels)], answers[next(labels)] = belief
+
+
+def _array(rows: Any) -> Array:
+    return np.array([[at(entry) for entry in line] for line in rows])
