@@ -41,7 +41,7 @@ def command(
 
     table = Table(box=None, pad_edge=False)
     for title in ("Topic", "Family", "Asks", "Minutes"):
-        table.add_column(title, style="bold" if title == "Family" else None, no_wrap=title in ("Family", "Minutes"))
+        table.add_column(title, style="bold" if title == "Family" else None, no_wrap=title != "Asks")
     topic = ""
     for family in families:
         table.add_row(

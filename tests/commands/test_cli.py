@@ -94,7 +94,7 @@ def test_an_error_of_our_own_exits_70_without_a_traceback(
     from rldrill import cli
 
     monkeypatch.setattr(sys, "argv", ["rldrill", "show", "td-zero/1/1"])
-    monkeypatch.setattr(rldrill.exercise, "load", lambda _: 1 / 0)
+    monkeypatch.setattr("rldrill.exercise.load", lambda _: 1 / 0)
     with pytest.raises(SystemExit) as caught:
         cli.main()
     assert caught.value.code == 70
