@@ -43,7 +43,8 @@ def expressions(texts: Texts, where: Texts = (), *, evaluate: bool = True) -> tu
 
 
 def _expression(text: str, symbols: Mapping[str, Expr]) -> Expr:
-    return sympy.sympify(worked_out(text, symbols, _FUNCTIONS, lambda n: sympy.Rational(n.numerator, n.denominator)))
+    worked = worked_out(text, symbols, _FUNCTIONS, lambda n: sympy.Rational(n.numerator, n.denominator))
+    return sympy.sympify(worked, strict=True)  # strict: a text would be executed
 
 
 @lru_cache(maxsize=4096)

@@ -1,5 +1,6 @@
 """The exact reading of a formula: compiled once into a Python function over exact values."""
 
+import keyword
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from math import factorial, prod
@@ -23,7 +24,11 @@ class _Code(StrPrinter):
         super().__init__({"order": "none"})
 
     def _print_Symbol(self, expression: Any) -> str:
-        return str(expression.name)
+        # The letters of dynamics in a problem file come here too: nothing but a name may reach the compiler.
+        name = str(expression.name)
+        if not name.isidentifier() or keyword.iskeyword(name):
+            raise ValueError(f"{name!r} is not the name of a letter")
+        return name
 
     def _print_Integer(self, expression: Any) -> str:
         return str(expression.p)
@@ -238,7 +243,8 @@ def needs(expression: Expr) -> tuple[str, ...]:
 def compiled(expression: Expr) -> Callable[..., Value]:
     """The expression as a Python function of the names that it needs, in their order.
 
-    What is compiled is printed from a formula of this project; nothing that a person types gets here.
+    What is compiled is printed from a tree of our own node types; of what a person types, only the names of
+    letters get here, each checked to be a name and bound as an argument.
     """
     source = f"lambda {', '.join(needs(expression))}: {_Code().doprint(expression)}"
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))
