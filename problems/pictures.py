@@ -40,19 +40,17 @@ class StateDiagram(Picture):
 
 @dataclass(frozen=True, slots=True)
 class Timeline(Picture):
-    """A run over time: states, and between them actions (if any) and rewards.
+    """A run over time: states, and between them actions (if any) and rewards, all as they are labelled.
 
     There may be an action in the last state, too; ``ended`` says that the last state is terminal.
+    ``times`` are the labels above the states, empty where nothing stands there.
     """
 
+    times: tuple[str, ...]
     states: tuple[str, ...]
     actions: tuple[str, ...]
     rewards: tuple[str, ...]
     ended: bool = False
-
-    def reward_label(self, time: int) -> str:
-        """What stands on the arrow that leaves at a time: ``$r_1 = 3$``."""
-        return f"$r_{{{time + 1}}} = {self.rewards[time].strip('$')}$"
 
 
 @dataclass(frozen=True, slots=True)

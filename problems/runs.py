@@ -179,9 +179,10 @@ def trajectory_table(run: Trajectory) -> Table:
 def timeline(run: Trajectory) -> Timeline:
     """A run as a picture."""
     return Timeline(
+        tuple(f"$t = {time}$" for time in range(len(run.states))),
         run.states,
         run.actions,
-        tuple(f"${shown(reward)}$" for reward in run.rewards),
+        tuple(f"$r_{{{time}}} = {shown(reward)}$" for time, reward in enumerate(run.rewards, 1)),
         ended=run.states[-1] in run.terminal,
     )
 

@@ -8,42 +8,71 @@ from rldrill.paper import Paper, page_setup
 from rldrill.problems.document import Equation, pieces
 from rldrill.problems.errors import UsageError
 from rldrill.render.latex import latex
-from rldrill.render.typst import block, text
+from rldrill.render.typst import block, line, text
 from rldrill.render.unicode import inline, unicode_text
-from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.formula import Formula, Place
 from rldrill.solutions.sheet import SECTIONS, Gallery, gallery, section
 
 if TYPE_CHECKING:
     from rich.text import Text
 
-TITLE = "Reinforcement Learning: formula sheet"
+TITLE = "Reinforcement and Robot Learning: formula sheet"
+_LEGEND = "Formulas marked + go beyond the lecture's sheet."
 
+#: Names at the left, formulas at the right, in two columns; sized so that the whole sheet is two pages, to be
+#: read from where a wall is read.
 _HELPERS = r"""
-#let section(title) = block(width: 100%, sticky: true, above: 1.5em, below: 0.8em, stroke: (bottom: 0.7pt),
-  inset: (bottom: 0.35em), text(1.25em, strong(title)))
-#let remark(note) = text(0.8em, luma(60), style: "italic", note)
-#let formula(title, source, equation, note) = block(width: 100%, breakable: false, spacing: 1.1em, {
-  block(sticky: true, below: 0.55em, {
-    text(0.85em, strong(title)); h(1fr); h(0.6em); box(text(0.68em, luma(110), source))
-  })
-  pad(left: 0.6em, equation)
-  if note != [] { block(above: 0.55em, remark(note)) }
+#show "∑": math.scripts
+#show "∏": math.scripts
+#let section(title, ..rows) = {
+  block(width: 100%, sticky: true, above: 0.8em, below: 0.55em, fill: luma(228), radius: 1.5pt,
+    inset: (x: 0.4em, y: 0.32em), text(1.1em, strong(title)))
+  rows.pos().join()
+}
+#let remark(note) = text(0.85em, luma(70), style: "italic", note)
+#let noted(flat, equation, note) = layout(size => {
+  let gap = 1em.to-absolute()
+  let room = size.width - wide(flat.body) - gap
+  let words = measure(note).width
+  if note == [] { equation }
+  else if words <= room or (words <= 2 * room and room >= 0.4 * size.width) {
+    grid(columns: (wide(flat.body) + 1pt, 1fr), column-gutter: gap, align: horizon, equation, note)
+  } else { equation + block(note) }
 })
-#let gallery(note, ..pictures) = block(width: 100%, breakable: false, {
-  pictures.pos().map(box).join(h(1.6em, weak: true))
-  block(above: 0.8em, remark(note))
+#let formula(title, beyond, source, flat, equation, note) = block(width: 100%, breakable: false, spacing: 0.55em, {
+  set par(leading: 0.35em, spacing: 0.35em, justify: false)
+  set block(spacing: 0.4em)
+  let mark = if beyond [~+]
+  let named = text(0.85em, strong(title + mark)) + if source != [] { block(text(0.72em, luma(110), source)) }
+  let remarked = if note == [] { [] } else { remark(note) }
+  grid(columns: (2.5cm, 1fr), column-gutter: 0.6em, align: horizon, named, noted(flat, equation, remarked))
 })
+#let gallery(note, ..pictures) = block(width: 100%, breakable: false, above: 0.8em, layout(size => {
+  let row = stack(dir: ltr, spacing: 1em, ..pictures.pos().map(box))
+  let fitted = scale(calc.min(1, size.width / measure(row).width) * 99%, origin: left, reflow: true, row)
+  if measure(row).width < size.width / 2 { stack(dir: ltr, spacing: 1em, fitted, align(horizon, remark(note))) } else {
+    fitted + block(above: 0.5em, remark(note))
+  }
+}))
 """
 
 
-def sections(names: Sequence[str]) -> dict[str, tuple[str, tuple[Formula, ...]]]:
+def sections(names: Sequence[str] = (), *, workings: bool = False) -> dict[str, tuple[str, tuple[Formula, ...]]]:
     """The sections of these names, or all: for each its title and its formulas.
+
+    Args:
+        names: names of sections; all, if none.
+        workings: also the formulas that only a working needs.
 
     Raises:
         UsageError: there is no section of that name.
     """
     wanted = {_section_name(name) for name in names} or set(SECTIONS)
-    return {name: (title, section(name)) for name, title in SECTIONS.items() if name in wanted}
+    return {name: (title, _printed(name, workings)) for name, title in SECTIONS.items() if name in wanted}
+
+
+def _printed(name: str, workings: bool) -> tuple[Formula, ...]:
+    return tuple(formula for formula in section(name) if workings or formula.place is not Place.WORKING)
 
 
 def _section_name(name: str) -> str:
@@ -54,20 +83,31 @@ def _section_name(name: str) -> str:
     return wanted
 
 
-def sheet_source(names: Sequence[str], paper: Paper) -> str:
-    """The formula sheet as Typst source: two columns.
+def _title(formula: Formula) -> str:
+    return f"{formula.title} +" if formula.place is Place.BEYOND else formula.title
+
+
+def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) -> str:
+    """The formula sheet as Typst source; with the formulas of the workings it also names every source.
 
     Raises:
         UsageError: there is no section of that name.
     """
-    setup = page_setup(paper, title=TITLE, left="", right="", margin="1.6cm", size="9.5pt", columns=2)
-    head = f'#place(top, scope: "parent", float: true, text(1.7em, strong[{text(TITLE)}]))\n'
-    found = sections(names).items()
-    return setup + _HELPERS + head + "".join(_section(name, title, formulas) for name, (title, formulas) in found)
+    setup = page_setup(
+        paper, title=TITLE, left="", right="", margin="(x: 1cm, top: 0.9cm, bottom: 1cm)", size="7.5pt", columns=2
+    )
+    head = f"text(1.9em, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
+    found = sections(names, workings=workings).items()
+    return (
+        f'{setup}#set columns(gutter: 0.6cm)\n{_HELPERS}#place(top, scope: "parent", float: true, '
+        f"clearance: 0.9em, {{{head}}})\n"
+        + "".join(_section(name, title, formulas, workings=workings) for name, (title, formulas) in found)
+    )
 
 
-def _section(name: str, title: str, found: tuple[Formula, ...]) -> str:
-    return f"#section[{text(title)}]\n" + "".join(map(_formula, found)) + _gallery(gallery(name))
+def _section(name: str, title: str, found: tuple[Formula, ...], *, workings: bool) -> str:
+    rows = "".join(f", {_formula(formula, workings=workings)}" for formula in found)
+    return f"#section([{text(title)}]{rows})\n{_gallery(gallery(name))}"
 
 
 def _gallery(found: Gallery) -> str:
@@ -77,29 +117,30 @@ def _gallery(found: Gallery) -> str:
     return f"#gallery([{text(found.note)}], {pictures})\n"
 
 
-def _formula(formula: Formula) -> str:
-    return (
-        f"#formula([{text(formula.title)}], [{text(formula.source)}], "
-        f"[{block(formula.equation())}], [{text(formula.note)}])\n"
-    )
+def _formula(formula: Formula, *, workings: bool) -> str:
+    beyond = "true" if formula.place is Place.BEYOND else "false"
+    source = text(formula.source) if workings else ""
+    equation = _equation(formula, workings=workings)
+    parts = f"[{source}], ${line(equation)}$, [{block(equation)}], [{text(formula.note)}]"
+    return f"formula([{text(formula.title)}], {beyond}, {parts})"
 
 
-def markdown(names: Sequence[str]) -> str:
+def _equation(formula: Formula, *, workings: bool) -> Equation:
+    return formula.equation() if workings else formula.printed()
+
+
+def markdown(names: Sequence[str], *, workings: bool = False) -> str:
     """The formula sheet as Markdown, its mathematics in LaTeX.
 
     Raises:
         UsageError: there is no section of that name.
     """
-    lines = [f"# {TITLE}", ""]
-    for name, (title, found) in sections(names).items():
+    lines = [f"# {TITLE}", "", _LEGEND, ""]
+    for name, (title, found) in sections(names, workings=workings).items():
         lines += [f"## {title}", ""]
         for formula in found:
-            lines += [
-                f"**{formula.title}** ({formula.source})",
-                "",
-                f"$${latex_equation(formula.equation())}$$",
-                "",
-            ]
+            head = f"**{_title(formula)}** ({formula.source})"
+            lines += [head, "", f"$${latex_equation(_equation(formula, workings=workings))}$$", ""]
             if formula.note:
                 lines += [_latex_text(formula.note), ""]
         for picture in gallery(name).pictures:
@@ -120,7 +161,7 @@ def _latex_text(words: str) -> str:
     return "".join(piece if isinstance(piece, str) else f"${latex(piece)}$" for piece in pieces(words))
 
 
-def terminal(names: Sequence[str], *, as_latex: bool = False) -> "list[Text]":
+def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = False) -> "list[Text]":
     """The formula sheet as lines for a terminal, mathematics in Unicode or in LaTeX.
 
     Raises:
@@ -129,19 +170,16 @@ def terminal(names: Sequence[str], *, as_latex: bool = False) -> "list[Text]":
     from rich.text import Text
 
     lines: list[Text] = []
-    for name, (title, found) in sections(names).items():
+    for name, (title, found) in sections(names, workings=workings).items():
         lines += [*([Text()] if lines else []), Text(title, style="bold")]
         for formula in found:
-            equation = latex_equation(formula.equation()) if as_latex else unicode_text(formula.equation())
-            head = Text.assemble("\n  ", (formula.title, "cyan"), "  ", (formula.source, "dim"))
+            printed = _equation(formula, workings=workings)
+            equation = latex_equation(printed) if as_latex else unicode_text(printed)
+            head = Text.assemble("\n  ", (_title(formula), "cyan"), "  ", (formula.source, "dim"))
             lines += [head, Text(f"    {equation}")]
             if formula.note:
-                lines.append(
-                    Text(
-                        f"    {_latex_text(formula.note) if as_latex else inline(formula.note)}",
-                        style="italic",
-                    )
-                )
+                note = _latex_text(formula.note) if as_latex else inline(formula.note)
+                lines.append(Text(f"    {note}", style="italic"))
         lines += _drawn(gallery(name))
     return lines
 

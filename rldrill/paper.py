@@ -52,7 +52,7 @@ def page_setup(
         title: the title in the PDF's properties.
         left: the text at the head of every page, left.
         right: the text at the head of every page, right.
-        margin: the margin on all sides.
+        margin: the margin on all sides, or Typst's dictionary of margins.
         size: the size of the type.
         columns: how many columns a page has.
     """

@@ -25,6 +25,9 @@ def command(
     output: Output = None,
     paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper of a PDF.")] = "a4",
     latex: Annotated[bool, typer.Option("--latex", help="Print the formulas as LaTeX.")] = False,
+    workings: Annotated[
+        bool, typer.Option("--all", help="Also the formulas that only workings need; in a PDF, with sources.")
+    ] = False,
 ) -> None:
     """Print the formula sheet, or write it as PDF or Markdown.
 
@@ -36,13 +39,13 @@ def command(
 
         rldrill sheet -o sheet.pdf --paper letter
 
-        rldrill sheet -o sheet.md
+        rldrill sheet -o sheet.md --all
     """
     from rldrill.paper import paper_of
 
     size = paper_of(paper)
     if output is None:
-        _print(names or [], as_latex=latex)
+        _print(names or [], as_latex=latex, workings=workings)
         return
     from rldrill.formula_sheet import markdown, sheet_source
     from rldrill.paper import pdf, write_bytes_atomically
@@ -57,16 +60,19 @@ def command(
     suffix = output.suffix.lower()
     if suffix not in (".pdf", ".md"):
         raise UsageError(f"{output} must end in .pdf or .md: the formula sheet is written as PDF or Markdown.")
-    data = pdf(sheet_source(names or [], size)) if suffix == ".pdf" else markdown(names or []).encode()
+    if suffix == ".pdf":
+        data = pdf(sheet_source(names or [], size, workings=workings))
+    else:
+        data = markdown(names or [], workings=workings).encode()
     write_bytes_atomically(output, data)
     typer.echo(str(output))
 
 
-def _print(names: list[str], *, as_latex: bool) -> None:
+def _print(names: list[str], *, as_latex: bool, workings: bool) -> None:
     from rich.console import Console
 
     from rldrill.formula_sheet import terminal
 
     console = Console(highlight=False, soft_wrap=True)
-    for line in terminal(names, as_latex=as_latex):
+    for line in terminal(names, as_latex=as_latex, workings=workings):
         console.print(line)

@@ -65,7 +65,7 @@ _BLOCKS = r"""
   rows.join(linebreak())
 }
 #let chain(left, ..rights) = block(width: 100%, breakable: false, layout(size => {
-  set par(leading: 0.75em)
+  set par(leading: 1.25 * par.leading)
   show math.equation.where(block: true): set align(start)
   let pairs = rights.pos().map(right => (right.at(0).body, right.at(1)))
   let line = left.body + pairs.map(pair => pair.at(0) + pair.at(1).whole).join()
@@ -205,7 +205,7 @@ def document(blocks: Document) -> str:
     waiting: list[str] = []
     for item in (*blocks, None):
         if isinstance(item, Equation) and _is_short(item):
-            waiting.append(f"${_line(item)}$")
+            waiting.append(f"${line(item)}$")
             continue
         if waiting:
             result.append(f"#flow({', '.join(waiting)})\n")
@@ -221,8 +221,10 @@ def _is_short(equation: Equation) -> bool:
     return len(unicode(equation.left)) + len(unicode(equation.rights[0])) <= _SHORT
 
 
-def _line(equation: Equation) -> str:
-    return f"{typst(equation.left)} {_relation(equation.signs[0])} {typst(equation.rights[0])}"
+def line(equation: Equation) -> str:
+    """An equation as the inside of a Typst equation, on one line however long it is."""
+    links = zip(equation.signs, equation.rights, strict=True)
+    return " ".join([typst(equation.left), *(f"{_relation(sign)} {typst(right)}" for sign, right in links)])
 
 
 def _relation(sign: str) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 from sympy import Expr
@@ -10,6 +11,14 @@ from rldrill.problems.document import Equation
 from rldrill.solutions.exact import Value
 from rldrill.solutions.formula.compiling import evaluate
 from rldrill.solutions.formula.typesetting import typeset
+
+
+class Place(Enum):
+    """Where a formula stands: on the lecture's sheet, beyond it, or only between the lines of a working."""
+
+    SHEET = "sheet"
+    BEYOND = "beyond"
+    WORKING = "working"
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +35,10 @@ class Formula:
         sign: ``=``, or ``←`` where it is an update.
         also: further right sides that the sheet prints before the one that is computed with.
         note: what the sheet adds in words.
+        hidden: whether the sheet prints only ``also``, since the right side that is computed with names
+            intermediate results.
+        place: whether the lecture's sheet has it (or needs it to be of use); the printed sheet leaves out what only
+            a working needs.
     """
 
     key: str
@@ -37,13 +50,21 @@ class Formula:
     sign: str = "="
     also: tuple[Expr, ...] = ()
     note: str = ""
+    hidden: bool = False
+    place: Place = Place.SHEET
 
     def __repr__(self) -> str:
         return f"<formula {self.key}>"
 
     def equation(self, right: Expr | None = None) -> Equation:
         """The formula typeset, or with another right side: how a mistake reads it."""
-        sides = (*self.also, self.right) if right is None else (right,)
+        return self._written((*self.also, self.right) if right is None else (right,))
+
+    def printed(self) -> Equation:
+        """The formula typeset as the sheet prints it."""
+        return self._written(self.also if self.hidden else (*self.also, self.right))
+
+    def _written(self, sides: tuple[Expr, ...]) -> Equation:
         return Equation(
             typeset(self.left), tuple(map(typeset, sides)), (self.sign, *["="] * (len(sides) - 1)), self.key
         )

@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Pow, evaluate, factorial, log
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
     Counting,
@@ -31,8 +31,6 @@ from rldrill.solutions.formula.notation import (
 )
 from rldrill.solutions.sheet.linear_methods import At, Bt, Qt, Rt
 
-#: What stands beside the formulas that the sheet itself does not have.
-BEYOND = "Beyond the sheet."
 
 p = quantity("p", conditioned("p"))
 likelihood = quantity("likelihood", conditioned("p"))
@@ -194,19 +192,20 @@ with evaluate(False):
         "kalman-predict-mean",
         mean_bar(t),
         At(t) * mean(t - 1) + Bt(t) * moved(t),
-        title="Kalman filter: mean after a motion",
+        title="Kalman: mean after a motion",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 2",
         hint="Put the old mean and the command into the motion model, without noise.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     KALMAN_MOVE_COVARIANCE = Formula(
         "kalman-predict-covariance",
         covariance_bar(t),
         At(t) * covariance(t - 1) * Transposed(At(t)) + Rt(t),
-        title="Kalman filter: covariance after a motion",
+        title="Kalman: covariance after a motion",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 3",
         hint="A motion makes the belief wider: the covariance of its noise is added.",
-        note=BEYOND,
+        note="$R$ is the covariance of the motion's noise, $Q$ that of the sensor's.",
+        place=Place.BEYOND,
     )
     PROCESS_NOISE_FORGOTTEN = misread(
         KALMAN_MOVE_COVARIANCE,
@@ -222,7 +221,7 @@ with evaluate(False):
         title="Kalman gain",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 4",
         hint="The gain is the share of the predicted variance in the sum of predicted and sensor variance.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     VARIANCES_FOR_INVERSES = misread(
         KALMAN_GAIN,
@@ -235,10 +234,10 @@ with evaluate(False):
         "kalman-mean",
         mean(t),
         mean_bar(t) + Kt(t) * (read(t) - Ct(t) * mean_bar(t)),
-        title="Kalman filter: mean after a measurement",
+        title="Kalman: mean after measuring",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 5",
         hint="Go the share K of the way from the predicted mean to the measurement.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     GAIN_ON_PREDICTION = misread(
         KALMAN_MEAN,
@@ -251,10 +250,10 @@ with evaluate(False):
         "kalman-covariance",
         covariance(t),
         (identity - Kt(t) * Ct(t)) * covariance_bar(t),
-        title="Kalman filter: covariance after a measurement",
+        title="Kalman: covariance after measuring",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 6",
         hint="A measurement makes the belief narrower, by the share K.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
 
     MODEL_FITTING = Formula(
@@ -272,16 +271,18 @@ with evaluate(False):
         title="Maximum likelihood: coin",
         source="Murphy 2012, section 3.3.3",
         hint="The share of heads among all tosses makes the data most probable.",
-        note=BEYOND,
+        note="$n_1$ heads and $n_0$ tails were seen.",
+        place=Place.BEYOND,
     )
     COIN_MAP = Formula(
         "coin-map",
         theta_hat,
         (heads + beta_a - 1) / (heads + tails + beta_a + beta_b - 2),
-        title="Maximum a posteriori: coin with the prior Beta(a, b)",
+        title="Maximum a posteriori: coin",
         source="Murphy 2012, section 3.3.3",
         hint="The prior counts as a − 1 heads and b − 1 tails that were seen before.",
-        note=BEYOND,
+        note="For the prior $Beta(a, b)$.",
+        place=Place.BEYOND,
     )
     GAUSSIAN_MEAN = Formula(
         "gaussian-mean",
@@ -290,7 +291,7 @@ with evaluate(False):
         title="Maximum likelihood: mean",
         source="Bishop 2006, eq. 1.55",
         hint="Add the measurements and divide by how many there are.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
@@ -299,7 +300,7 @@ with evaluate(False):
         title="Maximum likelihood: variance",
         source="Bishop 2006, eq. 1.56",
         hint="Average the squared distances from the mean.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     SAMPLE_VARIANCE = Formula(
         "sample-variance",
@@ -308,7 +309,7 @@ with evaluate(False):
         title="Unbiased estimate of the variance",
         source="Bishop 2006, eq. 1.59",
         hint="Divide by n − 1: the mean was estimated from the same data.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     N_FOR_N_MINUS_1 = misread(
         SAMPLE_VARIANCE,
@@ -321,10 +322,11 @@ with evaluate(False):
         "gaussian-mean-map",
         mu_map,
         (sigma2 * prior_mean + n * prior_variance * mu_hat) / (n * prior_variance + sigma2),
-        title="Maximum a posteriori: mean of known variance σ², with the prior N(μ₀, σ₀²)",
+        title="Maximum a posteriori: mean",
         source="Bishop 2006, eq. 2.141",
         hint="Weigh the prior mean with σ² and the data's mean with n σ₀².",
-        note=BEYOND,
+        note="For a known variance $σ^2$ and the prior $N(μ_0, σ_0^2)$.",
+        place=Place.BEYOND,
     )
     MEAN = Formula(
         "mean",
@@ -333,7 +335,7 @@ with evaluate(False):
         title="Mean",
         source="James, Witten, Hastie & Tibshirani 2013, section 3.1.1",
         hint="Add up and divide by how many there are.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     _PRODUCTS = SumOver(
         (value_of(abscissa, i) - average(abscissa)) * (value_of(ordinate, i) - average(ordinate)), i, Counting(1, n)
@@ -346,7 +348,7 @@ with evaluate(False):
         title="Least squares: slope",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x and y is from its mean; multiply, square and add these.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     LINE_INTERCEPT = Formula(
         "line-intercept",
@@ -355,16 +357,17 @@ with evaluate(False):
         title="Least squares: intercept",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="The line goes through the point of the means.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     LINE_SLOPE_MAP = Formula(
         "line-slope-map",
         slope_map,
         _PRODUCTS / (_SQUARES + sigma2 / prior_variance),
-        title="Maximum a posteriori: slope with the prior N(0, σ₀²), noise of variance σ²",
+        title="Maximum a posteriori: slope",
         source="Bishop 2006, section 3.3.1, for a line with a free intercept",
         hint="The prior adds σ²/σ₀² below the line, which draws the slope towards 0.",
-        note=BEYOND,
+        note="For noise of variance $σ^2$ and the prior $N(0, σ_0^2)$.",
+        place=Place.BEYOND,
     )
 
     MODEL_COMPARISON = Formula(
@@ -386,7 +389,7 @@ with evaluate(False):
         title="Evidence of a coin whose θ is known",
         source="Murphy 2012, section 3.3.1",
         hint="Every head has the probability θ, every tail 1 − θ, and the tosses are independent.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     EVIDENCE = Formula(
         "evidence",
@@ -395,11 +398,12 @@ with evaluate(False):
         * factorial(beta_a + heads - 1)
         * factorial(beta_b + tails - 1)
         / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1)),
-        title="Evidence of a coin with the prior Beta(a, b)",
+        title="Evidence of a coin",
         source="MacKay 2003, eq. 3.12, there with a = b = 1",
         hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
         also=(IntegralOver(with_theta(M) * density(theta, M), theta, Thetas),),
-        note=BEYOND,
+        note="For the prior $Beta(a, b)$.",
+        place=Place.BEYOND,
     )
     BEST_FIT = misread(
         EVIDENCE,
@@ -414,7 +418,7 @@ with evaluate(False):
         title="Posterior odds of two models",
         source="MacKay 2003, section 3.3",
         hint="Multiply the ratio of the evidences with the ratio of the priors; p(D) cancels.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
 
     LOG_LIKELIHOOD = Formula(
@@ -424,7 +428,7 @@ with evaluate(False):
         title="Log-likelihood of coins",
         source="Murphy 2012, section 3.3.1",
         hint="Every head adds ln θ, every tail ln(1 − θ), with the θ of its coin.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     BIC = Formula(
         "bic",

@@ -6,7 +6,7 @@ from sympy import evaluate
 
 from rldrill.problems.mathematics import Math
 from rldrill.problems.models import Transition
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     Actions,
     MaxOver,
@@ -153,7 +153,8 @@ with evaluate(False):
         title="Bellman residual of V for a policy",
         source="Sutton & Barto 2018, section 11.4",
         hint="Work out the right side of the Bellman equation with the given V, and subtract what V says.",
-        note="It is 0 in every state exactly where V is the value of the policy.",
+        note="It is $0$ in every state exactly where $V = V^π$.",
+        place=Place.WORKING,
     )
     RESIDUAL_SIGN = misread(
         BELLMAN_RESIDUAL,
@@ -182,7 +183,8 @@ with evaluate(False):
         title="Bellman residual of V for the optimal value",
         source="Sutton & Barto 2018, sections 3.6 and 11.4",
         hint="Work out the right side of the optimality equation with the given V, and subtract what V says.",
-        note="It is 0 in every state exactly where V is the optimal value.",
+        note="It is $0$ in every state exactly where $V = V^*$.",
+        place=Place.WORKING,
     )
     OPTIMALITY_RESIDUAL_SIGN = misread(
         BELLMAN_OPTIMALITY_RESIDUAL,
@@ -233,6 +235,7 @@ with evaluate(False):
         title="Optimal V from Q",
         source="Sutton & Barto 2018, section 3.6",
         hint="The optimal value of a state is that of its best action.",
+        place=Place.WORKING,
     )
     MEAN_OF_Q_STAR = misread(
         V_STAR_FROM_Q,
@@ -255,6 +258,7 @@ with evaluate(False):
         title="Optimal Q from V",
         source="Sutton & Barto 2018, eq. 3.17",
         hint="The first action is fixed; from the next state on, V* counts the best that can follow.",
+        place=Place.WORKING,
     )
     Q_STAR_FORGOT_GAMMA = misread(
         Q_STAR_FROM_V,

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from sympy import cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable, word
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -42,6 +42,7 @@ with evaluate(False):
         title="Angle of a link against the base",
         source="Craig 2005, section 3.3",
         hint="Each joint turns everything behind it, so the angles of all joints before the link add up.",
+        place=Place.BEYOND,
     )
     ABSOLUTE_ANGLES = misread(
         LINK_ANGLE,
@@ -56,6 +57,7 @@ with evaluate(False):
         title="End point of a planar arm, x",
         source="Siciliano et al. 2009, section 2.9.1",
         hint="Add the links as vectors; along x each contributes its length times the cosine of its angle.",
+        place=Place.BEYOND,
     )
     FORWARD_Y = Formula(
         "forward-kinematics-y",
@@ -64,6 +66,7 @@ with evaluate(False):
         title="End point of a planar arm, y",
         source="Siciliano et al. 2009, section 2.9.1",
         hint="Add the links as vectors; along y each contributes its length times the sine of its angle.",
+        place=Place.BEYOND,
     )
     JACOBIAN_X = Formula(
         "jacobian-x",
@@ -72,6 +75,7 @@ with evaluate(False):
         title="Jacobian of a planar arm, row of x",
         source="Siciliano et al. 2009, section 3.2.1",
         hint="Joint j moves the links from j on; differentiate their part of x by its angle.",
+        place=Place.BEYOND,
     )
     JACOBIAN_Y = Formula(
         "jacobian-y",
@@ -80,6 +84,7 @@ with evaluate(False):
         title="Jacobian of a planar arm, row of y",
         source="Siciliano et al. 2009, section 3.2.1",
         hint="Joint j moves the links from j on; differentiate their part of y by its angle.",
+        place=Place.BEYOND,
     )
     END_POINT_VELOCITY = Formula(
         "jacobian",
@@ -88,6 +93,7 @@ with evaluate(False):
         title="Velocity of the end point",
         source="Siciliano et al. 2009, section 3.1",
         hint="Each joint contributes its column of J times its angular velocity.",
+        place=Place.BEYOND,
     )
     TRANSPOSED_J = misread(
         END_POINT_VELOCITY,
@@ -104,6 +110,7 @@ with evaluate(False):
         source="Siciliano et al. 2009, example 3.2",
         hint="It vanishes where the arm is stretched out or folded back.",
         note="The same for three links, where the orientation is the third row.",
+        place=Place.BEYOND,
     )
 
 
@@ -125,9 +132,10 @@ with evaluate(False):
             0, sin(al(i)), cos(al(i)), d(i),
             0, 0, 0, 1,
         ),
-        title="Transform of one link, Rot_z(θ) Trans_z(d) Trans_x(a) Rot_x(α)",
+        title="Denavit-Hartenberg transform of a link",
         source="Siciliano et al. 2009, eq. 2.52",
         hint="Turn by θ and shift by d along z, then shift by a and turn by α along the new x.",
+        place=Place.BEYOND,
     )  # fmt: skip
     CRAIGS = misread(
         LINK_TRANSFORM,
@@ -149,6 +157,7 @@ with evaluate(False):
         source="Siciliano et al. 2009, eq. 2.50",
         hint="From the base outwards, each new link is multiplied from the right.",
         sign="←",
+        place=Place.WORKING,
     )
     WRONG_ORDER = misread(
         CHAIN,
@@ -184,6 +193,8 @@ with evaluate(False):
         source="Finn, Abbeel & Levine 2017, section 2.2",
         hint="One gradient step on the task's own loss, from the shared θ.",
         also=(theta0 - alpha * inner_gradient(i),),
+        note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
+        place=Place.BEYOND,
     )
     MAML_OUTER = Formula(
         "maml-step",
@@ -194,6 +205,7 @@ with evaluate(False):
         hint="The adapted θ′ depends on θ: the chain rule gives the factor 1 − αc.",
         sign="←",
         also=(theta0 - beta * SumOver(loss_gradient(i), i, Tasks),),
+        place=Place.BEYOND,
     )
     FIRST_ORDER = misread(
         MAML_OUTER,

@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Expr, evaluate, exp, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     A,
     Actions,
@@ -42,8 +42,6 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
-
-_BEYOND = "Beyond the sheet."
 
 
 def _starred(head: str) -> Script:
@@ -141,6 +139,7 @@ with evaluate(False):
         title="Target of Sarsa",
         source="Sutton & Barto 2018, eq. 6.7",
         hint="Reward plus γ times the value of the action that is taken in the next state, best or not.",
+        place=Place.WORKING,
     )
     SARSA_TARGET_FORGOT_GAMMA = misread(
         SARSA_TARGET,
@@ -157,6 +156,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.4",
         hint="Move the old value a step α towards the target.",
         sign="←",
+        place=Place.WORKING,
     )
     SARSA_TD_ERROR = Formula(
         "sarsa-td-error",
@@ -235,6 +235,7 @@ with evaluate(False):
         title="Target of Q-learning",
         source="Sutton & Barto 2018, eq. 6.8",
         hint="Reward plus γ times the best action value of the next state, whatever is done there.",
+        place=Place.WORKING,
     )
     Q_LEARNING_TARGET_FORGOT_GAMMA = misread(
         Q_LEARNING_TARGET,
@@ -277,7 +278,7 @@ with evaluate(False):
         title="ε-greedy policy with tied best actions",
         source="Sutton & Barto 2018, sections 2.2 and 5.4",
         hint="The best actions share 1 − ε evenly; on top, every action gets its share of ε.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
     TIED_SHARE_FORGOTTEN = misread(
         EPSILON_GREEDY_TIED,
@@ -313,7 +314,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.9",
         hint="The target averages the next state's action values, each with its probability under the policy.",
         sign="←",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     MAX_FOR_EXPECTATION = misread(
         EXPECTED_SARSA,
@@ -350,7 +351,7 @@ with evaluate(False):
         title="Double Q-learning: the action selected",
         source="Sutton & Barto 2018, eq. 6.10",
         hint="The table that is updated selects its best action of the next state.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
     OTHER_TABLE_SELECTS = misread(
         DOUBLE_Q_ACTION,
@@ -367,7 +368,9 @@ with evaluate(False):
         hint="The table that is updated selects the next action; the other table says what it is worth.",
         sign="←",
         also=(Qi(i, S(t), A(t)) + alpha * (r(t + 1) + gamma * Qi(j, S(t + 1), _SELECT) - Qi(i, S(t), A(t))),),
-        note="i is the table that is updated, j the other one. " + _BEYOND,
+        note="$i$ is the table that is updated, $j$ the other one.",
+        place=Place.BEYOND,
+        hidden=True,
     )
     SAME_TABLE_EVALUATES = misread(
         DOUBLE_Q_LEARNING,
@@ -392,7 +395,7 @@ with evaluate(False):
         title="Importance sampling ratio of an episode",
         source="Sutton & Barto 2018, eq. 5.3",
         hint="For every action taken divide its target probability by its behaviour probability, and multiply.",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     RATIO_INVERTED = misread(
         IMPORTANCE_RATIO,
@@ -415,7 +418,7 @@ with evaluate(False):
         title="Ordinary importance sampling",
         source="Sutton & Barto 2018, eq. 5.5",
         hint="Weight every episode's return with its ratio, add, and divide by the number of episodes.",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     WEIGHTED_FOR_ORDINARY = misread(
         ORDINARY_IMPORTANCE_SAMPLING,
@@ -436,7 +439,7 @@ with evaluate(False):
         title="Weighted importance sampling",
         source="Sutton & Barto 2018, eq. 5.6",
         hint="Weight every episode's return with its ratio, add, and divide by the sum of the ratios.",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     ORDINARY_FOR_WEIGHTED = misread(
         WEIGHTED_IMPORTANCE_SAMPLING,
@@ -455,7 +458,7 @@ with evaluate(False):
         title="Sample average of an arm",
         source="Sutton & Barto 2018, eq. 2.1",
         hint="Add the rewards of this arm's own pulls, and divide by how many those were.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
     ALL_PULLS_COUNTED = misread(
         ARM_ESTIMATE,
@@ -471,7 +474,7 @@ with evaluate(False):
         title="Greedy arm",
         source="Sutton & Barto 2018, eq. 2.2",
         hint="Take the arm whose estimate is greatest.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
     UCB = Formula(
         "ucb",
@@ -480,7 +483,7 @@ with evaluate(False):
         title="Upper confidence bound of an arm",
         source="Sutton & Barto 2018, eq. 2.10",
         hint="To the estimate add c times the root of ln t divided by how often this arm was pulled.",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     TIME_FOR_LOG = misread(
         UCB,
@@ -503,7 +506,7 @@ with evaluate(False):
         title="Arm chosen by UCB",
         source="Sutton & Barto 2018, eq. 2.10",
         hint="Take the arm whose upper confidence bound is greatest, not the one whose estimate is.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
 
     GRADIENT_BANDIT_POLICY = Formula(
@@ -513,7 +516,7 @@ with evaluate(False):
         title="Gradient bandit: probabilities",
         source="Sutton & Barto 2018, eq. 2.11",
         hint="Exponentiate every arm's preference, then divide by the sum of them all.",
-        note=_BEYOND,
+        place=Place.BEYOND,
     )
     BANDIT_WITHOUT_EXP = misread(
         GRADIENT_BANDIT_POLICY,
@@ -529,7 +532,7 @@ with evaluate(False):
         title="Gradient bandit: baseline",
         source="Sutton & Barto 2018, section 2.8",
         hint="The baseline is the mean of all rewards so far, whichever arm earned them.",
-        note=_BEYOND,
+        place=Place.WORKING,
     )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",
@@ -543,7 +546,8 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.12",
         hint="A reward above the baseline raises the preference of the arm pulled, and lowers all others.",
         sign="←",
-        note=_BEYOND,
+        note="$r̄_n$ is the mean of the rewards so far.",
+        place=Place.BEYOND,
     )
     BASELINE_FORGOTTEN = misread(
         GRADIENT_BANDIT,

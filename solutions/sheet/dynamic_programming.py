@@ -3,7 +3,7 @@
 from sympy import Abs, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     Actions,
     ArgMaxOver,
@@ -29,7 +29,8 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
-from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, LOOKAHEAD, WITHOUT_GAMMA
+from rldrill.solutions.sheet import bellman
+from rldrill.solutions.sheet.bellman import LOOKAHEAD, WITHOUT_GAMMA
 
 
 def _values(mark: Math) -> Math:
@@ -93,7 +94,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 4.7",
         hint="Take π′ for one step and π from then on; compare with π from the start, in every state.",
         sign="≥",
-        note="If this holds for all s, with deterministic π and π′, then π′ is at least as good as π.",
+        note="If this holds for all $s$, with deterministic $π$ and $π′$, then $π′$ is at least as good as $π$.",
     )
 
     POLICY_ITERATION = Formula(
@@ -185,19 +186,19 @@ with evaluate(False):
 
     # Misreadings of the optimality equation for Q, as somebody makes them who looks for the best action.
     OPTIMAL_Q_BY_VALUE = misread(
-        BELLMAN_OPTIMALITY_Q,
+        bellman.BELLMAN_OPTIMALITY_Q,
         "by-next-value-alone",
         SumOver(P(s, a, s1) * MaxOver(Qstar(s1, a1), a1, Actions(s1)), s1, Successors(s, a)),
         "The reward on the way counts too: add γ times the best next value to it.",
     )
     OPTIMAL_Q_BY_REWARD = misread(
-        BELLMAN_OPTIMALITY_Q,
+        bellman.BELLMAN_OPTIMALITY_Q,
         "by-reward-alone",
         _REWARD,
         "What comes after the reward counts too: add γ times the best value in the next state.",
     )
     OPTIMAL_Q_MEAN_FOR_MAX = misread(
-        BELLMAN_OPTIMALITY_Q,
+        bellman.BELLMAN_OPTIMALITY_Q,
         "mean-for-max",
         SumOver(
             P(s, a, s1) * (R(s, a, s1) + gamma * MeanOver(Qstar(s1, a1), a1, Actions(s1))),
@@ -214,6 +215,7 @@ with evaluate(False):
         title="Maximum norm",
         source="Puterman 1994, section 6.2",
         hint="Take the greatest difference of all states, without its sign.",
+        place=Place.WORKING,
     )
     SUM_FOR_MAX = misread(
         MAX_NORM,
@@ -230,6 +232,7 @@ with evaluate(False):
         source="Puterman 1994, section 6.2",
         hint="Every sweep shrinks the greatest error to at most γ times what it was.",
         sign="≤",
+        place=Place.BEYOND,
     )
     FORGOT_DISTANCE = misread(
         CONTRACTION,
@@ -251,6 +254,7 @@ with evaluate(False):
         source="Puterman 1994, section 6.2",
         hint="The error at the start is at most what the first sweep changed, divided by 1 − γ.",
         sign="≤",
+        place=Place.BEYOND,
     )
     CHANGE_FOR_ERROR = misread(
         ERROR_FROM_CHANGE,

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Integer, Rational, evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     A,
     ArgMaxOver,
@@ -74,6 +74,7 @@ with evaluate(False):
         title="Distance from a centre",
         source="Euclidean norm",
         hint="Subtract coordinate by coordinate, square, add, and take the root.",
+        place=Place.WORKING,
     )
     RBF = Formula(
         "rbf",
@@ -137,7 +138,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 10.3",
         hint="Multiply each weight with its feature and add; the features of other actions' blocks are 0.",
         also=(Transposed(theta_vector) * phi_vector(s, a),),
-        note="Not on the sheet.",
+        place=Place.BEYOND,
     )
     GREEDY_LINEAR = Formula(
         "greedy-linear",
@@ -146,6 +147,7 @@ with evaluate(False):
         title="Greedy action for a linear value",
         source="Sutton & Barto 2018, section 10.1",
         hint="Take the action with the greatest estimated value.",
+        place=Place.WORKING,
     )
     LINEAR_STATE_VALUE = Formula(
         "linear-state-value",
@@ -155,7 +157,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 9.8",
         hint="Multiply each weight with its feature, and add.",
         also=(Transposed(theta_vector) * phi_vector(s),),
-        note="Not on the sheet.",
+        place=Place.BEYOND,
     )
     TD_ERROR_APPROXIMATE = Formula(
         "td-error-approximate",
@@ -164,7 +166,7 @@ with evaluate(False):
         title="TD error with approximate values",
         source="Sutton & Barto 2018, section 9.3",
         hint="Reward plus the discounted estimate for the next state, minus the estimate for this one.",
-        note="Not on the sheet.",
+        place=Place.WORKING,
     )
     SEMI_GRADIENT_TD = Formula(
         "semi-gradient-td",
@@ -175,7 +177,9 @@ with evaluate(False):
         hint="Move the weights along the features of the state that is left, by α times the TD error.",
         sign="←",
         also=(theta_vector + alpha * (r(t + 1) + gamma * Vhat(S(t + 1)) - Vhat(S(t))) * phi_vector(S(t)),),
-        note="Not on the sheet. The target is treated as a constant, although it depends on θ, too.",
+        note="The target is treated as a constant, although it depends on $θ$, too.",
+        place=Place.BEYOND,
+        hidden=True,
     )
     THROUGH_THE_TARGET = misread(
         SEMI_GRADIENT_TD,
@@ -198,7 +202,7 @@ with evaluate(False):
         title="TD error with approximate action values",
         source="Sutton & Barto 2018, section 10.1",
         hint="Reward plus the discounted estimate for the next pair, minus the estimate for this one.",
-        note="Not on the sheet.",
+        place=Place.WORKING,
     )
     SEMI_GRADIENT_SARSA = Formula(
         "semi-gradient-sarsa",
@@ -208,7 +212,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 10.2",
         hint="Move the weights along the features of the pair of state and action that is left.",
         sign="←",
-        note="Not on the sheet.",
+        place=Place.BEYOND,
     )
     SARSA_THROUGH_THE_TARGET = misread(
         SEMI_GRADIENT_SARSA,

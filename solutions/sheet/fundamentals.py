@@ -3,7 +3,8 @@
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, operator, relation, row, variable, word
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.problems.pictures import Timeline
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
@@ -32,6 +33,7 @@ from rldrill.solutions.formula.notation import (
     s1,
     t,
 )
+from rldrill.solutions.sheet import Gallery
 
 
 def _is(event: Math, outcome: Math) -> Math:
@@ -52,6 +54,18 @@ N = quantity("N", called("N"))
 Start = quantity("start", called(word("Pr")))
 EpisodePr = quantity("episode_pr", called(word("Pr")))
 EpisodeReturn = quantity("episode_return", called(_R_0))
+
+GALLERY = Gallery(
+    (
+        Timeline(
+            times=("",) * 3,
+            states=("$s_t$", "$s_{t+1}$", "$s_{t+2}$"),
+            actions=("$a_t$", "$a_{t+1}$", "$a_{t+2}$"),
+            rewards=("$r_{t+1}$", "$r_{t+2}$"),
+        ),
+    ),
+    "An action leads from each state to a reward and the next state.",
+)
 
 with evaluate(False):
     _NEXT = Pair(Is(S(t + 1), s), Is(r(t + 1), reward))
@@ -74,6 +88,7 @@ with evaluate(False):
         title="Probability of the next state, from a table",
         source="Thrun, Burgard & Fox 2005, section 2.2",
         hint="Divide by the total of the rows with the same history, not by the total of the table.",
+        place=Place.WORKING,
     )
     JOINT_FOR_CONDITIONAL = misread(
         RELATIVE_FREQUENCY,
@@ -142,6 +157,7 @@ with evaluate(False):
         title="Return, n rewards and the rest",
         source="Sutton & Barto 2018, eq. 3.9, applied n times",
         hint="The return from n steps later is worth γⁿ of itself now.",
+        place=Place.WORKING,
     )
     TAIL_FORGOTTEN = misread(
         RETURN_UNROLLED,
@@ -165,6 +181,7 @@ with evaluate(False):
         title="Return of rewards that repeat after n steps",
         source="Sutton & Barto 2018, eq. 3.10, for n rewards in turn",
         hint="Add up one round; every further round is worth γⁿ times the one before, so divide by 1 − γⁿ.",
+        place=Place.BEYOND,
     )
     PLUS_FOR_MINUS = misread(
         GEOMETRIC_SERIES,
@@ -187,7 +204,7 @@ with evaluate(False):
         title="Goal",
         source="Sutton & Barto 2018, section 3.3",
         hint="Every episode τ that can happen counts with its probability.",
-        note="The agent looks for the policy π that maximises it from the start state.",
+        note="The agent looks for the policy $π$ that maximises it from the start state $s_0$.",
     )
     UNWEIGHTED = misread(
         GOAL,
@@ -209,6 +226,7 @@ with evaluate(False):
         title="Probability of an episode",
         source="Sutton & Barto 2018, section 5.5",
         hint="Multiply along the branch: the start, then for every step the action and where it leads.",
+        place=Place.WORKING,
     )
     START_DROPPED = misread(
         EPISODE_PROBABILITY,

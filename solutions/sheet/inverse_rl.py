@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Pow, evaluate, sqrt
 
 from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     INFINITY,
     Actions,
@@ -31,8 +31,6 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 
-#: What stands beside the formulas that the sheet itself does not have.
-BEYOND = "Beyond the sheet."
 _PI = variable("π")
 _EXPERT = Script(_PI, variable("E"))
 _MU = variable("μ")
@@ -122,7 +120,7 @@ with evaluate(False):
         title="Feature expectations from a state",
         source="Abbeel & Ng 2004, section 2, with the Bellman equation for V",
         hint="It is a Bellman equation with the feature in place of the reward, one system for every feature.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     FEATURES_FROM_START = Formula(
         "feature-expectations-start",
@@ -131,7 +129,7 @@ with evaluate(False):
         title="Feature expectations from the start distribution",
         source="Abbeel & Ng 2004, section 2",
         hint="Average over the states in which an episode may start, with their probabilities.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     START_IGNORED = misread(
         FEATURES_FROM_START,
@@ -148,7 +146,7 @@ with evaluate(False):
         title="Value of a policy from its feature expectations",
         source="Abbeel & Ng 2004, section 2",
         hint="With the reward wᵀφ(s) the value is the same weighted sum of the feature expectations.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     MAX_MARGIN = Formula(
         "max-margin",
@@ -163,10 +161,11 @@ with evaluate(False):
         "slack",
         xi,
         MaxOver(worth(policy) + margin(policy) - worth_expert, policy, Policies),
-        title="Smallest slack that makes all constraints hold",
+        title="Smallest slack for all constraints",
         source="Ratliff, Bagnell & Zinkevich 2006, section 2",
         hint="One ξ serves all constraints, so it is as large as the worst violation, and 0 if there is none.",
-        note="The policies include the expert's own, with the margin 0. " + BEYOND,
+        note="The policies include the expert's own, with the margin 0.",
+        place=Place.BEYOND,
     )
     SUM_FOR_MAXIMUM = misread(
         SLACK,
@@ -192,7 +191,7 @@ with evaluate(False):
         title="Distance of the feature expectations",
         source="Abbeel & Ng 2004, section 3",
         hint="Square the differences of the components, add, and take the root.",
-        note=BEYOND,
+        place=Place.WORKING,
     )
     _TOWARDS = mu_now(i) - mu_bar(i)
     PROJECTION_LENGTH = Formula(
@@ -202,7 +201,7 @@ with evaluate(False):
         title="Projection step: its length",
         source="Abbeel & Ng 2004, section 3.1",
         hint="Project the way to the expert onto the way to the new policy.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     PROJECTION = Formula(
         "projection",
@@ -212,7 +211,7 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 3.1",
         hint="Go the share c of the way from the old point to the feature expectations of the new policy.",
         sign="←",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     WEIGHTS = Formula(
         "apprenticeship-weights",
@@ -221,7 +220,7 @@ with evaluate(False):
         title="Weights of the next reward",
         source="Abbeel & Ng 2004, section 3.1",
         hint="The next reward points from the projected point to the expert.",
-        note=BEYOND,
+        place=Place.BEYOND,
     )
     REMAINING = Formula(
         "remaining-distance",
@@ -230,5 +229,5 @@ with evaluate(False):
         title="Remaining distance",
         source="Abbeel & Ng 2004, section 3.1",
         hint="It is the length of w; the algorithm stops when it is small.",
-        note=BEYOND,
+        place=Place.WORKING,
     )

@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -112,7 +112,7 @@ with evaluate(False):
         title="LQR gain",
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="Work out Bᵀ P first; it stands in the bracket and behind it.",
-        note="P is the matrix of the value sᵀPs, negative semidefinite; in the cost-to-go convention S = −P.",
+        note="$P$ is the matrix of the value $V(s) = s^⊤ P s$, negative semidefinite. Cost-to-go: $S = −P$.",
     )
     POSITIVE_S = misread(
         LQR_GAIN,
@@ -154,7 +154,7 @@ with evaluate(False):
         title="Riccati recursion",
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="Work out Aᵀ P first: it stands in both products.",
-        note="With S = −P it reads S = Q + AᵀSA − AᵀSBL.",
+        note="Cost-to-go: $S_t = Q_t + A_t^⊤ S_{t+1} A_t − A_t^⊤ S_{t+1} B_t L_t$.",
     )
 
 
@@ -181,27 +181,31 @@ with evaluate(False):
         "lqr-stationary",
         Pi,
         -Qi + Transposed(Ai) * Pi * Ai - Transposed(Ai) * Pi * Bi * Li,
-        title="Riccati equation of the infinite horizon",
+        title="Riccati equation, infinite horizon",
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="Put the same P on both sides of the recursion.",
-        note="Several P solve it; the value's is the one that makes A − BL stable.",
+        note="Of its solutions $P$, the value's is the one that makes $A − B L$ stable.",
+        place=Place.BEYOND,
     )
     LQR_BETA = Formula(
         "lqr-quadratic",
         beta,
         b1**2 * q1 + (a1**2 - 1) * r1,
-        title="Scalar Riccati equation as a quadratic, B²P² + βP − QR = 0",
+        title="Scalar Riccati equation",
         source="Bertsekas 2017, section 3.1, cleared of its denominator",
         hint="Multiply the Riccati equation with B²P − R; the cubic terms cancel.",
+        note="It is then $B^2 P^2 + β P − Q R = 0$.",
+        place=Place.BEYOND,
     )
     LQR_ROOT = Formula(
         "lqr-infinite",
         p1,
         -(beta + sqrt(beta**2 + 4 * b1**2 * q1 * r1)) / (2 * b1**2),
-        title="Scalar LQR over an infinite horizon",
+        title="Scalar LQR, infinite horizon",
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="The roots have opposite signs; the value of a state is never positive.",
-        note="In the cost-to-go convention S = −P is the positive root of B²S² − βS − QR = 0.",
+        note="$S = −P$ is the positive root of $B^2 S^2 − β S − Q R = 0$.",
+        place=Place.BEYOND,
     )
     OTHER_ROOT = misread(
         LQR_ROOT,
@@ -216,6 +220,7 @@ with evaluate(False):
         title="LQR of a system that falls apart into modes",
         source="Golub & Van Loan 2013, section 7.1: similarity",
         hint="Solve one scalar problem for each mode, and transform back.",
+        place=Place.WORKING,
     )
     LQR_CLOSED_LOOP = Formula(
         "lqr-closed-loop",
@@ -224,6 +229,7 @@ with evaluate(False):
         title="Closed loop",
         source="Bertsekas 2017, section 3.1",
         hint="Put a = −L s into the dynamics.",
+        place=Place.WORKING,
     )
 
 
@@ -291,7 +297,7 @@ with evaluate(False):
         "linearise-a",
         Aij(i, j),
         partial_s(i, j),
-        title="Matrix A of the linearisation, ∇f by the state",
+        title="Linearisation: A, by the state",
         source="Åström & Murray 2008, section 5.4",
         hint="Row i belongs to the component of f, column j to the state; differentiate first, then put numbers in.",
     )
@@ -299,7 +305,7 @@ with evaluate(False):
         "linearise-b",
         Bij(i, j),
         partial_a(i, j),
-        title="Matrix B of the linearisation, ∇f by the action",
+        title="Linearisation: B, by the action",
         source="Åström & Murray 2008, section 5.4",
         hint="Row i belongs to the component of f, column j to the action.",
     )
@@ -310,6 +316,7 @@ with evaluate(False):
         title="Euler step of A",
         source="LaValle 2006, section 14.3.2",
         hint="Differentiate s + Δt f(s, a) by s: the first term gives the identity.",
+        place=Place.BEYOND,
     )
     FORGOT_IDENTITY = misread(
         EULER_A,
@@ -325,6 +332,7 @@ with evaluate(False):
         title="Euler step of B",
         source="LaValle 2006, section 14.3.2",
         hint="Differentiate s + Δt f(s, a) by a: the first term does not depend on a.",
+        place=Place.BEYOND,
     )
     PART_VALUE = Formula(
         "linearise-f",
@@ -333,6 +341,7 @@ with evaluate(False):
         title="The dynamics at the operating point",
         source="Åström & Murray 2008, section 5.4",
         hint="Put the operating point into every component of f.",
+        place=Place.WORKING,
     )
     EULER_F = Formula(
         "linearise-euler-f",
@@ -341,12 +350,13 @@ with evaluate(False):
         title="Euler step at the operating point",
         source="LaValle 2006, section 14.3.2",
         hint="The state moves by Δt times its rate.",
+        place=Place.WORKING,
     )
     AFFINE_TERM = Formula(
         "linearise-affine",
         Cc,
         f_bar - Ai * s_bar - Bi * a_bar,
-        title="Constant term of the linearisation",
+        title="Linearisation: constant C",
         source="Åström & Murray 2008, section 5.4, multiplied out",
         hint="Multiply the linearisation out and collect what holds neither s nor a.",
     )
@@ -429,7 +439,7 @@ with evaluate(False):
         source=_DDP,
         hint="Change the old action by k, and by K for every deviation from the old state.",
         note="Linearise the dynamics, make the reward quadratic, solve the LQR problem, repeat; "
-        "iLQR leaves the second derivatives of f out.",
+        "iLQR leaves the second derivatives of $f$ out.",
     )
     SECOND_DERIVATIVE = Formula(
         "ddp-second",
@@ -438,6 +448,7 @@ with evaluate(False):
         title="Second derivatives, of the reward and for DDP also of the dynamics",
         source=_DDP,
         hint="Differentiate twice, by every pair of letters; the order does not matter.",
+        place=Place.WORKING,
     )
     DDP_S = Formula(
         "ddp-q-s",
@@ -446,6 +457,8 @@ with evaluate(False):
         title="DDP: gradient of Q by the state",
         source=_DDP,
         hint="The chain rule: the reward's own gradient, and the next value's through f.",
+        note="Indices are derivatives; $V′$ is the value of the next state.",
+        place=Place.BEYOND,
     )
     DDP_A = Formula(
         "ddp-q-a",
@@ -454,6 +467,7 @@ with evaluate(False):
         title="DDP: gradient of Q by the action",
         source=_DDP,
         hint="The chain rule: the reward's own gradient, and the next value's through f.",
+        place=Place.BEYOND,
     )
     DDP_SS = Formula(
         "ddp-q-ss",
@@ -463,6 +477,7 @@ with evaluate(False):
         source=_DDP,
         hint="Differentiate the chain rule once more: f is curved too.",
         note="iLQR leaves the sum out.",
+        place=Place.BEYOND,
     )
     DDP_AS = Formula(
         "ddp-q-as",
@@ -471,6 +486,7 @@ with evaluate(False):
         title="DDP: mixed Hessian of Q",
         source=_DDP,
         hint="One derivative by the action, one by the state: fₐᵀ stands before, fₛ behind.",
+        place=Place.BEYOND,
     )
     DDP_AA = Formula(
         "ddp-q-aa",
@@ -479,6 +495,7 @@ with evaluate(False):
         title="DDP: Hessian of Q by the action",
         source=_DDP,
         hint="It must be negative (definite), or Q has no maximum.",
+        place=Place.BEYOND,
     )
     DDP_k = Formula(
         "ddp-k",
@@ -487,6 +504,7 @@ with evaluate(False):
         title="DDP: change of the action",
         source=_DDP,
         hint="The maximum of the quadratic Q in a, at the old state.",
+        place=Place.BEYOND,
     )
     K_WITH_PLUS = misread(
         DDP_k,
@@ -501,6 +519,7 @@ with evaluate(False):
         title="DDP: gain",
         source=_DDP,
         hint="The same inverse as for k, times the mixed Hessian.",
+        place=Place.BEYOND,
     )
 
 

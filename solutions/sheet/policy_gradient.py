@@ -8,7 +8,7 @@ from typing import Any
 from sympy import evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     DOTS,
     A,
@@ -113,8 +113,8 @@ with evaluate(False):
         title="REINFORCE",
         source="Williams 1992; Sutton & Barto 2018, section 13.3",
         hint="The score of every action taken, weighted with the return from its own step on, summed over the episode.",
-        note="$G_t$ is the discounted return from step $t$ on. Sutton & Barto's boxed algorithm has a further "
-        "factor $γ^t$, which is left out here, as it mostly is.",
+        note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
+        "left out, as it mostly is.",
     )
     REINFORCE_ESTIMATE = Formula(
         "reinforce-estimate",
@@ -124,6 +124,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 13.8",
         hint="Multiply the score of each step with the return from that step on, and add.",
         sign="≈",
+        place=Place.WORKING,
     )
     FIRST_RETURN_EVERYWHERE = misread(
         REINFORCE_ESTIMATE,
@@ -169,6 +170,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 10.3",
         hint="Multiply each weight with the action's own feature, and add.",
         also=(theta(1) * f(1, s, a) + DOTS + theta(n) * f(n, s, a),),
+        place=Place.WORKING,
     )
     WEIGHTS_FORGOTTEN = misread(
         LINEAR_ACTION_VALUE,
@@ -222,7 +224,7 @@ with evaluate(False):
         title="Score function of the softmax policy",
         source="Sutton & Barto 2018, eq. 13.9",
         hint="The action's own features minus the features expected under the policy.",
-        note="For preferences that are linear in features, $h(s, a) = θ^⊤ f(s, a)$. Not on the sheet.",
+        note="For preferences that are linear in features, $h(s, a) = θ^⊤ f(s, a)$.",
     )
     FEATURES_ALONE = misread(
         SCORE_FUNCTION,
@@ -306,6 +308,7 @@ with evaluate(False):
         hint="Multiply the score of each step with what its return exceeds the baseline by, and add.",
         sign="≈",
         also=(SumOver(_LOG_GRADIENT * (G_t(t) - b_of(S(t))), t, _EPISODE),),
+        place=Place.WORKING,
     )
     BASELINE_ON_THE_POLICY = misread(
         REINFORCE_BASELINE,
@@ -342,7 +345,8 @@ with evaluate(False):
         title="Generalised advantage estimate",
         source="Schulman et al. 2016, eq. 16",
         hint="Add the TD errors from this step on, each with a further factor γλ.",
-        note="Not on the sheet. λ = 0 gives the TD error, λ = 1 the return minus V(sₜ).",
+        note="$λ = 0$ gives the TD error, $λ = 1$ the return minus $V(s_t)$.",
+        place=Place.BEYOND,
     )
     GAE_WITHOUT_LAMBDA = misread(
         GAE,
@@ -380,6 +384,7 @@ with evaluate(False):
         title="The unclipped term",
         source="Schulman et al. 2017, eq. 6",
         hint="The ratio times the advantage.",
+        place=Place.WORKING,
     )
     PPO_CLIPPED = Formula(
         "ppo-clipped",
@@ -388,6 +393,7 @@ with evaluate(False):
         title="The clipped term",
         source="Schulman et al. 2017, eq. 7",
         hint="Bring the ratio between 1 − ε and 1 + ε, then multiply with the advantage.",
+        place=Place.WORKING,
     )
     PPO = Formula(
         "ppo",
@@ -397,6 +403,7 @@ with evaluate(False):
         source="Schulman et al. 2017, eq. 7",
         hint="The smaller of the two terms: the objective never looks better than without clipping.",
         also=(Least(rho(t) * A_t(t), Clipped(rho(t), 1 - epsilon, 1 + epsilon) * A_t(t)),),
+        hidden=True,
     )
     CLIP_WITHOUT_MIN = misread(
         PPO,
@@ -412,4 +419,5 @@ with evaluate(False):
         title="PPO: the objective of a batch",
         source="Schulman et al. 2017, eq. 7",
         hint="Average the objective over the samples.",
+        place=Place.WORKING,
     )

@@ -3,7 +3,7 @@
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Script, variable
-from rldrill.solutions.formula.formula import Formula, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
@@ -76,7 +76,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eqs. 12.2 and 12.3",
         hint="Weight the n-step returns with (1 − λ)λⁿ⁻¹; the full return gets all the weight that is left.",
         also=((1 - lam) * SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, INFINITY)),),
-        note="From the end T of the episode on every n-step return is the return, so their weights add up to λᵀ⁻ᵗ⁻¹.",
+        note="From the end $T$ of the episode on every n-step return is the return, so their weights add up to $λ^{T−t−1}$.",
     )
     FORGOT_ONE_MINUS_LAMBDA = misread(
         LAMBDA_RETURN,
@@ -175,7 +175,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eqs. 12.6 and 12.7, for a table",
         hint="One TD error, that of the transition, goes to every state in proportion to its trace.",
         sign="←",
-        note="For all s. Some sheets print V(s) inside the TD error; it belongs to the state that was left, V(s_t).",
+        note="For all $s$. Some sheets print $V(s)$ inside the TD error; it belongs to the state that was left, $s_t$.",
     )
     LITERAL_VALUE = misread(
         TD_LAMBDA_BACKWARD,
@@ -231,6 +231,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 2.4",
         hint="Count the visit before it is averaged in.",
         sign="←",
+        place=Place.WORKING,
     )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
@@ -240,7 +241,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.3",
         hint="Count the visit first; then the step size is one over the number of visits.",
         sign="←",
-        note="The Monte Carlo update with α = 1/n(s), where n(s) counts the visits of s, this one included.",
+        note="The Monte Carlo update with $α = 1/n(s)$; $n(s)$ counts the visits of $s$, this one included.",
     )
     NOT_COUNTED = misread(
         SAMPLE_AVERAGE,
@@ -264,6 +265,7 @@ with evaluate(False):
         title="Weight of the i-th of n returns",
         source="Sutton & Barto 2018, eq. 2.6",
         hint="A return enters with weight α, and every later return weakens it by the factor 1 − α.",
+        place=Place.WORKING,
     )
     OLDEST_FIRST = misread(
         RECENCY_WEIGHT,
@@ -291,10 +293,12 @@ with evaluate(False):
         "constant-step-size",
         Vn(n),
         (1 - alpha) ** n * Vn(0) + SumOver(w(i) * G(i), i, Counting(1, n)),
-        title="Value after n updates with a constant step size",
+        title="Constant step size, after n updates",
         source="Sutton & Barto 2018, eq. 2.6",
         hint="Weight every return, and the first value with what is left: (1 − α)ⁿ.",
         also=((1 - alpha) ** n * Vn(0) + SumOver(alpha * (1 - alpha) ** (n - i) * G(i), i, Counting(1, n)),),
+        place=Place.BEYOND,
+        hidden=True,
     )
     START_FORGOTTEN = misread(
         CONSTANT_STEP_SIZE,
@@ -311,6 +315,7 @@ with evaluate(False):
         title="Batch Monte Carlo",
         source="Sutton & Barto 2018, section 6.3",
         hint="Average the returns that were seen after all visits of the state.",
+        place=Place.BEYOND,
     )
     BATCH_TD = Formula(
         "batch-td",
@@ -320,4 +325,5 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 6.3",
         hint="Average the one-step targets after all visits of the state; begin with states that only lead to the end.",
         note="These are the values of the most likely Markov process behind the data (the certainty equivalence).",
+        place=Place.BEYOND,
     )

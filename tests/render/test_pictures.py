@@ -70,8 +70,11 @@ OTHERS: list[Picture] = [
     Pendulum(30),
     Pendulum(-45),
     Pendulum(170, cart=True),
-    Timeline(("cool", "warm", "over"), ("fast", "slow"), ("$2$", "$−1$"), ended=True),
-    Timeline(("cool",) * 14, ("fast",) * 14, ("$2$",) * 13),
+    Timeline(
+        ("$t = 0$", "$t = 1$", "$t = 2$"), ("cool", "warm", "over"), ("fast", "slow"), ("$2$", "$−1$"), ended=True
+    ),
+    Timeline(("$t$",) * 14, ("cool",) * 14, ("fast",) * 14, ("$r = 2$",) * 13),
+    Timeline(("", ""), ("$s_t$", "$s_{t+1}$"), ("$a_t$",), ("$r_{t+1}$",)),
 ]
 
 

@@ -13,10 +13,10 @@ PREAMBLE = r"""
   place(dx: x - across * room.width, dy: y - down * room.height, box(width: room.width, plate))
 }
 #let time-state(time, ends, name) = box(baseline: 50%, stack(dir: ttb, spacing: 2.5pt,
-  align(center, text(7pt)[$t = #time$]),
+  ..if time == [] { () } else { (align(center, text(7pt, time)),) },
   align(center, box(stroke: 0.6pt, inset: (x: 6pt, y: 4.5pt), radius: if ends { 0pt } else { 9pt },
     fill: if ends { luma(225) } else { none }, text(8pt, top-edge: "x-height", bottom-edge: "baseline", name))),
-  hide(text(7pt)[$t$])))
+  ..if time == [] { () } else { (hide(text(7pt)[$t$]),) }))
 #let time-arrow(action, reward) = context {
   let above = text(8pt, if action == none { [] } else { action })
   let below = text(8pt, if reward == none { [] } else { reward })

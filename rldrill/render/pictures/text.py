@@ -95,16 +95,17 @@ def _timeline(line: Timeline, width: int) -> list[str]:
 def _step(line: Timeline, time: int) -> tuple[str, str, str, str]:
     """A state and the arrow that leaves it: the lines for time, action, state and reward."""
     last = time == len(line.states) - 1
+    time_label = inline(line.times[time])
     state = f"{'□' if line.ended and last else '○'} {inline(line.states[time])}"
     action = inline(line.actions[time]) if time < len(line.actions) else ""
-    reward = "" if last else inline(line.reward_label(time))
+    reward = "" if last else inline(line.rewards[time])
     if last and not action:
-        return (f"t = {time}".ljust(len(state)), " " * len(state), state, " " * len(state))
+        return (time_label.ljust(len(state)), " " * len(state), state, " " * len(state))
     wide = max(len(action), len(reward), 3) + 3
     arrow = f" {'─' * (wide - 2)}▶ "
     before = " " * (len(state) + 1)
     return (
-        f"t = {time}".ljust(len(state) + wide + 1),
+        time_label.ljust(len(state) + wide + 1),
         f"{before}{action.center(wide - 2)}  ",
         f"{state}{arrow}",
         f"{before}{reward.center(wide - 2)}  ",

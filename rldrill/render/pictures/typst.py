@@ -86,10 +86,10 @@ def _timeline(line: Timeline) -> str:
     steps = []
     for time, state in enumerate(line.states):
         ends = "true" if line.ended and time == last else "false"
-        parts = [f"time-state({time}, {ends}, [{small(state)}])"]
+        parts = [f"time-state([{small(line.times[time])}], {ends}, [{small(state)}])"]
         if time < last or time < len(line.actions):
             action = f"[{small(line.actions[time])}]" if time < len(line.actions) else "none"
-            reward = f"[{small(line.reward_label(time))}]" if time < last else "none"
+            reward = f"[{small(line.rewards[time])}]" if time < last else "none"
             parts.append(f"time-arrow({action}, {reward})")
         steps.append(f"box({{{'; '.join(parts)}}})")
     return f"#timeline({', '.join(steps)})\n"
