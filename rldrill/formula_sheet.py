@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 TITLE = "Reinforcement and Robot Learning: formula sheet"
+#: The size of the type with which the whole sheet is two pages.
+_SIZES = {"a4": "7.5pt", "letter": "7.1pt"}
 _LEGEND = "Formulas marked + go beyond the lecture's sheet."
 
 #: Names at the left, formulas at the right, in two columns; sized so that the whole sheet is two pages, to be
@@ -50,9 +52,7 @@ _HELPERS = r"""
 #let gallery(note, ..pictures) = block(width: 100%, breakable: false, above: 0.8em, layout(size => {
   let row = stack(dir: ltr, spacing: 1em, ..pictures.pos().map(box))
   let fitted = scale(calc.min(1, size.width / measure(row).width) * 99%, origin: left, reflow: true, row)
-  if measure(row).width < size.width / 2 { stack(dir: ltr, spacing: 1em, fitted, align(horizon, remark(note))) } else {
-    fitted + block(above: 0.5em, remark(note))
-  }
+  fitted + if note != [] { block(above: 0.5em, remark(note)) }
 }))
 """
 
@@ -94,7 +94,13 @@ def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) 
         UsageError: there is no section of that name.
     """
     setup = page_setup(
-        paper, title=TITLE, left="", right="", margin="(x: 1cm, top: 0.9cm, bottom: 1cm)", size="7.5pt", columns=2
+        paper,
+        title=TITLE,
+        left="",
+        right="",
+        margin="(x: 1cm, top: 0.9cm, bottom: 1cm)",
+        size=_SIZES[paper.name],
+        columns=2,
     )
     head = f"text(1.9em, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
     found = sections(names, workings=workings).items()
@@ -193,4 +199,5 @@ def _drawn(found: Gallery) -> "list[Text]":
     rows = zip_longest(*blocks, fillvalue="")
     lines = ["   ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
     texts = [Text(f"    {line}", no_wrap=True) for line in lines]
-    return [Text(), *texts, Text(), Text(f"    {inline(found.note)}", style="italic")] if texts else []
+    note = [Text(), Text(f"    {inline(found.note)}", style="italic")] if found.note else []
+    return [Text(), *texts, *note] if texts else []

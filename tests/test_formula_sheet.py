@@ -14,9 +14,11 @@ from rldrill.formula_sheet import latex_equation, markdown, sections, sheet_sour
 from rldrill.paper import PAPERS, pdf
 from rldrill.problems.errors import UsageError
 from rldrill.render.unicode import unicode_text
+from rldrill.solutions.formula.formula import Place
 from rldrill.solutions.sheet import SECTIONS, formulas
 
-MARGIN = 1.6 * 72 / 2.54 - 1
+MARGIN = 72 / 2.54 - 2
+KEYS = (Path(__file__).parent / "formula" / "keys.txt").read_text(encoding="utf-8").split()
 
 
 @pytest.fixture
@@ -26,8 +28,8 @@ def app() -> typer.Typer:
     return app
 
 
-def test_the_terminal_shows_every_formula() -> None:
-    printed = "\n".join(line.plain for line in terminal([]))
+def test_the_terminal_shows_every_formula_that_is_asked_for() -> None:
+    printed = "\n".join(line.plain for line in terminal([], workings=True))
     for formula in formulas().values():
         assert formula.title in printed
         assert unicode_text(formula.equation()) in printed
@@ -35,9 +37,32 @@ def test_the_terminal_shows_every_formula() -> None:
 
 
 def test_markdown_has_every_formula_in_latex() -> None:
-    written = markdown([])
+    written = markdown([], workings=True)
     assert all(f"$${latex_equation(formula.equation())}$$" in written for formula in formulas().values())
     assert written.count("\n## ") == len(SECTIONS)
+
+
+def test_the_sheet_has_every_formula_of_the_lecture_and_none_that_only_workings_need() -> None:
+    printed = {formula.key: formula for _, found in sections().values() for formula in found}
+    assert set(KEYS) <= set(printed)
+    assert all(formula.place is not Place.WORKING for formula in printed.values())
+    assert all(formulas()[key].place is Place.SHEET for key in KEYS)
+
+
+def test_what_goes_beyond_the_lecture_is_marked() -> None:
+    lines = [line.plain for line in terminal(["control"])]
+    assert any(line.strip().startswith("Expected Sarsa +") for line in lines)
+    assert any(line.strip().startswith("Sarsa  ") for line in lines)
+
+
+def test_a_hidden_side_is_printed_only_with_the_workings() -> None:
+    ppo = formulas()["ppo"]
+    assert len(ppo.printed().rights) == 1 < len(ppo.equation().rights)
+    assert unicode_text(ppo.equation()) not in "\n".join(line.plain for line in terminal(["policy-gradient"]))
+
+
+def test_no_formula_stands_in_two_sections() -> None:
+    assert sum(len(found) for _, found in sections(workings=True).values()) == len(formulas())
 
 
 def test_sections_keep_the_order_of_the_sheet() -> None:
@@ -49,14 +74,16 @@ def test_an_unknown_section_is_refused_with_the_list() -> None:
         sections(["belman"])
 
 
+@pytest.mark.parametrize("workings", [False, True])
 @pytest.mark.parametrize("paper", ["a4", "letter"])
-def test_every_word_of_the_pdf_is_inside_the_margins(paper: str, tmp_path: Path) -> None:
+def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, workings: bool, tmp_path: Path) -> None:
     if shutil.which("pdftotext") is None:
         pytest.skip("poppler's pdftotext is not installed")
     path = tmp_path / "sheet.pdf"
-    path.write_bytes(pdf(sheet_source([], PAPERS[paper])))
+    path.write_bytes(pdf(sheet_source([], PAPERS[paper], workings=workings)))
     command = ["pdftotext", "-bbox", str(path), "-"]
     printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    assert printed.count("<page ") <= (4 if workings else 2)
     match = re.search(r'<page width="([\d.]+)"', printed)
     assert match is not None
     width = float(match[1])

@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     Grid,
     Math,
     Root,
+    Row,
     Script,
     listed,
     name,
@@ -370,8 +371,16 @@ def grid(lines: Sequence[Sequence[Value]]) -> Grid:
 
 
 def _exponential(expression: Any) -> Math:
-    exponent = expression.args[0]
-    return Script(variable("e"), above=typeset(_bare(exponent)))
+    exponent = typeset(_bare(expression.args[0]))
+    if _has_tall_fraction(exponent):  # too small to read as an exponent
+        return row(word("exp"), Fence(exponent))
+    return Script(variable("e"), above=exponent)
+
+
+def _has_tall_fraction(math: Math) -> bool:
+    if isinstance(math, Fraction):
+        return not (isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph))
+    return isinstance(math, Row) and any(map(_has_tall_fraction, math.items))
 
 
 def _logarithm(expression: Any) -> Math:

@@ -31,7 +31,6 @@ from rldrill.solutions.formula.notation import (
 )
 from rldrill.solutions.sheet.linear_methods import At, Bt, Qt, Rt
 
-
 p = quantity("p", conditioned("p"))
 likelihood = quantity("likelihood", conditioned("p"))
 motion = quantity("motion", conditioned("p"))

@@ -63,8 +63,7 @@ GALLERY = Gallery(
             actions=("$a_t$", "$a_{t+1}$", "$a_{t+2}$"),
             rewards=("$r_{t+1}$", "$r_{t+2}$"),
         ),
-    ),
-    "An action leads from each state to a reward and the next state.",
+    )
 )
 
 with evaluate(False):

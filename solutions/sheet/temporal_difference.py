@@ -76,7 +76,7 @@ with evaluate(False):
         source="Sutton & Barto 2018, eqs. 12.2 and 12.3",
         hint="Weight the n-step returns with (1 − λ)λⁿ⁻¹; the full return gets all the weight that is left.",
         also=((1 - lam) * SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, INFINITY)),),
-        note="From the end $T$ of the episode on every n-step return is the return, so their weights add up to $λ^{T−t−1}$.",
+        note="From the end $T$ of the episode on every n-step return is the return; they weigh $λ^{T−t−1}$.",
     )
     FORGOT_ONE_MINUS_LAMBDA = misread(
         LAMBDA_RETURN,

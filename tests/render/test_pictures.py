@@ -59,6 +59,14 @@ def backups() -> list[BackupDiagram]:
     return found
 
 
+RUN = Timeline(
+    times=("$t = 0$", "$t = 1$", "$t = 2$"),
+    states=("cool", "warm", "over"),
+    actions=("fast", "slow"),
+    rewards=("$r_1 = 2$", "$r_2 = −1$"),
+    ended=True,
+)
+LONG_RUN = Timeline(tuple(f"$t = {t}$" for t in range(14)), ("cool",) * 14, ("fast",) * 14, ("$r = 2$",) * 13)
 OTHERS: list[Picture] = [
     GridPicture((("$1$", "$−2$", "", "goal"), ("", "#", "", "$1/2$"), ("start", "", "", ""))),
     Bars(("open", "closed", "ajar"), ("",), ((0.5, 0.3, 0.2),), (("$1/2$", "$3/10$", "$1/5$"),)),
@@ -70,10 +78,8 @@ OTHERS: list[Picture] = [
     Pendulum(30),
     Pendulum(-45),
     Pendulum(170, cart=True),
-    Timeline(
-        ("$t = 0$", "$t = 1$", "$t = 2$"), ("cool", "warm", "over"), ("fast", "slow"), ("$2$", "$−1$"), ended=True
-    ),
-    Timeline(("$t$",) * 14, ("cool",) * 14, ("fast",) * 14, ("$r = 2$",) * 13),
+    RUN,
+    LONG_RUN,
     Timeline(("", ""), ("$s_t$", "$s_{t+1}$"), ("$a_t$",), ("$r_{t+1}$",)),
 ]
 
@@ -213,7 +219,7 @@ def shown(width: int, *blocks: Picture | Beside) -> list[str]:
 
 
 def test_a_time_line_is_folded_where_the_terminal_ends() -> None:
-    lines = shown(40, OTHERS[-2])
+    lines = shown(40, RUN)
     assert lines[:8] == [
         "  t = 0           t = 1",
         "           fast            slow",
@@ -224,7 +230,7 @@ def test_a_time_line_is_folded_where_the_terminal_ends() -> None:
         "  □ over",
         "",
     ]
-    assert max(map(len, shown(60, OTHERS[-1]))) <= 60
+    assert max(map(len, shown(60, LONG_RUN))) <= 60
 
 
 def test_a_table_and_its_diagram_stand_side_by_side_where_there_is_room() -> None:
