@@ -18,7 +18,7 @@ from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
-from rldrill.solutions.work import Note, Result, Step
+from rldrill.solutions.work import Note, Recalled, Result, Step
 
 #: The version of the JSON that ``data`` gives and that problem files have.
 FORMAT = 1
@@ -77,7 +77,7 @@ class Exercise:
             )
         blocks: list[Block] = []
         for line in self.solution.lines if part is None else self.solution.lines_of(part):
-            if isinstance(line, Step):
+            if isinstance(line, Step | Recalled):
                 blocks.append(line.equation())
             elif isinstance(line, Note):
                 blocks.append(Paragraph(line.text))

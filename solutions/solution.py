@@ -10,7 +10,7 @@ from typing import Any
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.work import Line, Step, Work
+from rldrill.solutions.work import Line, Recalled, Step, Work
 
 
 @dataclass(frozen=True)
@@ -73,9 +73,9 @@ class Solution:
         return tuple(self.work.lines[start : self.work.ends[label]])
 
     def formulas(self, label: str | None = None) -> tuple[Formula, ...]:
-        """The formulas that were used, in their order; those of one part, where it uses any of its own."""
+        """The formulas that were used or recalled, in their order; those of one part, where it uses any of its own."""
         lines = self.lines if label is None else self.lines_of(label)
-        used = dict.fromkeys(line.formula for line in lines if isinstance(line, Step))
+        used = dict.fromkeys(line.formula for line in lines if isinstance(line, Step | Recalled))
         return tuple(used) if used or label is None else self.formulas()
 
     @cached_property

@@ -66,6 +66,17 @@ class Note:
 
 
 @dataclass(frozen=True)
+class Recalled:
+    """A formula as it stands: what the steps that follow are there for."""
+
+    formula: Formula
+
+    def equation(self) -> Equation:
+        """The formula, nothing put in."""
+        return self.formula.equation()
+
+
+@dataclass(frozen=True)
 class Result:
     """Values that a procedure gives together: the solution of a system, a table at its end."""
 
@@ -80,7 +91,7 @@ class Result:
         )
 
 
-Line = Step | Note | Result
+Line = Step | Note | Recalled | Result
 
 
 def shown_value(value: Any) -> Math:
@@ -183,6 +194,10 @@ class Work:
         self.lines.append(Note("Solving these equations:"))
         self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
         return {**fixed, **solution}
+
+    def recall(self, formula: Formula) -> None:
+        """Write a formula down as it stands: a definition that steps by other formulas serve."""
+        self.lines.append(Recalled(formula))
 
     def say(self, text: str) -> None:
         """Write a sentence between the steps; mathematics stands between ``$`` signs."""

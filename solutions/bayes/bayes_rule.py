@@ -7,7 +7,13 @@ import numpy as np
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import BASE_RATE_IGNORED, BAYES, LIKELIHOOD_FOR_POSTERIOR, NOT_NORMALISED
+from rldrill.solutions.sheet.bayes import (
+    BASE_RATE_IGNORED,
+    BAYES,
+    BAYES_TWO_STATES,
+    LIKELIHOOD_FOR_POSTERIOR,
+    NOT_NORMALISED,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (NOT_NORMALISED, BASE_RATE_IGNORED, LIKELIHOOD_FOR_POSTERIOR)
@@ -18,6 +24,8 @@ def solve(given: Given, work: Work) -> None:
     likelihood = knowns.likelihood(given.likelihood)
     hypotheses = tuple(given.prior)
     belief = knowns.values(given.prior)
+    if len(hypotheses) == 2:
+        work.recall(BAYES_TWO_STATES)
     for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
         known: dict[str, Any] = {
             "z": reading,

@@ -18,6 +18,7 @@ from rldrill.solutions.sheet.bayes import (
     LINE_SLOPE,
     LINE_SLOPE_MAP,
     MEAN,
+    MODEL_FITTING,
     N_FOR_N_MINUS_1,
     SAMPLE_VARIANCE,
 )
@@ -33,6 +34,7 @@ MISCONCEPTIONS = (N_FOR_N_MINUS_1, PRIOR_IGNORED)
 
 def solve(given: Given, work: Work) -> None:
     """What the data alone say; then with the prior."""
+    work.recall(MODEL_FITTING)
     if given.coin is not None:
         _coin(given.coin, work)
     elif given.sample is not None:

@@ -11,7 +11,12 @@ from rldrill.problems.fundamentals.markov_property import Given, where
 from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.fundamentals import HISTORY_LEFT_OUT, JOINT_FOR_CONDITIONAL, RELATIVE_FREQUENCY
+from rldrill.solutions.sheet.fundamentals import (
+    HISTORY_LEFT_OUT,
+    JOINT_FOR_CONDITIONAL,
+    MARKOV_PROPERTY,
+    RELATIVE_FREQUENCY,
+)
 from rldrill.solutions.work import Work
 
 #: Probabilities by the state before, the present state and the next one.
@@ -82,6 +87,7 @@ def solve(given: Given, work: Work) -> None:
     if len(given.outcomes) > 2 and not work.makes(ONE_NEXT_STATE):  # of two, the other is the rest to 1
         others = [after for after in given.outcomes if after != given.asked]
         chances |= {(*h, after): probability(h, after) for h in given.histories for after in others}
+    work.recall(MARKOV_PROPERTY)
     matters = _matters(given, _totals(given) if work.makes(TOTALS_COMPARED) else chances)
     for now in given.present:
         _compare(given, work, now, chances, differs=now in matters)

@@ -9,7 +9,14 @@ from rldrill.problems.inverse_rl.apprenticeship import Given
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
-from rldrill.solutions.sheet.inverse_rl import DISTANCE, PROJECTION, PROJECTION_LENGTH, REMAINING, WEIGHTS
+from rldrill.solutions.sheet.inverse_rl import (
+    APPRENTICESHIP,
+    DISTANCE,
+    PROJECTION,
+    PROJECTION_LENGTH,
+    REMAINING,
+    WEIGHTS,
+)
 from rldrill.solutions.work import Work
 
 NOT_PROJECTED = slip(
@@ -26,6 +33,7 @@ def solve(given: Given, work: Work) -> None:
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
+    work.recall(APPRENTICESHIP)
     work.answer(next(labels), work.step(DISTANCE, mu_now=policies[0], **known))
     for mu in policies:
         known |= {"mu_now": mu, "mu_bar": point}

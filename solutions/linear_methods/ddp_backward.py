@@ -12,6 +12,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
+    DDP,
     DDP_A,
     DDP_AA,
     DDP_AS,
@@ -74,6 +75,7 @@ def solve(given: Given, work: Work) -> None:
         Q[f"Q_{code}"] = work.answer(label, work.step(formula, right=None if curved else ilqr(formula), **known))
     if work.misconception is None and not _is_negative(Q["Q_aa"]):
         raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
+    work.recall(DDP)
     work.answer("f", work.step(DDP_k, **Q))
     work.answer("g", work.step(DDP_K, **Q))
 

@@ -25,6 +25,7 @@ from rldrill.solutions.sheet.linear_methods import (
     EULER_F,
     FORGOT_IDENTITY,
     INPUT_JACOBIAN,
+    LINEARISE,
     STATE_JACOBIAN,
 )
 from rldrill.solutions.work import Work
@@ -34,6 +35,7 @@ MISCONCEPTIONS = (C_IS_F, AT_ZERO, SINE_FOR_COSINE, FORGOT_IDENTITY)
 
 def solve(given: Given, work: Work) -> None:
     """Everything is taken at the operating point."""
+    work.recall(LINEARISE)
     known = point(work, given)
     A = euler(work, given, EULER_A, jacobian(work, given, STATE_JACOBIAN, known))
     B = euler(work, given, EULER_B, jacobian(work, given, INPUT_JACOBIAN, known))

@@ -8,6 +8,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
+    IN_COSTS,
     LQR_ACTION,
     LQR_GAIN,
     LQR_RICCATI,
@@ -29,7 +30,7 @@ def solve(given: Given, work: Work) -> None:
     """Two parts for every time; the last is the action."""
     known = linear.known(given)
     last = given.horizon
-    work.say("$P_t$ is the matrix of the value; in the cost-to-go convention it reads $S_t = −P_t$.")
+    work.say(IN_COSTS)
     P = {last: work.step(LQR_TERMINAL, T=last, **known)}
     L = {}
     labels = iter(_LABELS)

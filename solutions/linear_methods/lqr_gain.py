@@ -5,7 +5,7 @@ import numpy as np
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions.matrices import given as matrix
 from rldrill.solutions.oracle import Answers, Array, at
-from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A
+from rldrill.solutions.sheet.linear_methods import FORGOT_R, IN_COSTS, LQR_GAIN, POSITIVE_S, TRANSPOSED_A
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED_A)
@@ -13,6 +13,7 @@ MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED_A)
 
 def solve(given: Given, work: Work) -> None:
     """One application; times are counted from t = 0."""
+    work.say(IN_COSTS)
     work.answer(
         "a",
         work.step(

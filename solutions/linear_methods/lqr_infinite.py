@@ -43,7 +43,8 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _value(work: Work, A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -> AnyMatrix:
-    work.say("$P$ is the matrix of the value; the cost-to-go's is $S = −P$, which solves the same equation with $S$.")
+    work.recall(LQR_STATIONARY)
+    work.say("$P$ is the matrix of the value; for the cost-to-go, $S = −P$, it reads $S = Q + A^⊤ S A − A^⊤ S B L$.")
     if A.nrows() == B.ncols() == 1:
         return matrices.matrix([[_root(work, *(matrix[0, 0] for matrix in (A, B, Q, R)))]])
     for change in _changes(A.nrows()):

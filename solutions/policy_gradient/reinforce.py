@@ -10,6 +10,7 @@ from rldrill.solutions.sheet.policy_gradient import (
     FIRST_RETURN_EVERYWHERE,
     GRADIENT_ASCENT,
     LOG_FORGOTTEN,
+    REINFORCE,
     REINFORCE_ESTIMATE,
     REWARD_FOR_RETURN,
 )
@@ -24,6 +25,7 @@ def solve(given: Given, work: Work) -> None:
     """All steps with the weights before the episode."""
     known = known_run(given)
     G = dict(enumerate(work.answer("a", tuple(returns(work, known).values()))))
+    work.recall(REINFORCE)
     known |= scores(work, given, known)
     gradient = Vector(work.answer("b", tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
     work.answer("c", tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))

@@ -53,6 +53,12 @@ Ut = _matrix("Ut", "a")
 rt = quantity("rt", _reward_layout)
 J = letter("J")
 
+#: How a working in values of P reads for somebody who learnt it in costs.
+IN_COSTS = (
+    "$P_t$ is the matrix of the value; in the cost-to-go convention it is $S_t = −P_t$, and the same gain reads "
+    "$L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
+)
+
 with evaluate(False):
     DYNAMICS = Formula(
         "dynamics",

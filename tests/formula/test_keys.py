@@ -1,9 +1,11 @@
-"""The keys of the lecture's sheet, kept in ``keys.txt``: each is a formula here."""
+"""The keys of the lecture's sheet, kept in ``keys.txt``: each is a formula here, and at least one family drills it."""
 
 from pathlib import Path
 
 import pytest
 
+import rldrill
+from rldrill.problems.catalogue import families
 from rldrill.solutions.sheet import formulas
 
 KEYS = (Path(__file__).parent / "keys.txt").read_text(encoding="utf-8").split()
@@ -12,3 +14,23 @@ KEYS = (Path(__file__).parent / "keys.txt").read_text(encoding="utf-8").split()
 @pytest.mark.parametrize("key", KEYS)
 def test_every_key_of_the_sheet_is_a_formula(key: str) -> None:
     assert key in formulas()
+
+
+@pytest.fixture(scope="module")
+def drilled() -> dict[str, set[str]]:
+    """The families by the key of every formula that their workings use."""
+    found: dict[str, set[str]] = {}
+    for name in families():
+        for level in (1, 2, 3):
+            for formula in rldrill.draw(name, level, seed=1).formulas():
+                found.setdefault(formula.key, set()).add(name)
+    return found
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_every_key_of_the_sheet_has_a_family(key: str, drilled: dict[str, set[str]]) -> None:
+    assert drilled.get(key), f"no family's working uses {key}"
+
+
+def test_every_formula_has_a_family(drilled: dict[str, set[str]]) -> None:
+    assert not set(formulas()) - set(drilled)
