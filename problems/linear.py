@@ -40,7 +40,7 @@ class LinearQuadratic(Givens):
     def _fits(self) -> Self:
         n = len(self.start)
         m = len(self.B[0][0]) if self.B[0] else 0
-        where = f"with {n} states and {m} actions "
+        where = f"with {n} state{'s' * (n != 1)} and {m} action{'s' * (m != 1)} "
         for name, series, rows, columns, count in (
             ("A", self.A, n, n, self.horizon), ("B", self.B, n, m, self.horizon),
             ("Q", self.Q, n, n, self.horizon + 1), ("R", self.R, m, m, self.horizon + 1),

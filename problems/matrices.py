@@ -12,14 +12,23 @@ Rows = tuple[tuple[Scalar, ...], ...]
 
 
 def _rows(value: Any) -> Any:
-    return value if isinstance(value, list | tuple) else ((value,),)
+    if not isinstance(value, list | tuple):
+        return ((value,),)
+    if not all(isinstance(line, list | tuple) for line in value):
+        raise ValueError("a matrix is a list of rows, such as [[1, 2], [3, 4]]; a column is [[1], [2]]")
+    return value
 
 
 def _by_time(value: Any) -> Any:
-    """One matrix for all times, or a list of matrices, one for every time."""
-    rows = _rows(value)
-    deep = rows and isinstance(rows[0], list | tuple) and rows[0] and isinstance(rows[0][0], list | tuple)
-    return rows if deep else (rows,)
+    """One matrix for all times, or a list of matrices, one for every time; 1×1 ones may be plain numbers."""
+    if not isinstance(value, list | tuple):
+        return (value,)
+    rows_of_one = all(isinstance(line, list | tuple) and not any(map(_is_row, line)) for line in value)
+    return (value,) if rows_of_one else value
+
+
+def _is_row(value: Any) -> bool:
+    return isinstance(value, list | tuple)
 
 
 MatrixField = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
+from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -56,6 +57,14 @@ def test_matrices_that_change_with_time_are_solved_like_constant_ones() -> None:
     assert {label: entries(value) for label, value in constant.items()} == {
         label: entries(value) for label, value in varying.items()
     }
+
+
+def test_a_system_that_changes_with_time_by_hand() -> None:
+    # S₂ = 3. At t = 1: A = 2, B = 1, R = 1: L₁ = 3·2/(1 + 3) = 3/2, S₁ = 1 + 12 − 6·3/2 = 4.
+    # At t = 0: A = 1, B = 2, R = 4: L₀ = 2·4·1/(4 + 16) = 2/5, S₀ = 5 + 4 − 4·2·2/5 = 29/5, a₀ = −2/5·10 = −4.
+    answers = solved("lqr-backward", A=[1, 2], B=[2, 1], Q=[5, 1, 3], R=[4, 1, 1], start=[10], horizon=2)
+    expected = {"a": fmpq(3, 2), "b": -4, "c": fmpq(2, 5), "d": fmpq(-29, 5), "e": -4}
+    assert {label: value[0, 0] for label, value in answers.items()} == expected
 
 
 @given(seeds, st.integers(1, 3))
@@ -184,6 +193,9 @@ def test_systems_that_do_not_fit_are_one_sentence(changed: dict[str, Any], messa
         ({"Q": -1}, "Q must be positive semidefinite"),
         ({"B": [[1], [2]]}, "B is 2×1"),
         ({"A": [[[1]], [[1]], [[1]]]}, "A holds 3 matrices"),
+        ({"A": [1, 1, 1]}, "A holds 3 matrices"),
+        ({"A": [[1], 1]}, "a matrix is a list of rows"),
+        ({"A": "one"}, "given.A"),
         ({"horizon": 0}, "given.horizon"),
     ],
 )
