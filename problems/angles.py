@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 from fractions import Fraction
+from math import pi
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
@@ -58,6 +59,11 @@ def shown(angle: Angle) -> Math:
     )
     written = maths.Fraction(above, maths.number(number.denominator)) if number.denominator > 1 else above
     return row(operator("−"), written) if number < 0 else written
+
+
+def degrees(angle: Angle) -> float:
+    """An angle in degrees, for pictures."""
+    return float(angle.number * 180) if angle.of_pi else float(angle.number) * 180 / pi
 
 
 def text(angle: Angle) -> str:

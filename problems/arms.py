@@ -5,11 +5,12 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import Angle, AngleField, read_angle, text
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, text
+from rldrill.problems.document import Beside, Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.pictures import Arm
 
 _RIGHT = tuple(map(read_angle, ("0", "pi/2", "pi", "-pi/2")))
 _SLANTED = tuple(map(read_angle, ("pi/6", "pi/3", "pi/2", "2*pi/3", "-pi/6", "-pi/3", "-pi/2", "5*pi/6")))
@@ -39,8 +40,8 @@ def draw_angles(rng: Draws, level: int, count: int) -> tuple[Angle, ...]:
     return tuple(rng.choice(angles) for _ in range(count))
 
 
-def situation(given: PlanarArm) -> tuple[Paragraph | Table, ...]:
-    """The arm in words, and its links."""
+def situation(given: PlanarArm) -> tuple[Block, ...]:
+    """The arm in words, its links, and a picture of it."""
     rows = tuple(
         (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
         for index, (length, angle) in enumerate(zip(given.lengths, given.angles, strict=True), 1)
@@ -51,5 +52,10 @@ def situation(given: PlanarArm) -> tuple[Paragraph | Table, ...]:
             "$l_i$. $θ_1$ is the angle of the first link against the $x$ axis; every other $θ_i$ is the angle of "
             "link $i$ against the link before it. Angles are in radians, counter-clockwise."
         ),
-        Table(("link $i$", "$l_i$", "$θ_i$"), rows),
+        Beside(
+            (
+                Table(("link $i$", "$l_i$", "$θ_i$"), rows),
+                Arm(tuple(map(float, given.lengths)), tuple(map(degrees, given.angles))),
+            )
+        ),
     )

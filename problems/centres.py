@@ -2,14 +2,15 @@
 
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, Parameter, Scalar, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.pictures import Bumps
 
 Point = tuple[Exact, ...]
 
@@ -46,6 +47,14 @@ def centres_table(centres: tuple[Point, ...]) -> Table:
         header=("$i$", *(f"${number}$" for number in range(1, len(centres) + 1))),
         rows=(("$c_i$", *(f"${point(centre)}$" for centre in centres)),),
     )
+
+
+def bumps(given: Centred, width: Scalar, shape: Literal["gaussian", "tent"]) -> tuple[Bumps, ...]:
+    """The features over the state axis, if the state is on a line and their width is a number."""
+    if len(given.position) > 1 or isinstance(width, Parameter):
+        return ()
+    (state,), centres = given.position, tuple(float(centre) for (centre,) in given.centres)
+    return (Bumps(centres, float(width), shape, float(state)),)
 
 
 def place(given: Centred) -> Paragraph:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
 from rldrill.problems import mathematics as maths
-from rldrill.problems.angles import Angle, AngleField, read_angle, shown
+from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, shown
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
@@ -19,6 +19,7 @@ from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
 from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import Math, mathematics, row, variable
+from rldrill.problems.pictures import Arm, Pendulum, Picture
 
 Letter = Annotated[str, AfterValidator(letter)]
 
@@ -29,11 +30,22 @@ def _positive(step: Fraction) -> Fraction:
     return step
 
 
+Look = Literal["pendulum", "cart-pole", "arm"]
+#: The letters whose values a picture shows.
+_SEEN: dict[Look, tuple[str, ...]] = {
+    "pendulum": ("θ",),
+    "cart-pole": ("θ",),
+    "arm": ("l_1", "l_2", "θ_1", "θ_2"),
+}
+
+
 class System(Givens):
     """Dynamics in letters, their constants, and an operating point.
 
     Every state's expression in ``dynamics`` is its rate of change; with a ``step`` Δt the system is
     discretised, s + Δt f(s, a). ``where`` names parts of the expressions, each in terms of those before it.
+    ``picture`` draws it at the operating point: a pendulum by its angle θ from hanging down, an arm by the
+    angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
     """
 
     dynamics: dict[Letter, Expression] = Field(min_length=1, max_length=6)
@@ -43,6 +55,7 @@ class System(Givens):
     action: dict[Letter, AngleField] = Field(min_length=1, max_length=4)
     step: Annotated[Exact, AfterValidator(_positive)] | None = None
     story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$")
+    picture: Look | None = None
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
@@ -60,6 +73,8 @@ class System(Givens):
                 known.add(name)
         if self.story.count("$") % 2:
             raise ValueError("story: a $ is missing")
+        if self.picture and (missing := {*_SEEN[self.picture]} - {*self.state, *self.constants}):
+            raise ValueError(f"picture: there is no {min(missing)}, which the picture of {self.picture!r} shows")
         return self
 
     @property
@@ -82,6 +97,7 @@ class Robot:
     state: Mapping[str, tuple[Angle, ...]]
     action: Mapping[str, tuple[Angle, ...]]
     reward: str = ""
+    picture: Look | None = None
 
 
 @cache
@@ -104,6 +120,7 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
         state={name: tuple(map(read_angle, texts)) for name, texts in row_["state"].items()},
         action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
         reward=row_.get("reward", ""),
+        picture=row_.get("picture"),
     )
 
 
@@ -118,6 +135,7 @@ def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
     return {
         **({"reward": robot.reward} if robot.reward else {}),
         "story": robot.story,
+        **({"picture": robot.picture} if robot.picture else {}),
         "dynamics": robot.dynamics,
         "where": robot.where,
         **{
@@ -152,6 +170,7 @@ def plan(given: System, reward: str) -> Iterator[Block]:
 def _story(given: System, then: str) -> Iterator[Block]:
     if given.story:
         yield Paragraph(given.story)
+    yield from _drawn(given)
     states, actions = (_column(names) for names in (given.states, tuple(given.action)))
     yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. {then}")
 
@@ -171,6 +190,14 @@ def discretised(given: System) -> Paragraph:
         "Time is discretised by an Euler step: $s_{t+1} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
         f"$Δ t = {exact_shown(given.step or Fraction(0))}$."
     )
+
+
+def _drawn(given: System) -> Iterator[Picture]:
+    if given.picture == "arm":
+        lengths = (float(given.constants["l_1"]), float(given.constants["l_2"]))
+        yield Arm(lengths, (degrees(given.state["θ_1"]), degrees(given.state["θ_2"])))
+    elif given.picture:
+        yield Pendulum(degrees(given.state["θ"]), cart=given.picture == "cart-pole")
 
 
 def _column(names: tuple[str, ...]) -> str:

@@ -18,7 +18,7 @@ from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
-from rldrill.solutions.work import Note, Recalled, Result, Step
+from rldrill.solutions.work import Drawn, Note, Recalled, Result, Step
 
 #: The version of the JSON that ``data`` gives and that problem files have.
 FORMAT = 1
@@ -81,6 +81,8 @@ class Exercise:
                 blocks.append(line.equation())
             elif isinstance(line, Note):
                 blocks.append(Paragraph(line.text))
+            elif isinstance(line, Drawn):
+                blocks.append(line.picture)
             elif isinstance(line, Result):
                 blocks.extend(line.equations())
         return tuple(blocks)

@@ -9,6 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
+from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, Value, simplest, tidy
 from rldrill.solutions.formula.compiling import evaluate
 from rldrill.solutions.formula.formula import Formula, Misconception
@@ -77,6 +78,13 @@ class Recalled:
 
 
 @dataclass(frozen=True)
+class Drawn:
+    """A picture between the steps."""
+
+    picture: Picture
+
+
+@dataclass(frozen=True)
 class Result:
     """Values that a procedure gives together: the solution of a system, a table at its end."""
 
@@ -91,7 +99,7 @@ class Result:
         )
 
 
-Line = Step | Note | Recalled | Result
+Line = Step | Note | Recalled | Drawn | Result
 
 
 def shown_value(value: Any) -> Math:
@@ -198,6 +206,10 @@ class Work:
     def recall(self, formula: Formula) -> None:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""
         self.lines.append(Recalled(formula))
+
+    def draw(self, *pictures: Picture) -> None:
+        """Draw pictures between the steps."""
+        self.lines += map(Drawn, pictures)
 
     def say(self, text: str) -> None:
         """Write a sentence between the steps; mathematics stands between ``$`` signs."""

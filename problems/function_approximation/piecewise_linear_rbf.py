@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.centres import Centred, centres_table, draw_in_the_plane, draw_on_a_line, place
+from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
@@ -49,6 +49,7 @@ def question(given: Given) -> Question:
             "All features are piecewise linear radial basis functions (triangular bumps of height $1$) "
             f"of the width $b = {shown(given.width)}$."
         ),
+        *bumps(given, given.width, "tent"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order?"
     return Question(blocks, (Part("a", ask, Vector(names), points=2),))

@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.centres import Centred, centres_table, draw_in_the_plane, draw_on_a_line, place
+from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
@@ -51,6 +51,7 @@ def question(given: Given) -> Question:
         place(given),
         centres_table(given.centres),
         Paragraph(f"All features are Gaussian radial basis functions of the same width. {width}"),
+        *bumps(given, given.sigma, "gaussian"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order{in_open(given)}?"
     return Question(blocks, (Part("a", ask, Vector(names), points=2),))

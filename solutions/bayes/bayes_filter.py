@@ -7,6 +7,7 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
+from rldrill.solutions.beliefs import before_and_after
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, motion_array
 from rldrill.solutions.sheet.bayes import BAYES, PREDICT
@@ -39,9 +40,11 @@ def solve(given: Given, work: Work) -> None:
     for part, event in zip(ascii_lowercase, given.run, strict=False):
         if work.makes(PRIOR_AGAIN):
             belief = start
+        before = belief
         moves = (_weighed, _moved) if work.makes(ORDER_SWAPPED) else (_moved, _weighed)
         for move in moves:
             belief = move(work, event, belief, known)
+        work.draw(*before_and_after(before, belief))
         belief = work.answer(part, belief)
 
 

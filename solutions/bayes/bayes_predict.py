@@ -7,6 +7,7 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.beliefs import before_and_after
 from rldrill.solutions.oracle import Answers, at, motion_array
 from rldrill.solutions.sheet.bayes import MOTION_AS_LIKELIHOOD, MOTION_TRANSPOSED, PREDICT
 from rldrill.solutions.work import Work
@@ -21,7 +22,9 @@ def solve(given: Given, work: Work) -> None:
     motion = knowns.motion(given.motion)
     for part, action in zip(ascii_lowercase, given.actions, strict=False):
         known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
-        belief = work.answer(part, {state: work.step(PREDICT, s1=state, **known) for state in states})
+        after = {state: work.step(PREDICT, s1=state, **known) for state in states}
+        work.draw(*before_and_after(belief, after))
+        belief = work.answer(part, after)
 
 
 def oracle(given: Given) -> Answers:

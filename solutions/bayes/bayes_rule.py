@@ -6,6 +6,7 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.beliefs import before_and_after
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     BASE_RATE_IGNORED,
@@ -33,7 +34,9 @@ def solve(given: Given, work: Work) -> None:
             "likelihood": likelihood,
             "hypotheses": hypotheses,
         }
-        belief = work.answer(part, {h: work.step(BAYES, h=h, **known) for h in hypotheses})
+        after = {h: work.step(BAYES, h=h, **known) for h in hypotheses}
+        work.draw(*before_and_after(belief, after))
+        belief = work.answer(part, after)
 
 
 def oracle(given: Given) -> Answers:

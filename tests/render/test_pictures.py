@@ -121,6 +121,18 @@ def test_labels_of_backup_diagrams_cover_nothing() -> None:
         assert_apart(scene, labels(scene))
 
 
+def test_labels_of_arms_cover_no_other_label() -> None:
+    turns = (-150, -90, -60, 0, 30, 90, 120, 180)
+    arms = [Arm((1, 2), (first, second)) for first in turns for second in turns]
+    arms += [Arm((2, 1, 1), angles) for angles in combinations(turns, 3)]
+    for arm in arms:
+        scene = scene_of(arm)
+        assert scene is not None
+        boxes = [box_of(label) for label in labels(scene)]
+        assert len(boxes) == 2 * len(arm.lengths)
+        assert not [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])], arm
+
+
 def words(source: str, folder: Path) -> list[tuple[float, float, float, float]]:
     """Where the words of a page are: left, top, right and bottom."""
     if shutil.which("pdftotext") is None:

@@ -1,12 +1,16 @@
 """Arms and pendulums as scenes."""
 
+from collections.abc import Iterable
+from itertools import pairwise
 from math import cos, radians, sin
 
 from rldrill.problems.pictures import Arm, Pendulum
-from rldrill.render.pictures.scene import Box, Ellipse, Label, Path, Point, Scene, Shape, rectangle
+from rldrill.render.pictures.scene import Box, Ellipse, Label, Path, Point, Scene, Shape, label_box, rectangle
 
-_REACH = 110.0
+_REACH = 120.0
 _ROD = 60.0
+#: Points of a line that are tested for a label lying on them.
+_SAMPLES = 24
 
 
 def arm(picture: Arm) -> Scene:
@@ -14,26 +18,55 @@ def arm(picture: Arm) -> Scene:
     scale = _REACH / sum(picture.lengths)
     at: Point = (0.0, 0.0)
     heading = 0.0
-    lines: list[Shape] = [*_ground(at)]
-    labels: list[Shape] = []
+    lines: list[Path] = [*_ground(at)]
+    joints: list[Shape] = []
+    wanted: list[tuple[str, list[Point]]] = []
     for index, (length, angle) in enumerate(zip(picture.lengths, picture.angles, strict=True), 1):
-        lines.append(Path((at, _towards(at, heading, 30)), dashed=True, width=0.4))
-        lines.append(Path(tuple(_towards(at, heading + angle * step / 12, 17) for step in range(13)), width=0.4))
-        labels.append(Label(_towards(at, heading + angle / 2, 27), f"$θ_{index}$", plate=True))
+        if angle:
+            lines.append(Path((at, _towards(at, heading, 30)), dashed=True, width=0.4))
+            lines.append(Path(tuple(_towards(at, heading + angle * step / 12, 17) for step in range(13)), width=0.4))
+        wanted.append((f"$θ_{index}$", list(_beside_arc(at, heading, angle))))
         heading += angle
         after = _towards(at, heading, length * scale)
         lines.append(Path((at, after), width=2.2))
-        middle = _towards(at, heading, length * scale * 0.6)
-        labels.append(Label(_towards(middle, heading + (90 if angle >= 0 else -90), 9), f"$l_{index}$", plate=True))
-        labels.append(Ellipse(at, (3, 3)))
+        wanted.append((f"$l_{index}$", list(_beside_link(at, heading, length * scale))))
+        joints.append(Ellipse(at, (3, 3)))
         at = after
-    labels.append(Ellipse(at, (2.5, 2.5), 0.0))
-    angles = zip(picture.lengths, picture.angles, strict=True)
-    words = [f"$l_{i} = {_plain(length)}$, $θ_{i} = {_plain(angle)}°$" for i, (length, angle) in enumerate(angles, 1)]
-    scene = Scene((*lines, *labels))
-    box = scene.box
-    notes = [Label((box.right + 12, box.top + 8 + 12 * row), line, "left") for row, line in enumerate(words)]
-    return Scene((*scene.shapes, *notes))
+    return Scene((*lines, *joints, Ellipse(at, (2.5, 2.5), 0.0), *_placed(wanted, lines)))
+
+
+def _beside_arc(joint: Point, heading: float, angle: float) -> Iterable[Point]:
+    """Where the label of a joint's angle may stand: outside its arc, or anywhere near a joint that is straight."""
+    if not angle:
+        return (_towards(joint, heading + side, 12) for side in (-90, 90, -60, 60, -120, 120))
+    return (_towards(joint, heading + angle * share, far) for far in (26, 33) for share in (0.5, 0.3, 0.7, 0.15, 0.85))
+
+
+def _beside_link(joint: Point, heading: float, length: float) -> Iterable[Point]:
+    """Where the label of a link may stand: on either side, near its middle if that can be."""
+    middles = (_towards(joint, heading, length * share) for share in (0.55, 0.4, 0.7, 0.25, 0.85))
+    return (_towards(middle, heading + side, 8) for middle in middles for side in (90, -90))
+
+
+def _placed(wanted: list[tuple[str, list[Point]]], lines: list[Path]) -> list[Label]:
+    """The labels, one after the other where they cover least; the first place wins if that is no worse."""
+    taken = [point for line in lines for ends in pairwise(line.points) for point in _along(*ends)]
+    labels: list[Label] = []
+    for words, places in wanted:
+        boxes = [label_box(label) for label in labels]
+
+        def covered(at: Point, words: str = words, boxes: list[Box] = boxes) -> int:
+            box = label_box(Label(at, words))
+            hidden = sum(box.left < x < box.right and box.top < y < box.bottom for x, y in taken)
+            return hidden + _SAMPLES * sum(map(box.overlaps, boxes))
+
+        labels.append(Label(min(places, key=covered), words, plate=True))
+    return labels
+
+
+def _along(start: Point, end: Point) -> Iterable[Point]:
+    shares = (step / _SAMPLES for step in range(_SAMPLES + 1))
+    return ((start[0] + (end[0] - start[0]) * share, start[1] + (end[1] - start[1]) * share) for share in shares)
 
 
 def pendulum(picture: Pendulum) -> Scene:
@@ -56,8 +89,6 @@ def pendulum(picture: Pendulum) -> Scene:
     shapes.append(Path(arc, width=0.4))
     shapes += [Ellipse(pivot, (2.4, 2.4)), Ellipse(weight, (6, 6), 0.5)]
     shapes.append(Label(_swung(pivot, picture.angle / 2, 39), "$θ$", plate=True))
-    box = Scene(tuple(shapes)).box
-    shapes.append(Label((box.right + 10, (box.top + box.bottom) / 2), f"$θ = {_plain(picture.angle)}°$", "left"))
     return Scene(tuple(shapes))
 
 
@@ -71,11 +102,7 @@ def _swung(at: Point, degrees: float, far: float) -> Point:
     return _towards(at, degrees - 90, far)
 
 
-def _ground(at: Point) -> tuple[Shape, ...]:
+def _ground(at: Point) -> tuple[Path, ...]:
     x, y = at
     ticks = (Path(((x - 10 + 5 * n, y + 8), (x - 13 + 5 * n, y + 12)), width=0.4) for n in range(5))
     return (Path(((x - 12, y + 8), (x + 12, y + 8))), Path(((x - 5, y + 8), (x, y), (x + 5, y + 8))), *ticks)
-
-
-def _plain(number: float) -> str:
-    return f"{round(number, 4):g}".replace("-", "−")

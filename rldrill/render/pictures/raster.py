@@ -43,8 +43,12 @@ def raster(scene: Scene) -> list[str]:
                 row = min(high - 1, max(0, int((y - box.top) / _DOT / 4 - (SHARES[anchor][1] - 0.5))))
                 column = round((x - box.left) / _DOT / 2 - SHARES[anchor][0] * len(text))
                 texts[row, max(0, column)] = text
-    return [_row(line, {at: text for (row, at), text in texts.items() if row == number})
-            for number, line in enumerate(dots)]  # fmt: skip
+    lines = [
+        _row(line, {at: text for (row, at), text in texts.items() if row == number}) for number, line in enumerate(dots)
+    ]
+    while lines and not lines[-1]:
+        lines.pop()
+    return lines
 
 
 def _row(cells: list[int], texts: dict[int, str]) -> str:
