@@ -6,11 +6,7 @@ from typing import Any
 import pytest
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 def test_the_pushed_door_of_probabilistic_robotics() -> None:

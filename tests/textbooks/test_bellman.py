@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-import rldrill
+from asking import solved
 
 # Sutton & Barto 2018, Example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
 # grid earns −1 and changes nothing; γ = 0.9.
@@ -26,10 +26,6 @@ def gridworld() -> dict[str, Any]:
                 after, reward = cell, -1
             rows.append([name(cell), move, name(after), 1, reward])
     return {"transitions": rows}
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def as_float(value: Any) -> float:

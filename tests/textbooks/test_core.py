@@ -8,12 +8,9 @@ import pytest
 from flint import fmpq
 
 import rldrill
+from asking import solved
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def test_the_racing_car_of_berkeley() -> None:

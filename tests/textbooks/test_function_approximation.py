@@ -1,15 +1,9 @@
 """Function approximation: numbers from books, as literals."""
 
-from typing import Any
-
 import sympy
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 def test_the_gaussian_at_one_two_and_three_sigma() -> None:

@@ -1,15 +1,9 @@
 """Inverse reinforcement learning worked out by hand, step by step in the comments."""
 
-from typing import Any
-
 import sympy
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 def test_discounted_features_of_two_trajectories() -> None:

@@ -7,12 +7,8 @@ import sympy
 from flint import fmpq
 from sympy import Rational, pi, sqrt
 
-import rldrill
+from asking import solved
 from rldrill.solutions.exact import to_sympy
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def written(matrix: Any) -> list[list[Any]]:

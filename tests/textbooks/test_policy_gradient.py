@@ -1,16 +1,10 @@
 """Policy gradient: numbers from books and papers, as literals."""
 
-from typing import Any
-
 import pytest
 import sympy
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 @pytest.mark.parametrize(
