@@ -96,8 +96,8 @@ def test_the_bent_coin_of_mackay(heads: int, tails: int, printed: str) -> None:
 @pytest.mark.parametrize(
     ("model", "printed"),
     [
-        # 250 spins of a Belgian euro, 140 heads, against a fair coin. MacKay 2003, exercise 3.15, tries Beta(α, α): 0.48
-        # for α = 1, which is 140! 110!/251! · 2²⁵⁰; 1.8 for α = 20 and 1.9 for α = 55.
+        # 250 spins of a Belgian euro, 140 heads, against a fair coin. MacKay 2003, exercise 3.15, tries Beta(α, α):
+        # 0.48 for α = 1, which is 140! 110!/251! · 2²⁵⁰; 1.8 for α = 20 and 1.9 for α = 55.
         ({"a": 1, "b": 1}, "0.48"), ({"a": 20, "b": 20}, "1.8"), ({"a": 55, "b": 55}, "1.9"),
         # Downey 2013, section 11.1: the θ that is chosen after the data is 6.1 times as likely.
         ({"theta": "140/250"}, "6.1"),
@@ -198,9 +198,9 @@ def test_the_variances_of_two_numbers() -> None:
         ("0.2", "0.6", "0.1", "0.6"),
         # Russell & Norvig 2010, section 13.6, the wumpus world: α ⟨0.2 · 0.36, 0.8 · 0.20⟩ ≈ ⟨0.31, 0.69⟩.
         ("0.2", "0.36", "0.2", "0.31"),
-        # Russell & Norvig 2010, section 14.4.1: both neighbours call, P(burglary) = 0.284. Of the tables in figure 14.2,
-        # they do with 0.9 · 0.7 when there is an alarm and 0.05 · 0.01 when not; the alarm's chance with a burglary is
-        # 0.002 · 0.95 + 0.998 · 0.94 = 0.94002, without 0.002 · 0.29 + 0.998 · 0.001 = 0.001578.
+        # Russell & Norvig 2010, section 14.4.1: both neighbours call, P(burglary) = 0.284. Of the tables in figure
+        # 14.2, they do with 0.9 · 0.7 when there is an alarm and 0.05 · 0.01 when not; the alarm's chance with a
+        # burglary is 0.002 · 0.95 + 0.998 · 0.94 = 0.94002, without 0.002 · 0.29 + 0.998 · 0.001 = 0.001578.
         ("0.001", "0.59224259", "0.001493351", "0.284"),
     ],
 )  # fmt: skip
@@ -225,7 +225,8 @@ def test_two_positive_tests_of_dive_into_deep_learning() -> None:
 
 
 def test_the_dice_of_think_bayes() -> None:
-    # Downey 2013, section 3.1: dice of 4, 6, 8, 12 and 20 sides; the posterior after a 6, and after 6, 8, 7, 7, 5, 4 more.
+    # Downey 2013, section 3.1: dice of 4, 6, 8, 12 and 20 sides; the posterior after a 6, and after 6, 8, 7, 7, 5, 4
+    # more.
     sides = {str(n): n for n in (4, 6, 8, 12, 20)}
     rolls = [6, 6, 8, 7, 7, 5, 4]
     beliefs = solved(
@@ -267,9 +268,10 @@ def test_the_urns_of_mackay() -> None:
 
 
 def test_the_localisation_of_thruns_course() -> None:
-    # Thrun, Artificial Intelligence for Robotics (Udacity CS373), lesson 1: a ring of five cells, green, red, red, green,
-    # green; 0.6 and 0.2 for the right and the wrong colour; a move of 1 undershoots and overshoots with 0.1 each.
-    # Seeing red from the uniform belief gives 1/9, 1/3, 1/3, 1/9, 1/9; red, move, green, move prints the last list.
+    # Thrun, Artificial Intelligence for Robotics (Udacity CS373), lesson 1: a ring of five cells, green, red, red,
+    # green, green; 0.6 and 0.2 for the right and the wrong colour; a move of 1 undershoots and overshoots with 0.1
+    # each. Seeing red from the uniform belief gives 1/9, 1/3, 1/3, 1/9, 1/9; red, move, green, move prints the last
+    # list.
     cells = "ABCDE"
     belief = dict.fromkeys(cells, "1/5")
     motion = {"move": {cells[i]: {cells[(i + k) % 5]: p for k, p in ((0, 0.1), (1, 0.8), (2, 0.1))} for i in range(5)}}

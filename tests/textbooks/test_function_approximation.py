@@ -19,13 +19,13 @@ def test_the_gaussian_at_one_two_and_three_sigma() -> None:
 @pytest.mark.parametrize(
     ("position", "centre", "sigma", "printed"),
     [
-        # Stanford's Machine Learning (Coursera), exercise 6, section 1.2.1: gaussianKernel of (1, 2, 1) and (0, 4, -1) with
-        # σ = 2 "should be about 0.324652".
+        # Stanford's Machine Learning (Coursera), exercise 6, section 1.2.1: gaussianKernel of (1, 2, 1) and (0, 4, −1)
+        # with σ = 2 "should be about 0.324652".
         ([1, 2, 1], [0, 4, -1], 2, "0.324652"),
-        # MATLAB, the manual of newrbe: exp(-n²) is 0.5 at n = 0.8326. With σ = 1 that is twice n² = d²/2.
+        # MATLAB, the manual of newrbe: exp(−n²) is 0.5 at n = 0.8326. With σ = 1 that is twice n² = d²/2.
         (["0.8326", "0.8326"], [0, 0], 1, "0.5000"),
-        # scikit-learn, rbf_kernel, example: γ = 1/3 and the squared distances 1 and 2 give 0.71… and 0.51…; 6/(2·3²) and
-        # 12/(2·3²) are the same exponents.
+        # scikit-learn, rbf_kernel, example: γ = 1/3 and the squared distances 1 and 2 give 0.71… and 0.51…; 6/(2·3²)
+        # and 12/(2·3²) are the same exponents.
         ([0, 0, 0], [2, 1, 1], 3, "0.71"),
         ([0, 0, 0], [2, 2, 2], 3, "0.51"),
     ],
@@ -36,8 +36,8 @@ def test_gaussians_of_manuals_and_courses(position: Any, centre: Any, sigma: int
 
 
 def test_approximate_q_learning_in_berkeleys_pacman() -> None:
-    # CS 188, the lecture on approximate Q-learning: Q = 4.0 f_DOT - 1.0 f_GST with f_DOT = 0.5 and f_GST = 1 is 1; the reward -500
-    # ends the game, so the difference is -501, and the weights become 3.0 and -3.0 (which takes α = 0.004).
+    # CS 188, the lecture on approximate Q-learning: Q = 4.0 f_DOT − 1.0 f_GST with f_DOT = 0.5 and f_GST = 1 is 1; the
+    # reward −500 ends the game, so the difference is −501, and the weights become 3.0 and −3.0 (which takes α = 0.004).
     value = solved("linear-value", theta=[4, -1, 0, 0], actions=["north", "stop"], features=["1/2", 1], action="north")
     assert value["b"]["s", "north"] == 1
     run = {"states": ["dot and ghost", "over"], "rewards": [-500], "terminal": ["over"]}

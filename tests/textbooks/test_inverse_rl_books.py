@@ -92,21 +92,21 @@ def test_the_drunkard_of_grinstead_and_snell() -> None:
     walk = {"1": {"home": "1/2", "2": "1/2"}, "2": {"1": "1/2", "3": "1/2"}, "3": {"2": "1/2", "bar": "1/2"}}
     rows = {"1": (fmpq(3, 2), 1, fmpq(1, 2)), "2": (1, 2, 1), "3": (fmpq(1, 2), 1, fmpq(3, 2))}
     for corner, row in rows.items():
-        answers = solved(
+        *_, visits = solved(
             "feature-expectations-policy",
             motion={"walk": walk}, policy=dict.fromkeys(walk, "walk"), start={corner: 1}, terminal=["home", "bar"],
             features={"1": [1, 0, 0], "2": [0, 1, 0], "3": [0, 0, 1]}, gamma=1,
-        )  # fmt: skip
-        assert answers["b"] == row
+        ).values()  # fmt: skip
+        assert visits == row
 
 
 @pytest.mark.parametrize(
     ("expert", "towards", "foot", "rest", "distance"),
     [
-        # The projection of apprenticeship learning, from 0. Strang, Introduction to Linear Algebra, section 4.2: (1, 1, 1)
-        # onto the line through (1, 2, 2) is (5/9, 10/9, 10/9), and what is left over is (4/9, -1/9, -1/9).
+        # The projection of apprenticeship learning, from 0. Strang, Introduction to Linear Algebra, section 4.2: (1, 1,
+        # 1) onto the line through (1, 2, 2) is (5/9, 10/9, 10/9), and what is left over is (4/9, −1/9, −1/9).
         ([1, 1, 1], [1, 2, 2], ("5/9", "10/9", "10/9"), ("4/9", "-1/9", "-1/9"), sympy.sqrt(2) / 3),
-        # Lay, Linear Algebra and Its Applications, section 6.2: (7, 6) onto (4, 2) is (8, 4), the rest (-1, 2), and the
+        # Lay, Linear Algebra and Its Applications, section 6.2: (7, 6) onto (4, 2) is (8, 4), the rest (−1, 2), and the
         # distance √5.
         ([7, 6], [4, 2], (8, 4), (-1, 2), sympy.sqrt(5)),
     ],
@@ -120,8 +120,9 @@ def test_projections_of_linear_algebra(expert: Any, towards: Any, foot: Any, res
 
 @pytest.mark.parametrize(
     ("right", "wrong", "margin", "printed"),
-    # Stanford's CS231n, notes on linear classification: scores 13, -7 and 11, the first one right, margin 10: the loss is 8.
-    # Its slides: 3.2, 5.1 and -1.7 with margin 1: 2.9. At most one constraint fails in both, so the slack is the loss.
+    # Stanford's CS231n, notes on linear classification: scores 13, −7 and 11, the first one right, margin 10: the loss
+    # is 8. Its slides: 3.2, 5.1 and −1.7 with margin 1: 2.9. At most one constraint fails in both, so the slack is the
+    # loss.
     [("13", ["-7", "11"], 10, fmpq(8)), ("3.2", ["5.1", "-1.7"], 1, fmpq(29, 10))],
 )
 def test_the_hinge_loss_of_cs231n(right: str, wrong: list[str], margin: int, printed: fmpq) -> None:
