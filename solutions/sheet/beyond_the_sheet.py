@@ -40,7 +40,7 @@ with evaluate(False):
         phi(i),
         SumOver(theta(j), j, Counting(1, i)),
         title="Angle of a link against the base",
-        source="Craig 2005, section 3.3",
+        source="Siciliano et al. 2009, section 2.9.1",
         hint="Each joint turns everything behind it, so the angles of all joints before the link add up.",
     )
     ABSOLUTE_ANGLES = misread(
@@ -101,7 +101,7 @@ with evaluate(False):
         determinant,
         length(1) * length(2) * sin(theta(2)),
         title="Determinant of the Jacobian of a planar arm",
-        source="Siciliano et al. 2009, example 3.2",
+        source="Siciliano et al. 2009, section 3.3",
         hint="It vanishes where the arm is stretched out or folded back.",
         note="The same for three links, where the orientation is the third row.",
     )
@@ -126,7 +126,7 @@ with evaluate(False):
             0, 0, 0, 1,
         ),
         title="Transform of one link, Rot_z(θ) Trans_z(d) Trans_x(a) Rot_x(α)",
-        source="Siciliano et al. 2009, eq. 2.52",
+        source="Siciliano et al. 2009, section 2.8.2",
         hint="Turn by θ and shift by d along z, then shift by a and turn by α along the new x.",
     )  # fmt: skip
     CRAIGS = misread(
@@ -146,7 +146,7 @@ with evaluate(False):
         T_total,
         before * after,
         title="Transforms of a chain of links",
-        source="Siciliano et al. 2009, eq. 2.50",
+        source="Siciliano et al. 2009, section 2.8.1",
         hint="From the base outwards, each new link is multiplied from the right.",
         sign="←",
     )

@@ -212,7 +212,7 @@ with evaluate(False):
         Norm(),
         MaxOver(Abs(First(s) - Second(s)), s, States),
         title="Maximum norm",
-        source="Puterman 1994, section 6.2",
+        source="Puterman 1994, chapter 6",
         hint="Take the greatest difference of all states, without its sign.",
     )
     SUM_FOR_MAX = misread(
@@ -227,7 +227,7 @@ with evaluate(False):
         Distance(k),
         gamma**k * Distance(0),
         title="Contraction of value iteration",
-        source="Puterman 1994, section 6.2",
+        source="Puterman 1994, section 6.3",
         hint="Every sweep shrinks the greatest error to at most γ times what it was.",
         sign="≤",
     )
@@ -248,7 +248,7 @@ with evaluate(False):
         Distance(0),
         Change(0) / (1 - gamma),
         title="Distance to V* from one sweep",
-        source="Puterman 1994, section 6.2",
+        source="Puterman 1994, chapter 6",
         hint="The error at the start is at most what the first sweep changed, divided by 1 − γ.",
         sign="≤",
     )

@@ -6,7 +6,7 @@ import pytest
 
 from asking import solved
 
-# Sutton & Barto 2018, Example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
+# Sutton & Barto 2018, example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
 # grid earns −1 and changes nothing; γ = 0.9.
 MOVES = {"north": (-1, 0), "south": (1, 0), "east": (0, 1), "west": (0, -1)}
 JUMPS = {(0, 1): ((4, 1), 10), (0, 3): ((2, 3), 5)}

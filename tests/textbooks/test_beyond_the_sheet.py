@@ -18,7 +18,7 @@ def assert_is(matrix: Any, expected: list[list[Any]]) -> None:
         assert all(sympy.simplify(a - b) == 0 for a, b in zip(line, wanted, strict=True)), (found, expected)
 
 
-def test_the_planar_arm_of_craig_and_siciliano() -> None:
+def test_the_planar_arm_of_siciliano() -> None:
     # Siciliano et al. 2009, section 2.9.1: x = l₁c₁ + l₂c₁₂, y = l₁s₁ + l₂s₁₂; l = (2, 1), θ = (π/6, π/3):
     # c₁ = √3/2, s₁ = 1/2, c₁₂ = 0, s₁₂ = 1.
     answers = solved("forward-kinematics", lengths=[2, 1], angles=["pi/6", "pi/3"])
@@ -27,7 +27,7 @@ def test_the_planar_arm_of_craig_and_siciliano() -> None:
 
 
 def test_the_jacobian_of_craig_and_siciliano() -> None:
-    # Craig 2005, eq. 5.67, and Siciliano et al. 2009, section 3.2.1, for two links:
+    # Craig 2005, section 5.7, and Siciliano et al. 2009, section 3.2.1, for two links:
     # J = (−l₁s₁ − l₂s₁₂  −l₂s₁₂; l₁c₁ + l₂c₁₂  l₂c₁₂), det J = l₁l₂ sin θ₂.
     answers = solved("jacobian", lengths=[2, 1], angles=["pi/6", "pi/3"], rates=[1, 2])
     assert_is(answers["a"], [[-2, -1], [sqrt(3), 0]])
@@ -48,7 +48,7 @@ def test_the_first_link_of_the_anthropomorphic_arm() -> None:
 
 
 def test_a_step_of_maml_by_hand() -> None:
-    # Finn et al. 2017, eq. 1, for L = ½ (θ − 4)² and α = β = 1/2, θ = 0: θ′ = 0 − ½·(−4) = 2;
+    # Finn, Abbeel & Levine 2017, eq. 1, for L = ½ (θ − 4)² and α = β = 1/2, θ = 0: θ′ = 0 − ½·(−4) = 2;
     # the gradient of ½ (θ′ − 4)² by θ is (1 − ½)·(2 − 4) = −1; θ becomes 1/2.
     answers = solved("maml-step", theta=0, tasks=[[1, 4]], alpha="1/2", beta="1/2")
     assert answers == {"a": fmpq(2), "b": fmpq(1, 2)}

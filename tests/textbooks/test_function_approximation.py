@@ -59,7 +59,7 @@ def test_w_and_2w() -> None:
 
 
 def test_bairds_counterexample() -> None:
-    # Sutton & Barto 2018, example 11.1 (figure 11.1): the upper states are worth 2wᵢ + w₈, the lower one w₇ + 2w₈;
+    # Sutton & Barto 2018, section 11.2 (figure 11.1): the upper states are worth 2wᵢ + w₈, the lower one w₇ + 2w₈;
     # w = (1, 1, 1, 1, 1, 1, 10, 1), γ = 0.99, α = 0.01, reward 0. From the first state down: 3 and 12, so
     # δ = 0.99·12 − 3 = 8.88, and w₁ = 1 + 0.01·8.88·2 = 1.1776, w₈ = 1 + 0.01·8.88 = 1.0888.
     features = {"upper": [2, 0, 0, 0, 0, 0, 0, 1], "lower": [0, 0, 0, 0, 0, 0, 1, 2]}

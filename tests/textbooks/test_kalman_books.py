@@ -34,9 +34,9 @@ def test_fusing_two_measurements_by_hand() -> None:
 
 
 def test_the_random_walk_of_russell_and_norvig() -> None:
-    # Russell & Norvig 2010, section 15.4.2 and figure 15.10: μ0 = 0, σ0 = 1.5, σx = 2, σz = 1, first reading 2.5.
-    # Their equation 15.20 gives ((σ0² + σx²) z + σz² μ0)/(σ0² + σx² + σz²) = (25/4 · 5/2)/(29/4) = 125/58 and the
-    # variance (25/4 · 1)/(29/4) = 25/29.
+    # Russell & Norvig 2010, section 15.4.2: μ0 = 0, σ0 = 1.5, σx = 2, σz = 1, first reading 2.5.
+    # Their update in one dimension gives ((σ0² + σx²) z + σz² μ0)/(σ0² + σx² + σz²) = (25/4 · 5/2)/(29/4) = 125/58 and
+    # the variance (25/4 · 1)/(29/4) = 25/29.
     step = {"u": 0, "z": "2.5"}
     answers = solved("kalman-filter", mean=0, covariance="2.25", process=4, sensor=1, steps=[step])
     assert answers["b"] == (fmpq(125, 58), fmpq(25, 29))

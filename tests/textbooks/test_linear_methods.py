@@ -33,8 +33,8 @@ def test_the_golden_ratio_of_the_simplest_riccati_equation() -> None:
 
 
 def test_the_cheapest_control_of_an_unstable_system() -> None:
-    # Bertsekas 2017, section 3.1: with Q = 0 and |A| > 1 the cost-to-go is (A² − 1)R/B², and the closed loop
-    # is 1/A. A = 2, B = R = 1: S = 3, L = 3·2/(1 + 3) = 3/2, A − L = 1/2.
+    # With Q = 0 and |A| > 1, S = A²S − A²B²S²/(R + B²S) has the solution (A² − 1)R/B², and the closed loop is 1/A.
+    # A = 2, B = R = 1: S = 3, L = 3·2/(1 + 3) = 3/2, A − L = 1/2.
     answers = solved("lqr-infinite", A=2, B=1, Q=0, R=1)
     assert [answers[label][0, 0] for label in "abc"] == [-3, fmpq(3, 2), fmpq(1, 2)]
 
@@ -57,7 +57,7 @@ def test_a_double_integrator_one_step_before_the_end() -> None:
     assert_is(answers["c"], [[-2]])
 
 
-def test_the_double_integrator_of_matlabs_and_scipys_manuals_in_decimals() -> None:
+def test_the_system_of_scipys_manual_in_decimals() -> None:
     # scipy.linalg.solve_discrete_are, example: a = (0 1; 0 −1), b = (1 0; 2 1), q = (−4 −4; −4 7) has an indefinite
     # q and is refused; the same a and b with q = I and r = I must solve the equation to twelve decimals.
     problem = {"A": [[0, 1], [0, -1]], "B": [[1, 0], [2, 1]], "R": [[1, 0], [0, 1]]}
@@ -197,7 +197,7 @@ def test_the_riccati_equation_of_octaves_manual() -> None:
 
 
 def test_the_cruise_control_of_astrom_and_murray() -> None:
-    # Åström & Murray 2008, the cruise control example: m = 1600, fourth gear (α = 12), T_m = 190, ω_m = 420, β = 0.4,
+    # Åström & Murray 2008, section 5.4, cruise control: m = 1600, fourth gear (α = 12), T_m = 190, ω_m = 420, β = 0.4,
     # C_r = 0.01, ρ = 1.3, C_d = 0.32, A = 2.4, g = 9.8. At v = 20 the throttle is 0.1687, and the linearisation is
     # −0.0101 for the speed and 1.32 for the throttle.
     answers = solved(
