@@ -15,7 +15,7 @@ from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Part, Table
 
 TITLE = "Bayes' rule"
-SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
+SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
 REVISION = 1
 
 

@@ -16,7 +16,7 @@ from rldrill.problems.settings import draw_setting
 from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
-SOURCE = "Puterman 1994, section 6.2"
+SOURCE = "Puterman 1994, sections 6.2 and 6.3"
 REVISION = 1
 
 

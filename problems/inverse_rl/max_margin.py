@@ -15,7 +15,7 @@ from rldrill.problems.parts import Number, Part
 from rldrill.problems.parts import Table as TableKind
 
 TITLE = "Max-margin constraints"
-SOURCE = "Ratliff, Bagnell & Zinkevich 2006, section 2"
+SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
 REVISION = 1
 
 EXPERT = "expert"

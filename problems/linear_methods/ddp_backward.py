@@ -16,7 +16,7 @@ from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import System, draw_system, plan
 
 TITLE = "Backward step of DDP"
-SOURCE = "Tassa, Erez & Todorov 2012, section II"
+SOURCE = "Tassa, Erez & Todorov 2012"
 REVISION = 1
 
 

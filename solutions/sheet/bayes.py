@@ -133,7 +133,7 @@ with evaluate(False):
         p(h, z),
         likelihood(z, h) * p(h) / SumOver(likelihood(z, h1) * p(h1), h1, Hypotheses),
         title="Bayes' rule",
-        source="Thrun, Burgard & Fox 2005, eq. 2.24",
+        source="Thrun, Burgard & Fox 2005, section 2.2",
         hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these.",
         also=(likelihood(z, h) * p(h) / p(z),),
     )
@@ -161,7 +161,7 @@ with evaluate(False):
         p(first, z),
         likelihood(z, first) * p(first) / (likelihood(z, first) * p(first) + likelihood(z, second) * p(second)),
         title="Bayes' rule for two states",
-        source="Thrun, Burgard & Fox 2005, eq. 2.24, with two states",
+        source="Thrun, Burgard & Fox 2005, section 2.2, with two states",
         hint="The two products of likelihood and prior stand below the line, the one asked for above it.",
     )
 
@@ -398,7 +398,7 @@ with evaluate(False):
         * factorial(beta_b + tails - 1)
         / (factorial(beta_a - 1) * factorial(beta_b - 1) * factorial(beta_a + beta_b + heads + tails - 1)),
         title="Evidence of a coin",
-        source="MacKay 2003, eq. 3.12, there with a = b = 1",
+        source="MacKay 2003, section 3.2, there with a = b = 1",
         hint="Average the likelihood over the prior of θ; with whole a and b that is a quotient of factorials.",
         also=(IntegralOver(with_theta(M) * density(theta, M), theta, Thetas),),
         note="For the prior $Beta(a, b)$.",

@@ -153,7 +153,7 @@ with evaluate(False):
         worth_expert,
         worth(policy) + margin(policy) - xi,
         title="Max-margin constraint, for all π",
-        source="Ratliff, Bagnell & Zinkevich 2006, section 2",
+        source="Ratliff, Bagnell & Zinkevich 2006",
         hint="The expert must be better than every policy by the margin, or the slack ξ has to make up for it.",
         sign="≥",
     )
@@ -162,7 +162,7 @@ with evaluate(False):
         xi,
         MaxOver(worth(policy) + margin(policy) - worth_expert, policy, Policies),
         title="Smallest slack for all constraints",
-        source="Ratliff, Bagnell & Zinkevich 2006, section 2",
+        source="Ratliff, Bagnell & Zinkevich 2006",
         hint="One ξ serves all constraints, so it is as large as the worst violation, and 0 if there is none.",
         note="The policies include the expert's own, with the margin 0.",
         place=Place.BEYOND,

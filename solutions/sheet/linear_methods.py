@@ -434,7 +434,7 @@ f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(lin
 second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("s"), k) for k in by)), _POINT))
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
-_DDP = "Tassa, Erez & Todorov 2012, section II, with rewards for costs"
+_DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
 
 with evaluate(False):
     DDP = Formula(

@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-import rldrill
+from asking import solved
 
-# Sutton & Barto 2018, Example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
+# Sutton & Barto 2018, example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
 # grid earns −1 and changes nothing; γ = 0.9.
 MOVES = {"north": (-1, 0), "south": (1, 0), "east": (0, 1), "west": (0, -1)}
 JUMPS = {(0, 1): ((4, 1), 10), (0, 3): ((2, 3), 5)}
@@ -26,10 +26,6 @@ def gridworld() -> dict[str, Any]:
                 after, reward = cell, -1
             rows.append([name(cell), move, name(after), 1, reward])
     return {"transitions": rows}
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def as_float(value: Any) -> float:

@@ -8,12 +8,9 @@ import pytest
 from flint import fmpq
 
 import rldrill
+from asking import solved
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def test_the_racing_car_of_berkeley() -> None:
@@ -82,7 +79,7 @@ def test_the_random_walk_of_sutton_and_barto() -> None:
 
 
 def test_sarsa_by_hand() -> None:
-    # Sutton & Barto, eq. 6.7, with α = γ = 1/2. The action taken is not the best one; the first update counts
+    # Sutton & Barto 2018, eq. 6.7, with α = γ = 1/2. The action taken is not the best one; the first update counts
     # in the second; nothing follows the end.
     # Q(a, x) = 2 + 1/2·(1 + 1/2·4 − 2) = 5/2, Q(b, y) = 4 + 1/2·(−2 + 1/2·5/2 − 4) = 13/8,
     # Q(a, x) = 5/2 + 1/2·(3 + 0 − 5/2) = 11/4.

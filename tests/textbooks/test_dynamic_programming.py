@@ -8,13 +8,9 @@ from typing import Any
 import pytest
 from flint import fmpq
 
-import rldrill
+from asking import solved
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def model(example: str) -> Any:

@@ -19,7 +19,7 @@ def optimal(**given: Any) -> Any:
 
 
 def test_the_4_by_3_world_of_aima() -> None:
-    # Russell & Norvig, 3rd ed., figure 17.3, three decimals, row by row from above.
+    # Russell & Norvig 2010, figure 17.3, three decimals, row by row from above.
     figure = ["0.812", "0.868", "0.918", "0.762", "0.660", "0.705", "0.655", "0.611", "0.388"]
     values = rldrill.load(EXAMPLES / "aima-4x3.toml").solve()["a"]
     assert [f"{float(int(v.numerator) / int(v.denominator)):.3f}" for v in values.values()] == figure
@@ -45,7 +45,7 @@ def test_best_actions_that_go_round_for_ever_are_told() -> None:
 
 def test_the_cliff() -> None:
     pytest.importorskip("gymnasium")
-    # Sutton & Barto, Example 6.6: the optimal path runs along the edge: up, eleven steps right, down.
+    # Sutton & Barto 2018, example 6.6: the optimal path runs along the edge: up, eleven steps right, down.
     assert optimal(gamma=1, mdp={"gymnasium": "CliffWalking-v1"})["36"] == -13
 
 

@@ -4,11 +4,7 @@ from typing import Any
 
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 def test_exercise_3_9_of_sutton_and_barto() -> None:

@@ -1,18 +1,14 @@
-"""Published or hand-checkable numbers of linear methods and of kinematics."""
+"""Published or hand-checkable numbers of linear methods."""
 
 from typing import Any
 
 import pytest
 import sympy
 from flint import fmpq
-from sympy import Rational, pi, sqrt
+from sympy import Rational, sqrt
 
-import rldrill
+from asking import rounded, solved
 from rldrill.solutions.exact import to_sympy
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 def written(matrix: Any) -> list[list[Any]]:
@@ -37,8 +33,8 @@ def test_the_golden_ratio_of_the_simplest_riccati_equation() -> None:
 
 
 def test_the_cheapest_control_of_an_unstable_system() -> None:
-    # Bertsekas 2017, section 3.1: with Q = 0 and |A| > 1 the cost-to-go is (A² − 1)R/B², and the closed loop
-    # is 1/A. A = 2, B = R = 1: S = 3, L = 3·2/(1 + 3) = 3/2, A − L = 1/2.
+    # With Q = 0 and |A| > 1, S = A²S − A²B²S²/(R + B²S) has the solution (A² − 1)R/B², and the closed loop is 1/A.
+    # A = 2, B = R = 1: S = 3, L = 3·2/(1 + 3) = 3/2, A − L = 1/2.
     answers = solved("lqr-infinite", A=2, B=1, Q=0, R=1)
     assert [answers[label][0, 0] for label in "abc"] == [-3, fmpq(3, 2), fmpq(1, 2)]
 
@@ -61,7 +57,7 @@ def test_a_double_integrator_one_step_before_the_end() -> None:
     assert_is(answers["c"], [[-2]])
 
 
-def test_the_double_integrator_of_matlabs_and_scipys_manuals_in_decimals() -> None:
+def test_the_system_of_scipys_manual_in_decimals() -> None:
     # scipy.linalg.solve_discrete_are, example: a = (0 1; 0 −1), b = (1 0; 2 1), q = (−4 −4; −4 7) has an indefinite
     # q and is refused; the same a and b with q = I and r = I must solve the equation to twelve decimals.
     problem = {"A": [[0, 1], [0, -1]], "B": [[1, 0], [2, 1]], "R": [[1, 0], [0, 1]]}
@@ -158,37 +154,83 @@ def test_a_backward_step_of_ddp_by_hand() -> None:
     assert [answers[label][0, 0] for label in "abcdefg"] == expected
 
 
-def test_the_planar_arm_of_craig_and_siciliano() -> None:
-    # Siciliano et al. 2009, section 2.9.1: x = l₁c₁ + l₂c₁₂, y = l₁s₁ + l₂s₁₂; l = (2, 1), θ = (π/6, π/3):
-    # c₁ = √3/2, s₁ = 1/2, c₁₂ = 0, s₁₂ = 1.
-    answers = solved("forward-kinematics", lengths=[2, 1], angles=["pi/6", "pi/3"])
-    assert answers["a"] == pi / 2
-    assert answers["b"] == (sqrt(3), 2)
+def decimals(matrix: Any, count: int) -> list[list[str]]:
+    return [[rounded(entry, count) for entry in line] for line in matrix.tolist()]
 
 
-def test_the_jacobian_of_craig_and_siciliano() -> None:
-    # Craig 2005, eq. 5.67, and Siciliano et al. 2009, section 3.2.1, for two links:
-    # J = (−l₁s₁ − l₂s₁₂  −l₂s₁₂; l₁c₁ + l₂c₁₂  l₂c₁₂), det J = l₁l₂ sin θ₂.
-    answers = solved("jacobian", lengths=[2, 1], angles=["pi/6", "pi/3"], rates=[1, 2])
-    assert_is(answers["a"], [[-2, -1], [sqrt(3), 0]])
-    assert answers["b"] == (-4, sqrt(3))
-    assert answers["c"] is False
-    assert solved("jacobian", lengths=[2, 1], angles=["pi/6", 0], rates=[1, 2])["c"] is True
+@pytest.mark.parametrize(
+    ("A", "B", "Q", "R", "count", "gain"),
+    [
+        # Altair Compose, the manual of dlqr, example.
+        ([[9, "0.2"], [0, 8]], [[0], [1]], [[2, 1], [1, 2]], 1, 4, [["394.6100", "16.7676"]]),
+        # ControlSystems.jl, test of lqr for a discrete double integrator, h = 0.1.
+        ([[1, "0.1"], [0, 1]], [[0], [1]], [[1, 0], [0, 1]], 1, 10, [["0.5890881714", "0.7118839435"]]),
+        # GNU Octave's control package, test of dare: q = cᵀc with c = (1 −1).
+        ([["0.4", "1.7"], ["0.9", "3.8"]], [["0.8"], ["2.1"]], [[1, -1], [-1, 1]], 3, 4, [["0.4092", "1.7283"]]),
+    ],
+)  # fmt: skip
+def test_the_gains_of_manuals(A: Any, B: Any, Q: Any, R: Any, count: int, gain: Any) -> None:
+    assert decimals(solved("lqr-infinite", A=A, B=B, Q=Q, R=R)["b"], count) == gain
 
 
-def test_the_first_link_of_the_anthropomorphic_arm() -> None:
-    # Siciliano et al. 2009, table 2.4 and section 2.9.4: a = 0, α = π/2, d = 0:
-    # A₁ = (c 0 s 0; s 0 −c 0; 0 1 0 0; 0 0 0 1).
-    link = {"theta": "pi/3", "d": 0, "a": 0, "alpha": "pi/2"}
-    c, s = Rational(1, 2), sqrt(3) / 2
-    assert_is(
-        solved("denavit-hartenberg", links=[link])["a"],
-        [[c, 0, s, 0], [s, 0, -c, 0], [0, 1, 0, 0], [0, 0, 0, 1]],
-    )
+DARE = {"A": [["0.4", "1.7"], ["0.9", "3.8"]], "B": [["0.8"], ["2.1"]], "R": 3}
+COST_TO_GO = [["1.5354", "1.2623"], ["1.2623", "10.5596"]]
 
 
-def test_a_step_of_maml_by_hand() -> None:
-    # Finn et al. 2017, eq. 1, for L = ½ (θ − 4)² and α = β = 1/2, θ = 0: θ′ = 0 − ½·(−4) = 2;
-    # the gradient of ½ (θ′ − 4)² by θ is (1 − ½)·(2 − 4) = −1; θ becomes 1/2.
-    answers = solved("maml-step", theta=0, tasks=[[1, 4]], alpha="1/2", beta="1/2")
-    assert answers == {"a": fmpq(2), "b": fmpq(1, 2)}
+def test_the_riccati_equation_of_octaves_manual() -> None:
+    # GNU Octave's control package, test of dare, as above: the solution to four decimals. Put in as the value of the
+    # next time, it gives the printed gain again, also as one step of differential dynamic programming; half a unit of
+    # its last place moves the gain by less than 0.0002.
+    P = solved("lqr-infinite", **DARE, Q=[[1, -1], [-1, 1]])["a"]
+    assert decimals(-P, 4) == COST_TO_GO
+    as_rewards = [[f"-{entry}" for entry in row] for row in COST_TO_GO]
+    gain = solved("lqr-gain", **DARE, P=as_rewards)["a"]
+    step = solved(
+        "ddp-backward",
+        dynamics={"x": "0.4*x + 1.7*y + 0.8*u", "y": "0.9*x + 3.8*y + 2.1*u"}, reward="-(x - y)^2 - 3*u^2",
+        state={"x": 0, "y": 0}, action={"u": 0}, gradient=[0, 0],
+        hessian=[[str(2 * Rational(entry)) for entry in row] for row in as_rewards],
+    )["g"]  # fmt: skip
+    for matrix, sign in ((gain, 1), (step, -1)):
+        found = [sign * float(rounded(entry, 9)) for entry in matrix.tolist()[0]]
+        assert found == pytest.approx([0.4092, 1.7283], abs=2e-4)
+
+
+def test_the_cruise_control_of_astrom_and_murray() -> None:
+    # Åström & Murray 2008, section 5.4, cruise control: m = 1600, fourth gear (α = 12), T_m = 190, ω_m = 420, β = 0.4,
+    # C_r = 0.01, ρ = 1.3, C_d = 0.32, A = 2.4, g = 9.8. At v = 20 the throttle is 0.1687, and the linearisation is
+    # −0.0101 for the speed and 1.32 for the throttle.
+    answers = solved(
+        "linearise",
+        dynamics={"v": "(alpha*u*T_m*(1 - beta*(alpha*v/w_m - 1)^2) - m*g*C_r - rho*C_d*A*v^2/2)/m"},
+        constants={"alpha": 12, "T_m": 190, "beta": "0.4", "w_m": 420, "m": 1600, "g": "9.8", "C_r": "0.01",
+                   "rho": "1.3", "C_d": "0.32", "A": "2.4"},
+        state={"v": 20}, action={"u": "0.1687"},
+    )  # fmt: skip
+    assert decimals(answers["a"], 4) == [["-0.0101"]]
+    assert decimals(answers["b"], 2) == [["1.32"]]
+
+
+def test_the_inverted_pendulum_of_the_control_tutorials() -> None:
+    # Control Tutorials for MATLAB and Simulink, "Inverted Pendulum: System Modeling": M = 0.5, m = 0.2, b = 0.1, l =
+    # 0.3, I = 0.006, g = 9.8; (M + m)ẍ + bẋ + mlθ̈ cos θ − mlθ̇² sin θ = F and (I + ml²)θ̈ + mgl sin θ = −mlẍ cos θ,
+    # solved here for ẍ and θ̈. At θ = π the printed matrices.
+    answers = solved(
+        "linearise",
+        dynamics={
+            "x": "v", "v": "(J*N + (m*l)^2*g*sin(theta)*cos(theta))/D",
+            "theta": "w", "w": "-(m*l*cos(theta)*N + (M + m)*m*g*l*sin(theta))/D",
+        },
+        where={
+            "J": "I_0 + m*l^2", "N": "F - b*v + m*l*w^2*sin(theta)", "D": "(M + m)*(I_0 + m*l^2) - (m*l*cos(theta))^2",
+        },
+        constants={"M": "0.5", "m": "0.2", "b": "0.1", "l": "0.3", "I_0": "0.006", "g": "9.8"},
+        state={"x": 0, "v": 0, "theta": "pi", "w": 0}, action={"F": 0},
+    )  # fmt: skip
+    assert decimals(answers["a"], 4) == [
+        ["0.0000", "1.0000", "0.0000", "0.0000"],
+        ["0.0000", "-0.1818", "2.6727", "0.0000"],
+        ["0.0000", "0.0000", "0.0000", "1.0000"],
+        ["0.0000", "-0.4545", "31.1818", "0.0000"],
+    ]
+    assert decimals(answers["b"], 4) == [["0.0000"], ["1.8182"], ["0.0000"], ["4.5455"]]

@@ -6,11 +6,7 @@ import pytest
 import sympy
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import rounded, solved
 
 
 @pytest.mark.parametrize(
@@ -84,3 +80,71 @@ def test_one_step_actor_critic_by_hand() -> None:
         alpha="1/2", beta="1/2", gamma="1/2",
     )  # fmt: skip
     assert answers == {"a": (4,), "b": {"s": 3}, "c": (1, -1)}
+
+
+@pytest.mark.parametrize(
+    ("preferences", "printed"),
+    [
+        # scipy.special.softmax, example: the rows of a matrix.
+        (["1", "0.5", "0.2", "3"], ["0.105877", "0.0642177", "0.0475736", "0.782332"]),
+        (["1", "-1", "7", "3"], ["0.00242746", "0.000328521", "0.979307", "0.0179366"]),
+        (["2", "12", "13", "3"], ["0.0000122094", "0.268929", "0.731025", "0.0000331885"]),
+        # Stanford's CS231n, notes on linear classification: the scores of a cat, dog and ship, and what weaker and
+        # stronger regularisation makes of 1, −2 and 0.
+        (["-2.85", "0.86", "0.28"], ["0.016", "0.631", "0.353"]),
+        (["1", "-2", "0"], ["0.7", "0.04", "0.26"]),
+        (["0.5", "-1", "0"], ["0.55", "0.12", "0.33"]),
+    ],
+)  # fmt: skip
+def test_softmax_in_manuals_and_lectures(preferences: list[str], printed: list[str]) -> None:
+    features = {str(number): [preference] for number, preference in enumerate(preferences)}
+    chances = solved("softmax-policy", theta=[1], features=features)["b"].values()
+    found = [float(rounded(chance, 15)) for chance in chances]
+    for chance, text in zip(found, printed, strict=True):
+        assert chance == pytest.approx(float(text), abs=0.6 * 10 ** -len(text.partition(".")[2]))
+
+
+CUT_OFF = ([0, 0, 1, 0, "-0.5"], [1, 4, -3, -2, -1, -1])
+
+
+@pytest.mark.parametrize(
+    ("rewards", "values", "gamma", "lam", "printed"),
+    [
+        # DeepMind's RLax, test of truncated_generalized_advantage_estimation, the first row of the batch: six values,
+        # the last of them of the state that the run was cut off in; and the second row up to where its discount is 0.
+        (*CUT_OFF, "0.99", "1", ["-1.45118", "-4.4557", "2.5396", "0.5249", "-0.49"]),
+        (*CUT_OFF, "0.99", "0.7", ["-0.676979", "-5.248167", "2.4846", "0.6704", "-0.49"]),
+        (*CUT_OFF, "0.99", "0.4", ["0.56731", "-6.042", "2.3431", "0.815", "-0.49"]),
+        ([0, 0, 0, 0], [-3, -2, -1, 0], "0.9", "0.7", ["2.2899", "1.73", "1", "0"]),
+        ([0, 0, 0, 0], [-3, -2, -1, 0], "0.9", "0.4", ["1.725", "1.46", "1", "0"]),
+        # Tianshou, test of compute_episodic_return: returns, which are advantages and values added.
+        ([101, 102, 103, 200], [-3, 2, 3, 4], "0.99", "0.95", ["457.8344", "374.1143", "288.298", "196"]),
+        ([104, 105, 106, 201], [-1, 5, 6, 7], "0.99", "0.95", ["465.5610", "378.1085", "289.387", "194"]),
+    ],
+)  # fmt: skip
+def test_gae_in_libraries(rewards: Any, values: Any, gamma: str, lam: str, printed: list[str]) -> None:
+    states = [f"s{time}" for time in range(len(rewards) + 1)]
+    run: dict[str, Any] = {"states": states, "rewards": rewards}
+    if len(values) == len(rewards):
+        run["terminal"] = [states[-1]]
+    known = dict(zip(states, values, strict=False))
+    estimates = solved("advantage", run={"trajectory": run, "values": known, "lam": lam}, gamma=gamma)["b"]
+    found = [float(rounded(value, 9)) for value in estimates]
+    for estimate, text in zip(found, printed, strict=True):
+        assert estimate == pytest.approx(float(text), abs=10 ** -len(text.partition(".")[2]))  # some cut
+
+
+@pytest.mark.parametrize(
+    ("right", "printed"),
+    # Sutton & Barto 2018, example 13.1: the short corridor from its start is worth −44 to an ε-greedy policy (ε = 0.1)
+    # that prefers right and −82 to one that prefers left; and about −11.6 to the best one, right with about 0.59.
+    [("0.95", -44), ("0.05", -82), ("0.59", -11.6)],
+)  # fmt: skip
+def test_the_short_corridor(right: str, printed: float) -> None:
+    steps = {("1", "right"): "2", ("1", "left"): "1", ("2", "right"): "1", ("2", "left"): "3",
+             ("3", "right"): "end", ("3", "left"): "2"}  # fmt: skip
+    rows = [[state, action, after, 1, -1] for (state, action), after in steps.items()]
+    policy = {state: {"right": right, "left": str(1 - sympy.Rational(right))} for state in "123"}
+    mdp = {"transitions": rows, "terminal": ["end"]}
+    value = float(rounded(solved("policy-value", mdp=mdp, policy=policy, gamma=1)["a"]["1"], 6))
+    assert value == pytest.approx(printed, abs=0.3 if printed < -12 else 0.1)

@@ -1,14 +1,8 @@
 """Numbers of temporal difference learning, from books or worked out by hand in the comments."""
 
-from typing import Any
-
 from flint import fmpq
 
-import rldrill
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
+from asking import solved
 
 
 def test_example_6_4_of_sutton_and_barto() -> None:

@@ -1,0 +1,16 @@
+"""What many tests do: state a problem by its givens, have it solved, and round the answer as a book prints it."""
+
+from typing import Any
+
+import rldrill
+from rldrill.solutions.exact import to_sympy
+
+
+def solved(family: str, **given: Any) -> Any:
+    """Return the answers of the parts of a problem with these givens."""
+    return rldrill.read({"family": family, "given": given}).solve()
+
+
+def rounded(value: Any, decimals: int) -> str:
+    """Return a value to so many decimals, as text."""
+    return f"{float(to_sympy(value)):.{decimals}f}"
