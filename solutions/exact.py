@@ -2,15 +2,15 @@
 
 from collections.abc import Iterable
 from fractions import Fraction
-from functools import cache
 from typing import Any, TypeAlias
 
 import sympy
-from flint import arb, ctx, fmpq, fmpq_poly
+from flint import arb, ctx, fmpq
 
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.solutions import surds
-from rldrill.solutions.rational import RationalFunction
+from rldrill.solutions.identity import vanishes
+from rldrill.solutions.rational import RationalFunction, generator
 
 #: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
 Value: TypeAlias = Any
@@ -22,12 +22,6 @@ class NoSolution(ArithmeticError):
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
-
-
-@cache
-def generator(parameter: str) -> RationalFunction:
-    """The open parameter itself, as a rational function."""
-    return RationalFunction(parameter, fmpq_poly([0, 1]), fmpq_poly([1]))
 
 
 def monomial(expression: sympy.Expr) -> Value:
@@ -195,25 +189,30 @@ def sign(value: Value, at: fmpq | None = None) -> int:
     """
     if isinstance(value, fmpq):
         return (value > 0) - (value < 0)
-    before = ctx.prec
-    try:
-        for precision in (64, 256, 1024):
-            ctx.prec = precision
-            ball = enclosure(value, at)
-            if not ball.is_finite():
-                continue
-            if ball > 0:
-                return 1
-            if ball < 0:
-                return -1
-    finally:
-        ctx.prec = before
+    for precision in (64, 256, 1024):
+        if found := clear_sign(value, at, precision):
+            return found
     expression = to_sympy(value) if at is None else to_sympy(value).subs(
         {free: to_sympy(at) for free in to_sympy(value).free_symbols}
     )  # fmt: skip
-    if expression.equals(0):
+    if vanishes(expression) or expression.equals(0):
         return 0
     raise ValueError(f"{expression} is not a real number that can be told from zero")
+
+
+def clear_sign(value: Value, at: fmpq | None, precision: int) -> int:
+    """−1 or 1 if a real value is that far from zero that so many bits show it, else 0.
+
+    Raises:
+        ValueError: the value is not a real number.
+    """
+    before = ctx.prec
+    try:
+        ctx.prec = precision
+        ball = enclosure(value, at)
+    finally:
+        ctx.prec = before
+    return int(ball > 0) - int(ball < 0) if ball.is_finite() else 0
 
 
 def largest(values: Iterable[Value]) -> Value:

@@ -1,6 +1,7 @@
 """Rational functions of one open parameter, over flint's polynomials."""
 
 from dataclasses import dataclass
+from functools import cache
 from math import gcd, lcm
 from typing import Any
 
@@ -129,3 +130,9 @@ def _polynomial(parameter: str, poly: fmpq_poly) -> sympy.Expr:
     return sympy.Add(
         *(sympy.Rational(int(c.p), int(c.q)) * letter**power for power, c in enumerate(poly.coeffs()) if c)
     )
+
+
+@cache
+def generator(parameter: str) -> RationalFunction:
+    """The open parameter itself, as a rational function."""
+    return RationalFunction(parameter, fmpq_poly([0, 1]), fmpq_poly([1]))

@@ -7,8 +7,8 @@ import sympy
 from flint import arb, fmpq, fmpq_poly
 
 from rldrill.solutions.answers.source import Unreadable
-from rldrill.solutions.exact import Value, enclosure, generator, simplest, to_sympy
-from rldrill.solutions.rational import RationalFunction, quotient
+from rldrill.solutions.exact import Value, enclosure, simplest, to_sympy
+from rldrill.solutions.rational import RationalFunction, generator, quotient
 
 #: ``fmpq`` where it is rational, ``RationalFunction`` where it is rational in a parameter, else a sympy expression.
 Number: TypeAlias = Any
@@ -29,6 +29,7 @@ _ROOT = 12  # the highest root, and the digits of what it is taken of
 _ANGLE = 1000
 _TURNS = frozenset({1, 2, 3, 4, 6, 12})  # pi over these has a sine that is short to write
 _LARGE = "A number in it grows too large; write it in a simpler form."
+_DEEP = "Functions stand too deep in one another; write it in a simpler form."
 _ZERO = "It divides by zero."
 
 
@@ -84,6 +85,8 @@ class Arithmetic:
             return self._exp(exponent)
         if not isinstance(exponent, fmpq):
             raise Unreadable("Only e is raised to such an exponent; write a whole number or a fraction there.")
+        if isinstance(base, sympy.exp):
+            return self._exp(self.multiply(self._exponent(base), exponent))
         if exponent.q > _ROOT:
             raise Unreadable(f"Exponents are whole numbers or fractions down to 1/{_ROOT}; use exp and ln for others.")
         if abs(exponent.p) > _EXPONENT:
@@ -165,6 +168,8 @@ class Arithmetic:
         return self._expression(base**exponent)
 
     def _root(self, number: Number, index: int) -> Number:
+        if isinstance(number, sympy.exp):
+            return self._exp(self.multiply(self._exponent(number), fmpq(1, index)))
         if self._sign(number) < 0:
             raise Unreadable("A root of a negative number is not a real number.")
         if isinstance(number, fmpq):
@@ -176,6 +181,10 @@ class Arithmetic:
             raise Unreadable("Only square roots are read of such a number; write a decimal.")
         nested = self._nested(number)
         return self._expression(sympy.Pow(nested, sympy.Rational(1, index), evaluate=_is_plain(nested)))
+
+    def _exponent(self, power: Any) -> Number:
+        """What e is raised to in a power of e."""
+        return self._lift(power.args[0]) if power.args[0].free_symbols else simplest(power.args[0])
 
     def _exp(self, exponent: Number) -> Number:
         size: Number = exponent
@@ -190,6 +199,8 @@ class Arithmetic:
         if self._sign(number, unknown=1) <= 0:
             raise Unreadable("Only a number above zero has a logarithm.")
         self._spend(100)
+        if isinstance(number, sympy.exp):
+            return self._exponent(number)
         nested = self._nested(number)
         return self._expression(sympy.log(nested, evaluate=_is_plain(nested)))
 
@@ -208,7 +219,9 @@ class Arithmetic:
         """The argument of a function, for which sympy's time doubles with each function within."""
         expression = self._sympy(number)
         degree, levels, bits = _OPEN if expression.free_symbols else _CLOSED
-        if _degree(number) > degree or _levels(expression) >= levels or _size(number) > bits:
+        if _levels(expression) >= levels:
+            raise Unreadable(_DEEP)
+        if _degree(number) > degree or _size(number) > bits:
             raise Unreadable(_LARGE)
         if isinstance(number, sympy.Expr) and not expression.free_symbols and _ball(expression).contains(0):
             raise Unreadable("A part of it cannot be told from zero; write it in a simpler form.")

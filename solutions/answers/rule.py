@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from flint import fmpq
 
-from rldrill.solutions.exact import Value, from_sympy, is_zero, magnitude, parameters, sign, to_sympy
+from rldrill.solutions.exact import Value, clear_sign, from_sympy, is_zero, magnitude, parameters, sign, to_sympy
+from rldrill.solutions.identity import vanishes
 from rldrill.solutions.rational import RationalFunction
 
 #: The rule in words, printed beside every question.
@@ -14,6 +15,7 @@ DIGITS = 3
 _AT_ZERO = fmpq(1, 2000)
 _CLOSE = fmpq(1, 50)
 _POINTS = 6
+_FEW_BITS, _MANY_BITS = 64, 1024
 
 
 def tolerance(value: Value) -> fmpq:
@@ -73,17 +75,27 @@ def apart(key: Value, other: Value) -> bool:
 
 
 def equivalent(value: Value, key: Value) -> bool:
-    """Whether two expressions are the same function of the parameter: points first, then a proof."""
+    """Whether two expressions are the same function of the parameter: points first, then a proof.
+
+    What the proof cannot decide (logarithms of the parameter) is the same if no point tells them apart in a
+    thousand bits.
+    """
     if isinstance(value, fmpq | RationalFunction) and isinstance(key, fmpq | RationalFunction):
         return bool(value == key)
-    difference = value - key
-    for point in points(value):
-        try:
-            if sign(difference, point) != 0:
-                return False
-        except ValueError:
+    difference = to_sympy(value) - to_sympy(key)
+    if difference == 0:
+        return True
+    try:
+        if _differs(difference, value, _FEW_BITS):
             return False
-    return True
+        proved = vanishes(difference)
+        return not _differs(difference, value, _MANY_BITS) if proved is None else proved
+    except ValueError:
+        return False
+
+
+def _differs(difference: Value, value: Value, bits: int) -> bool:
+    return any(clear_sign(difference, point, bits) for point in points(value))
 
 
 def points(value: Value) -> Iterator[fmpq]:

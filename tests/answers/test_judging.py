@@ -15,7 +15,7 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_right, tolerance
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.drawing import draw
-from rldrill.solutions.exact import generator
+from rldrill.solutions.rational import generator
 from rldrill.solutions.solution import Solution, solve
 
 RACING_CAR = {
@@ -178,3 +178,37 @@ def test_any_of_tied_actions_is_right() -> None:
     tied = {"transitions": [["a", "left", "end", 1, 1], ["a", "right", "end", 1, 1]], "terminal": ["end"]}
     solution = problem("value-iteration", gamma=1, sweeps=1, mdp=tied)
     assert {judge(solution, "b", f"a: {action}").outcome for action in ("left", "right")} == {Outcome.RIGHT}
+
+
+BUMP = problem("rbf", position=[1], centres=[[4]], sigma="sigma")  # exp(−9/(2σ²))
+
+
+@pytest.mark.parametrize(
+    "same",
+    [
+        "exp(-9/(2 sigma^2))",
+        "e^(-4.5/sigma^2)",
+        "1/e^(9/2/sigma^2)",
+        "sqrt(exp(-9/sigma^2))",
+        "exp(-1/sigma^2)^(9/2)",
+        "(e^(-9/(2 sigma^2)/100))^100",
+        "e^(-3 ln(e^(3/2/sigma^2)))",
+        "(exp(-9/sigma^2)+exp(-9/(2 sigma^2)))/(1+exp(-9/(2 sigma^2)))",
+        "exp(-9/(2 sigma^2)) + (e^(1/sigma)+1)^2 - e^(2/sigma) - 2 e^(1/sigma) - 1",
+        "exp(-9/(2 sigma^2)) * (e^(1/sigma)+e^sigma)^2/(e^(2/sigma)+e^(2 sigma)+2 e^(1/sigma+sigma))",
+    ],
+)
+def test_every_form_of_an_exponential_is_accepted(same: str) -> None:
+    assert judge(BUMP, "a", same).outcome is Outcome.RIGHT
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        "exp(-9/(2 sigma^2)) + 1/10^30",
+        "exp(-9/(2 sigma^2)) (1 + e^(-sigma)/10^20)",
+        "exp(-9/(2 sigma^2)) + (e^(1/sigma)+1)^2 - e^(2/sigma) - 2 e^(1/sigma)",
+    ],
+)
+def test_a_near_miss_of_an_exponential_is_not(other: str) -> None:
+    assert judge(BUMP, "a", other).outcome is not Outcome.RIGHT

@@ -20,8 +20,7 @@ from rldrill.solutions.answers.text import (
     read_words,
     read_yes_no,
 )
-from rldrill.solutions.exact import generator
-from rldrill.solutions.rational import RationalFunction
+from rldrill.solutions.rational import RationalFunction, generator
 
 GAMMA = generator("gamma")
 gamma = sympy.Symbol("gamma", positive=True)

@@ -11,10 +11,10 @@ from rldrill.problems.mathematics import mathematics
 from rldrill.render.latex import latex
 from rldrill.render.stacked import stacked
 from rldrill.render.unicode import unicode, unicode_text
-from rldrill.solutions.exact import generator
 from rldrill.solutions.formula.notation import Counting, Expectation, IntegralOver, S, T, n, t
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
+from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BIC, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V

@@ -8,11 +8,12 @@ from sympy import exp, sqrt
 import rldrill
 from rldrill.problems.mathematics import mathematics
 from rldrill.render.unicode import unicode
-from rldrill.solutions.exact import generator, in_one_quotient, monomial
+from rldrill.solutions.exact import in_one_quotient, monomial
 from rldrill.solutions.formula.compiling import evaluate
 from rldrill.solutions.formula.notation import Clipped, Greatest, Least
 from rldrill.solutions.formula.putting_in import put_in, reduced
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
+from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.policy_gradient import SCORE_FUNCTION
 from rldrill.solutions.vector import Vector
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 import rldrill
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
-from rldrill.solutions.exact import generator, sign
+from rldrill.solutions.exact import sign
+from rldrill.solutions.rational import generator
 
 quick = settings(deadline=None, max_examples=25)
 seeds = st.integers(0, 10_000)
