@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
+from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.models import Name, check_keys
 
@@ -31,3 +32,11 @@ def check_lengths(vectors: Mapping[str, tuple[Fraction, ...]], what: str) -> Non
     if len(lengths) > 1 or 0 in lengths:
         told = ", ".join(f"{name!r} has {len(vector)}" for name, vector in vectors.items())
         raise ValueError(f"{what}: all must have the same number of components, one at least, but {told}")
+
+
+def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) -> dict[str, tuple[Fraction, ...]]:
+    """Whole numbers from 0 on; every feature tells some states apart, and no two features are the same."""
+    while True:
+        columns = [tuple(rng.whole(0, most) for _ in states) for _ in range(count)]
+        if len(set(columns)) == count and all(len(set(column)) > 1 for column in columns):
+            return dict(zip(states, zip(*columns, strict=True), strict=True))

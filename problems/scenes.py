@@ -65,9 +65,12 @@ def _onward(states: tuple[str, ...], state: str, target: int, chance: Scalar) ->
     return {state: failure, states[target]: chance} if failure else {states[target]: chance}
 
 
-def draw_sensor(scene: Scene, states: tuple[str, ...], rng: Draws) -> dict[str, dict[str, Fraction]]:
-    """How probable the two readings are in every state, not the same in all states."""
+_CHANCES = ("1/4", "1/2", "3/4", "1/5", "4/5", "1/10", "9/10")
+
+
+def draw_sensor(scene: Scene, states: tuple[str, ...], rng: Draws, *chances: str) -> dict[str, dict[str, Fraction]]:
+    """How probable the two readings are in every state, not the same in all states; ``chances`` are drawn from."""
     while True:
-        first = {state: rng.fraction("1/4", "1/2", "3/4", "1/5", "4/5", "1/10", "9/10") for state in states}
+        first = {state: rng.fraction(*(chances or _CHANCES)) for state in states}
         if len(set(first.values())) > 1:
             return {scene.readings[0]: first, scene.readings[1]: {state: 1 - chance for state, chance in first.items()}}

@@ -1,28 +1,21 @@
 """Beliefs before and after a step as a picture, for workings."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from fractions import Fraction
 
 from flint import fmpq
 
+from rldrill.problems.bars import belief_bars
 from rldrill.problems.pictures import Bars
-from rldrill.solutions.exact import Value, decimal
-
-#: Signs above a bar; a longer fraction is given in decimals.
-_LABEL = 7
+from rldrill.solutions.exact import Value
 
 
 def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) -> tuple[Bars, ...]:
     """Two bars for every state or hypothesis; none where a number is left open or is no probability."""
-    series = (tuple(before.values()), tuple(after[name] for name in before))
-    if not all(isinstance(chance, fmpq) and 0 <= chance <= 1 for row in series for chance in row):
+    if not all(isinstance(chance, fmpq) and 0 <= chance <= 1 for chance in (*before.values(), *after.values())):
         return ()
-    shares = tuple(tuple(_float(chance) for chance in row) for row in series)
-    return (Bars(tuple(before), ("before", "after"), shares, tuple(tuple(_labels(row)) for row in series)),)
+    return (belief_bars(before=_fractions(before), after=_fractions(after)),)
 
 
-def _float(chance: fmpq) -> float:
-    return int(chance.p) / int(chance.q)
-
-
-def _labels(row: Iterable[fmpq]) -> Iterable[str]:
-    return (f"${chance}$" if len(str(chance)) <= _LABEL else f"$≈ {decimal(chance, 3)}$" for chance in row)
+def _fractions(belief: Mapping[str, fmpq]) -> dict[str, Fraction]:
+    return {name: Fraction(int(chance.p), int(chance.q)) for name, chance in belief.items()}

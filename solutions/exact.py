@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpq
 
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.solutions import surds
-from rldrill.solutions.identity import vanishes
+from rldrill.solutions.exponentials import lowest_terms, vanishes
 from rldrill.solutions.rational import RationalFunction, generator
 
 #: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
@@ -60,8 +60,11 @@ def ordered(expression: sympy.Expr) -> sympy.Expr:
 
 
 def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
-    """A computed sum of quotients in powers of e as one quotient: 2/(2 + e), not 1 − e/(2 + e)."""
-    return sympy.together(expression) if expression.is_Add and expression.has(sympy.exp, sympy.E) else expression
+    """A computed expression in powers of e as one quotient in lowest terms: 2/(2 + e), not 1 − e/(2 + e)."""
+    if not expression.has(sympy.exp, sympy.E):
+        return expression
+    reduced = None if expression.free_symbols else lowest_terms(expression)
+    return reduced if reduced is not None else sympy.together(expression) if expression.is_Add else expression
 
 
 def _rank(term: sympy.Expr) -> tuple[int, object]:

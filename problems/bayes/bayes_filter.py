@@ -5,11 +5,11 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.bars import belief_bars
 from rldrill.problems.beliefs import (
     MOTION_TOLD,
     SENSOR_TOLD,
     MotionField,
-    belief_table,
     check_distribution,
     check_likelihood,
     check_motion,
@@ -26,7 +26,7 @@ from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 1
+REVISION = 2
 
 
 class Event(Givens):
@@ -67,17 +67,18 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One step over two states; two over three; three over three."""
+    """One step over two states; two over three; three over three, in numbers that stay small."""
     scene = rng.choice(SCENES)
     states = (scene.states[0], scene.states[-1]) if level == 1 else rng.sample(scene.states, 3)
-    chances = rng.fraction("1/2", "3/4", "4/5"), rng.fraction("1/2", "3/4", "4/5")
+    often = ("1/2",) if level == 3 else ("1/2", "3/4", "4/5")
+    chances = rng.fraction(*often), rng.fraction(*often)
     motion = draw_motion(scene, states, chances)
     run = tuple(Event(action=rng.choice(tuple(motion)), measurement=rng.choice(scene.readings)) for _ in range(level))
     taken = {event.action for event in run}
     return Given(
-        belief=dict(zip(states, rng.split(len(states), (2, 4, 5)), strict=True)),
+        belief=dict(zip(states, rng.split(len(states), (4,) if level == 3 else (2, 4, 5)), strict=True)),
         motion={action: rows for action, rows in motion.items() if action in taken},
-        likelihood=draw_sensor(scene, states, rng),
+        likelihood=draw_sensor(scene, states, rng, *(("1/4", "1/2", "3/4") if level == 3 else ())),
         run=run,
         story=scene.told,
     )
@@ -90,8 +91,8 @@ def question(given: Given) -> Question:
     senses = any(event.measurement for event in given.run)
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("Beforehand the belief is:"),
-        belief_table(given.belief),
+        Paragraph("Beforehand the belief $p(s)$ is:"),
+        belief_bars(belief=given.belief),
         *((Paragraph(MOTION_TOLD), motion_table(given.motion, states)) if moves else ()),
         *((Paragraph(SENSOR_TOLD), likelihood_table(given.likelihood, states)) if senses else ()),
     )

@@ -5,10 +5,10 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.bars import belief_bars
 from rldrill.problems.beliefs import (
     MOTION_TOLD,
     MotionField,
-    belief_table,
     check_distribution,
     check_motion,
     motion_table,
@@ -63,8 +63,8 @@ def question(given: Given) -> Question:
     states = tuple(given.belief)
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("Beforehand the belief is:"),
-        belief_table(given.belief),
+        Paragraph("Beforehand the belief $p(s)$ is:"),
+        belief_bars(belief=given.belief),
         Paragraph(MOTION_TOLD),
         motion_table(given.motion, states),
         *([Paragraph("The probability $p$ is left open.")] if given.parameters() else []),

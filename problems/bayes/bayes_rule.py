@@ -16,7 +16,7 @@ from rldrill.problems.parts import Part, Table
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -57,6 +57,8 @@ def draw(level: int, rng: Draws) -> Given:
     hypotheses = story.hypotheses[: 2 if level == 1 else 3]
     tenths = ("1/10", "1/5", "3/10", "2/5", "3/5", "7/10", "4/5", "9/10")
     likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
+    while len(set(likely.values())) == 1:  # nothing would be learnt
+        likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
     likelihood = {
         readings[0]: likely,
         readings[1]: {hypothesis: 1 - chance for hypothesis, chance in likely.items()},

@@ -15,7 +15,7 @@ from rldrill.problems.parts import Table as TableKind
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 1
+REVISION = 2
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -104,12 +104,12 @@ def _handy() -> tuple[tuple[int, int], ...]:
 
 @cache
 def _handy_pairs() -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:
-    """The same for two coins, taken alone and together."""
+    """The same for two coins, taken alone and together, that do not fall alike."""
     pairs = [(first, second) for first in _handy() for second in _handy()]
     return tuple(
         (first, second)
         for first, second in pairs
-        if (first[0] + second[0], first[1] + second[1]) in _handy() and first != second
+        if (first[0] + second[0], first[1] + second[1]) in _handy() and first[0] * second[1] != first[1] * second[0]
     )
 
 

@@ -76,7 +76,8 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph(
             f"A coin is tossed ${given.heads + given.tails}$ times, independently, and the order is written down: "
-            f"${given.heads}$ heads and ${given.tails}$ tails. With $θ$ the probability of heads, models are compared:"
+            f"${given.heads}$ head{'s' * (given.heads != 1)} and ${given.tails}$ tail{'s' * (given.tails != 1)}. "
+            "With $θ$ the probability of heads, models are compared:"
         ),
         Table(
             header=("$M$", "what it says of $θ$", "$p(M)$"),

@@ -13,7 +13,7 @@ from rldrill.problems.phrases import in_open, step_size
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 1
+REVISION = 2
 
 
 class Task(NamedTuple):
@@ -43,11 +43,11 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """One task; then two; then two with the step size of the adaptation left open."""
     count = 1 if level == 1 else 2
-    optima = rng.distinct(count, -4, 6)
+    theta, *optima = rng.distinct(count + 1, -4, 6)
     tasks = tuple(Task(rng.choice((rng.whole(1, 3), rng.whole(1, 4))), optimum) for optimum in optima)
     fine = ("1/4", "1/10", "1/5") if level > 1 else ("1/4",)
     alpha = Parameter("alpha") if level == 3 else rng.fraction("1/2", *fine)
-    return Given(theta=rng.whole(-2, 4), tasks=tasks, alpha=alpha, beta=rng.fraction("1/2", *fine))
+    return Given(theta=theta, tasks=tasks, alpha=alpha, beta=rng.fraction("1/2", *fine))
 
 
 def question(given: Given) -> Question:

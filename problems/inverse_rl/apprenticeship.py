@@ -15,7 +15,7 @@ from rldrill.problems.parts import Number, Part, Vector
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 1
+REVISION = 2
 
 Mu = tuple[Fraction, ...]
 
@@ -44,7 +44,7 @@ def draw(level: int, rng: Draws) -> Given:
     expert, first = _vector(rng, size), _vector(rng, size)
     point, policies = first, []
     for _ in range(2 if level == 3 else 1):
-        mu, share = _beyond(rng, point, expert)
+        mu, share = _beyond(rng, point, expert, 5 if level == 3 else 100)
         policies.append(mu)
         point = tuple(here + share * (there - here) for here, there in zip(point, mu, strict=True))
     return Given(expert=expert, first=first, policies=tuple(policies))
@@ -54,18 +54,20 @@ def _vector(rng: Draws, size: int) -> Mu:
     return tuple(rng.whole(0, 6) for _ in range(size))
 
 
-def _beyond(rng: Draws, point: Mu, expert: Mu) -> tuple[Mu, Fraction]:
+def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction]:
     """A policy as the algorithm finds it: at least as good as the expert for the weights, so not short of it.
 
-    The projection then lies between the point and the policy; also returned is where, as a share of the way.
+    The projection then lies between the point and the policy; also returned is where, as a share of the way, whose
+    denominator is at most ``finest``.
     """
     for _ in range(200):
         mu = _vector(rng, len(point))
         way = [there - here for here, there in zip(point, mu, strict=True)]
         goal = [there - here for here, there in zip(point, expert, strict=True)]
         along: Fraction = sum((step * wanted for step, wanted in zip(way, goal, strict=True)), Fraction(0))
-        if sum(wanted**2 for wanted in goal) <= along < sum(step**2 for step in way):
-            return mu, along / sum((step**2 for step in way), Fraction(0))
+        far = sum((step**2 for step in way), Fraction(0))
+        if sum(wanted**2 for wanted in goal) <= along < far and (along / far).denominator <= finest:
+            return mu, along / far
     return expert, Fraction(1)  # a start from which no small policy will do: the draw is refused
 
 

@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.feature_vectors import FeaturesField, check_features
+from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Vector
@@ -17,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Feature expectations from trajectories"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -45,7 +45,7 @@ def draw(level: int, rng: Draws) -> Given:
     states = setting.states[: 2 if level == 1 else 3]
     count, length = {1: (2, 3), 2: (3, 4), 3: (2, 5)}[level]
     return Given(
-        features={state: (rng.whole(0, 4), rng.whole(0, 4)) for state in states},
+        features=draw_features(rng, states, 2, 4),
         trajectories=tuple(tuple(rng.choice(states) for _ in range(length)) for _ in range(count)),
         gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/3", "1/10"),
     )

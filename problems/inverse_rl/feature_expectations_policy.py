@@ -11,7 +11,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Probability, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.feature_vectors import FeaturesField, check_features
+from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Part, Vector
 from rldrill.problems.parts import Table as TableKind
@@ -20,7 +20,7 @@ from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Feature expectations of a policy"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -74,7 +74,7 @@ def draw(level: int, rng: Draws) -> Given:
     for row in model.transitions:
         motion.setdefault(row.action, {}).setdefault(row.state, {})[row.next] = row.probability
     actions = tuple(motion)
-    features = {state: tuple(rng.whole(0, 3) for _ in range(min(level, 2))) for state in model.states}
+    features = draw_features(rng, model.states, min(level, 2), 3)
     return Given(
         motion=motion,
         policy={state: dict(zip(actions, _choices(rng, len(actions)), strict=True)) for state in model.states},

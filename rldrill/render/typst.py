@@ -104,6 +104,7 @@ _ACCENTS = {"hat": "hat", "bar": "overline", "tilde": "tilde"}
 _CLASSES: dict[Style, str] = {"operator": "binary", "relation": "relation", "punctuation": "punctuation"}
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
 _COMMA = Glyph(",", "punctuation")
+_MINUS = Glyph("−", "operator")
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 #: Equations of at most this many signs stand side by side.
 _SHORT = 24
@@ -300,6 +301,9 @@ def _fence(sign: str) -> str:
 def _row(items: tuple[Math, ...]) -> str:
     result: list[str] = []
     for position, item in enumerate(items):
+        if not position and len(items) > 1 and item == _MINUS:  # −5, with no more space than +5 would have
+            result.append('class("unary", minus)')
+            continue
         if result and _is_prime(item):
             result[-1] = f"attach({result[-1]}, t: {typst(item)})"
             continue

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from flint import fmpq
 
 from rldrill.solutions.exact import Value, clear_sign, from_sympy, is_zero, magnitude, parameters, sign, to_sympy
-from rldrill.solutions.identity import vanishes
+from rldrill.solutions.exponentials import vanishes
 from rldrill.solutions.rational import RationalFunction
 
 #: The rule in words, printed beside every question.

@@ -144,7 +144,10 @@ def _sum(terms: list[Expr]) -> Expr:
     kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
     if not kept:
         return sympy.S.Zero
-    return kept[0] if len(kept) == 1 else Add(*kept, evaluate=False)
+    if len(kept) == 1:  # what is left of 0 − 5 is −5, not (−1)·5
+        sign, *rest = kept[0].args if kept[0].is_Mul else (None,)
+        return Negative(-rest[0]) if sign == -1 and len(rest) == 1 and rest[0].is_Number else kept[0]
+    return Add(*kept, evaluate=False)
 
 
 def _product(factors: list[Expr]) -> Expr:

@@ -120,7 +120,7 @@ def typeset_value(value: Value) -> Math:
     if expression.is_Add:
         return _sum(expression.args)
     if isinstance(expression, sympy.exp):
-        return Script(variable("e"), above=typeset_value(expression.args[0]))
+        return _power_of_e(typeset_value(expression.args[0]))
     numerator, denominator = _quotient(expression)
     if numerator.is_Rational and denominator != 1:  # −25/(2σ²), no fraction above the line
         numerator, denominator = sympy.Integer(numerator.p), numerator.q * denominator
@@ -371,7 +371,10 @@ def grid(lines: Sequence[Sequence[Value]]) -> Grid:
 
 
 def _exponential(expression: Any) -> Math:
-    exponent = typeset(_bare(expression.args[0]))
+    return _power_of_e(typeset(_bare(expression.args[0])))
+
+
+def _power_of_e(exponent: Math) -> Math:
     if _has_tall_fraction(exponent):  # too small to read as an exponent
         return row(word("exp"), Fence(exponent))
     return Script(variable("e"), above=exponent)

@@ -38,7 +38,7 @@ def solve(given: Given, work: Work) -> None:
         L = work.answer("b", work.step(LQR_GAIN, into=L_always, t=0, **by_time))
     closed = work.step(LQR_CLOSED_LOOP, Ai=known["A"], Bi=known["B"], Li=L)
     if closed.nrows() == 1 and work.misconception is None and not work.carried:
-        work.say(f"$|A − B L| = {decimal(abs(closed[0, 0]), 4)} < 1$: the closed loop is stable, as it must be.")
+        work.say(f"$A − B L ≈ {decimal(closed[0, 0], 4)}$ is between $−1$ and $1$: stable, as it must be.")
     work.answer("c", closed)
 
 

@@ -61,6 +61,11 @@ def test_greatest_least_and_clipped(expression: sympy.Expr, value: fmpq, written
     ("value", "text"),
     [
         (1 - sympy.E / (2 + sympy.E), "2/(2 + e)"),
+        (exp(2) / (exp(2) + exp(4)), "1/(1 + e²)"),
+        (exp(-2) / (exp(-2) + 2 * exp(-1)), "1/(1 + 2·e)"),
+        (1 + 2 * exp(-1), "1 + 2·e⁻¹"),
+        (exp(-sympy.Rational(1, 8)), "exp(−1/8)"),
+        (3 * exp(sympy.Rational(3, 2)) / (2 * exp(1) + 4 * exp(sympy.Rational(1, 2))), "(3·e)/(4 + 2·exp(1/2))"),
         (exp(-25 / (2 * sympy.Symbol("sigma", positive=True) ** 2)), "exp(−25/(2σ²))"),
         (sympy.log(2) - sympy.Rational(7, 5), "−7/5 + ln 2"),
     ],

@@ -41,9 +41,10 @@ def bars(picture: Bars) -> Scene:
         shapes.append(Label((middle, 4), name, "below"))
     shapes.append(Path(((0, 0), (len(picture.names) * group, 0))))
     at = 0.0
+    highest = max(share for row in picture.shares for share in row)
     for row, series in enumerate(picture.series):
         if series:
-            top = -_TALL - 20
+            top = -_TALL * highest - 22
             shapes.append(rectangle(Box(at, top, at + 8, top + 8), _GREYS[row % len(_GREYS)]))
             shapes.append(Label((at + 11, top + 4), series, "left"))
             at += 11 + text_width(series) + 12

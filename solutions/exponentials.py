@@ -1,4 +1,4 @@
-"""Whether an expression of rational functions and their exponentials is identically zero: decided, not guessed.
+"""Powers of e: whether an expression of them is identically zero, decided and not guessed; and its lowest terms.
 
 Exponentials whose exponents have no rational relation, not even up to a constant, are algebraically independent
 over the rational functions (Ax 1971, the Schanuel property for functions; for numbers it is the theorem of
@@ -37,6 +37,42 @@ def vanishes(expression: sympy.Expr) -> bool | None:
         return _top(expression) == 0
     except (_UndecidedError, ZeroDivisionError):
         return None
+
+
+def lowest_terms(expression: sympy.Expr) -> sympy.Expr | None:
+    """A number made of rational powers of e as one quotient in lowest terms; None where it holds anything else.
+
+    e²/(e² + e⁴) becomes 1/(1 + e²), and what stands over a single power of e becomes a sum.
+    """
+    finest = lcm(*(int(exponent.q) for exponent in _exponents(expression) if exponent.is_Rational), 1)
+
+    def leaf(part: sympy.Expr) -> Any:
+        if part.is_Rational:
+            return _fraction(part)
+        if not (exponent := _exponent(part) * finest).is_Integer:
+            raise _UndecidedError
+        return generator("e") ** int(exponent)
+
+    try:
+        value = _folded(expression, leaf, lambda a, b: a + b, lambda a, b: a * b, lambda a: 1 / a)
+    except (_UndecidedError, ZeroDivisionError):
+        return None
+    if not isinstance(value, RationalFunction):
+        return sympy.Rational(int(value.p), int(value.q))
+    scale = lcm(*(int(c.q) for poly in (value.top, value.bottom) for c in poly.coeffs()))
+    below = [c * scale for c in value.bottom.coeffs()]
+    shift = len(below) - 1 if not any(below[:-1]) else 0
+    above = _powers([c * scale / (below[-1] if shift else 1) for c in value.top.coeffs()], shift, finest)
+    return above if shift else above / _powers(below, 0, finest)
+
+
+def _powers(coefficients: Sequence[fmpq], shift: int, finest: int) -> sympy.Expr:
+    """The sum of these multiples of rising powers of e."""
+    terms = (
+        sympy.Rational(int(c.p), int(c.q)) * sympy.exp(sympy.Rational(power - shift, finest))
+        for power, c in enumerate(coefficients)
+    )
+    return sympy.Add(*terms)
 
 
 def _top(expression: sympy.Expr) -> Any:

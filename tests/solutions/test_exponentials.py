@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import E, Rational, cos, exp, log, pi, sqrt
 
-from rldrill.solutions.identity import vanishes
+from rldrill.solutions.exponentials import vanishes
 
 x, y = sympy.symbols("sigma tau")
 NEAR = Rational(1, 10**40)
