@@ -10,16 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 
 quick = settings(deadline=None, max_examples=25)
 seeds = st.integers(0, 10_000)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @pytest.mark.parametrize("name", ["bayes-predict", "bayes-filter"])

@@ -7,17 +7,13 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import exact
 
 seeds = st.integers(0, 10_000)
 weights = st.lists(st.integers(0, 4), min_size=2, max_size=2).filter(any)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @given(seeds, st.lists(weights, min_size=3, max_size=3))

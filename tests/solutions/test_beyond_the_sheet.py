@@ -8,17 +8,13 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import to_sympy
 
 angles = st.sampled_from(["0", "pi/6", "pi/3", "pi/2", "2*pi/3", "-pi/2", "pi"])
 lengths = st.integers(1, 4)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 def same(one: Any, other: Any) -> bool:

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
@@ -35,10 +36,6 @@ def runs(draw_: Any) -> dict[str, Any]:
         "alpha": draw_(rates),
         "gamma": draw_(st.sampled_from(["1/2", "9/10", "1"])),
     }
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 identity = settings(deadline=None, max_examples=30)

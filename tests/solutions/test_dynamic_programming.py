@@ -9,7 +9,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.models import Model
 from rldrill.problems.valued import worth
@@ -19,10 +19,6 @@ from rldrill.solutions.drawing import draw
 Values = dict[str, fmpq]
 GAMMAS = st.sampled_from(["1/4", "1/2", "9/10"])
 STATES = ("a", "b", "c")
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @st.composite

@@ -7,17 +7,13 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import rldrill
+from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
 whole = st.integers(-5, 5)
 texts = st.fractions(-4, 4, max_denominator=3).map(str)
 discounts = st.sampled_from(["0", "1/2", "9/10", "1"])
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @given(st.lists(whole, min_size=1, max_size=3), st.integers(1, 5))

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.parts import YesNo
 from rldrill.solutions.drawing import draw
@@ -19,10 +20,6 @@ from rldrill.solutions.formula.typesetting import typeset
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)
 discounts = st.sampled_from(["0", "1/2", "9/10"])
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @given(st.lists(numbers, max_size=4), st.lists(numbers, min_size=1, max_size=3), discounts)

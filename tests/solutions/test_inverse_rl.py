@@ -8,7 +8,7 @@ from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign
@@ -17,10 +17,6 @@ from rldrill.solutions.rational import generator
 quick = settings(deadline=None, max_examples=25)
 seeds = st.integers(0, 10_000)
 numbers = st.fractions(-3, 3, max_denominator=3).map(str)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 def exactly(number: Any) -> fmpq:

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
 from rldrill.problems.robots import robots
@@ -21,10 +22,6 @@ from rldrill.solutions.exact import sign, simplest, to_sympy
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
 seeds = st.integers(0, 10_000)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 def entries(matrix: Any) -> list[Any]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.models import Model
 from rldrill.solutions.optimality import optimum
@@ -26,10 +26,6 @@ def random_model(states: int, actions: int, seed: int) -> dict[str, Any]:
                 name = "end" if after == states else f"s{after}"
                 rows.append([f"s{state}", f"a{action}", name, f"{weight}/{sum(weights)}", choose.randint(-9, 9)])
     return {"transitions": rows, "terminal": ["end"]}
-
-
-def solved(family: str, **given: Any) -> Any:
-    return rldrill.read({"family": family, "given": given}).solve()
 
 
 @pytest.mark.parametrize("gamma", ["9/10", "1/2", "0"])

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Logarithm, read_weight, shown
@@ -25,10 +26,6 @@ texts = numbers.map(str)
 weights = st.one_of(texts, st.sampled_from(["ln 2", "ln 3"]))
 rows = st.lists(st.integers(0, 3), min_size=2, max_size=2)
 discounts = st.sampled_from(["0", "1/2", "9/10", "1"])
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 def equal(one: Any, other: Any) -> bool:

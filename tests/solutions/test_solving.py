@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.audit import audit
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
@@ -20,10 +21,6 @@ from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Step
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @pytest.mark.parametrize("name", families())

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.rational import RationalFunction
 
@@ -16,10 +17,6 @@ numbers = st.fractions(-5, 5, max_denominator=4).map(str)
 rates = st.sampled_from(["1/4", "1/2", "9/10"])
 discounts = st.sampled_from(["0", "1/2", "4/5", "1"])
 quick = settings(deadline=None, max_examples=30)
-
-
-def solved(family: str, **given_: Any) -> Any:
-    return rldrill.read({"family": family, "given": given_}).solve()
 
 
 @st.composite
