@@ -12,7 +12,7 @@ from rldrill.problems.expressions import worked_out, written_letter
 from rldrill.problems.mathematics import Fraction, row, variable
 from rldrill.problems.robots import System
 from rldrill.solutions.exact import Value, exact, to_sympy
-from rldrill.solutions.formula.notation import GLYPHS, letter
+from rldrill.solutions.formula.notation import letter
 from rldrill.solutions.oracle import Array, at
 
 _FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt, "exp": sympy.exp}
@@ -21,10 +21,15 @@ _NUMERIC = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp":
 Texts = tuple[tuple[str, str], ...]
 
 
+def code(name: str) -> str:
+    """What a robot's letter is called among the letters of formulas, which have an i, a j and a t of their own."""
+    return f"own_{name}"
+
+
+@cache
 def symbol(name: str) -> sympy.Symbol:
     """The letter of a robot as a letter of formulas."""
-    plain = sympy.Symbol(name)
-    return plain if plain in GLYPHS else letter(name, written_letter(name))
+    return letter(code(name), written_letter(name))
 
 
 class _Symbols(dict[str, Expr]):
@@ -84,7 +89,7 @@ def second(text: str, first: str, then: str) -> Expr:
 def part_derivative(part: str, by: str) -> sympy.Symbol:
     """The derivative of a named part by a letter, as a letter of its own."""
     above, below = (row(variable("∂"), written_letter(name)) for name in (part, by))
-    return letter(f"d_{part}_d_{by}", Fraction(above, below))
+    return letter(f"own_{part}_by_{by}", Fraction(above, below))
 
 
 @lru_cache(maxsize=4096)
@@ -139,10 +144,10 @@ def angle(value: Angle) -> Value:
 
 
 def known(given: System) -> dict[str, Value]:
-    """The values of all letters at the operating point."""
+    """The values of all letters at the operating point, by their codes."""
     return {
-        **{name: exact(value) for name, value in given.constants.items()},
-        **{name: angle(value) for name, value in (*given.state.items(), *given.action.items())},
+        **{code(name): exact(value) for name, value in given.constants.items()},
+        **{code(name): angle(value) for name, value in (*given.state.items(), *given.action.items())},
     }
 
 

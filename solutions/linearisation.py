@@ -52,9 +52,9 @@ def point(work: Work, given: System) -> dict[str, Value]:
     """The values of all letters at the operating point, named parts included."""
     known = dynamics.known(given)
     if work.makes(AT_ZERO):
-        known |= dict.fromkeys((*given.state, *given.action), ZERO)
+        known |= dict.fromkeys(map(dynamics.code, (*given.state, *given.action)), ZERO)
     for name, text in given.where.items():
-        known[name] = work.step(PART_VALUE, into=part_value, right=_right(text), i=name, **known)
+        known[dynamics.code(name)] = work.step(PART_VALUE, into=part_value, right=_right(text), i=name, **known)
     return known
 
 
@@ -67,7 +67,7 @@ def rates(work: Work, given: System) -> AnyMatrix:
     """f at the operating point, a column."""
     known = dynamics.known(given)
     for name, text in given.where.items():
-        known[name] = evaluate(_right(text), known)
+        known[dynamics.code(name)] = evaluate(_right(text), known)
     return matrices.column(
         work.step(PART_VALUE, into=f_value, right=_right(text), i=index, **known)
         for index, text in enumerate(given.dynamics.values(), 1)

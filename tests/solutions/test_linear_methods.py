@@ -15,6 +15,7 @@ from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
 from rldrill.problems.robots import robots
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
@@ -200,6 +201,30 @@ def test_systems_with_wrong_weights_are_one_sentence(changed: dict[str, Any], me
     system: dict[str, Any] = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 2}
     with pytest.raises(FileError, match=message):
         solved("lqr-backward", **(system | changed))
+
+
+def test_letters_of_a_system_may_be_those_of_formulas() -> None:
+    # A circuit of a coil, a resistor and a capacitor, with the field's own letters, and others that formulas have.
+    circuit = {
+        "dynamics": {"i": "(u - R*i - g*j)/L", "j": "i"},
+        "constants": {"R": 6, "L": 2, "g": 3},
+        "state": {"i": 1, "j": 2},
+        "action": {"u": 0},
+    }
+    answers = solved("linearise", **circuit)
+    assert entries(answers["a"]) == [-3, fmpq(-3, 2), 1, 0]
+    assert entries(answers["b"]) == [fmpq(1, 2), 0]
+    written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[1])
+    assert written.startswith("∂f₁/∂i = −R/L = ")
+    words = circuit | {
+        "dynamics": {"right": "into*right^2 + sign*u"}, "constants": {"into": 2, "sign": 5}, "state": {"right": 3}
+    }  # fmt: skip
+    assert solved("linearise", **words)["a"][0, 0] == 12
+    plan = {"dynamics": {"g": "g + i*u^2"}, "constants": {"i": 1}, "state": {"g": 1}, "action": {"u": 1},
+            "reward": "-(g^2 + 2*u^2)", "gradient": [-1], "hessian": [[-2]], "second_order": True}  # fmt: skip
+    # Q_s = −2 + 1·(−1), Q_a = −4 + 2·(−1), Q_aa = −4 + 2·(−2)·2 + (−1)·2.
+    answers = solved("ddp-backward", **plan)
+    assert [entries(answers[label]) for label in "abe"] == [[-3], [-6], [-14]]
 
 
 def test_every_robot_reads_and_names_its_source() -> None:
