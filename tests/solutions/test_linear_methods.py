@@ -216,10 +216,6 @@ def test_letters_of_a_system_may_be_those_of_formulas() -> None:
     assert entries(answers["b"]) == [fmpq(1, 2), 0]
     written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[1])
     assert written.startswith("∂f₁/∂i = −R/L = ")
-    words = circuit | {
-        "dynamics": {"right": "into*right^2 + sign*u"}, "constants": {"into": 2, "sign": 5}, "state": {"right": 3}
-    }  # fmt: skip
-    assert solved("linearise", **words)["a"][0, 0] == 12
     plan = {"dynamics": {"g": "g + i*u^2"}, "constants": {"i": 1}, "state": {"g": 1}, "action": {"u": 1},
             "reward": "-(g^2 + 2*u^2)", "gradient": [-1], "hessian": [[-2]], "second_order": True}  # fmt: skip
     # Q_s = −2 + 1·(−1), Q_a = −4 + 2·(−1), Q_aa = −4 + 2·(−2)·2 + (−1)·2.
