@@ -23,6 +23,7 @@ from rldrill.problems.errors import UsageError
 from rldrill.problems.family import Family
 from rldrill.problems.mathematics import EMPTY, Glyph, Grid, Math, Script, number, operator, relation, row
 from rldrill.problems.parts import Part
+from rldrill.problems.pictures import Picture
 from rldrill.render.typst import block, document, text, typst
 from rldrill.render.unicode import unicode_text
 from rldrill.selection import sequence
@@ -166,48 +167,60 @@ _SHEET_HELPERS = r"""
 #let empty-table(..names) = layout(size => fitted(table(columns: names.pos().len(), align: center + horizon,
   stroke: 0.4pt + luma(120), inset: 0.4em, ..names.pos(),
   ..names.pos().map(_ => box(width: 2.3cm, height: 0.55cm))), size.width))
-#let part-block(part, extra) = block(breakable: false, width: 100%, {
+#let part-block(part, scale) = block(breakable: false, width: 100%, {
   block(below: 0.6em, grid(columns: (1fr, auto), column-gutter: 0.5em,
     { part.label; part.ask }, small(part.points)))
   block(width: 100%, stroke: 0.4pt + luma(190), radius: 2pt, inset: 0.6em, above: 0.6em,
-    { v(calc.max(0.6cm, part.space + extra)); part.field })
+    { v(calc.max(0.6cm, part.space * scale)); part.field })
 })
-#let problem(head, statement, ..parts) = (
-  spaces: parts.pos().len(),
-  draw: extra => {
-    let first = parts.pos().first()
-    block(width: 100%, breakable: false, { head; statement; part-block(first, extra) })
-    for part in parts.pos().slice(1) { part-block(part, extra) }
-  },
-)
-// Fill pages with whole problems, and give the room that is left over to the space for working.
+// A problem as what stays together: its statement with the first part, then every further part.
+#let problem(head, statement, ..parts) = parts.pos().enumerate().map(((index, part)) => (
+  begins: index == 0,
+  space: part.space,
+  draw: scale => block(width: 100%, breakable: false, {
+    if index == 0 { head; statement }
+    part-block(part, scale)
+  }),
+))
+// Fill pages: problems stay whole, unless no page could hold one or the first page would stay empty; then the space
+// for working, little until here, grows to fill every page.
+#let (least, most, most-at-the-end) = (0.6, 2.4, 1.4)
 #let packed(front, problems) = context {
   let (width, height) = (page.width - 2 * margin, page.height - 2 * margin)
-  let gap = 1.2em.to-absolute()
-  let taken(body) = measure(width: width, body).height + gap
-  let pages = ((problems: (), used: taken(front), torn: false),)
-  for item in problems {
-    let shrink = calc.min(0pt, (height - taken((item.draw)(0pt))) / item.spaces)
-    let needed = taken((item.draw)(shrink))
-    let torn = needed > height + 0.1pt
-    let last = pages.pop()
-    if last.used + needed > height + 0.1pt and (last.problems.len() > 0 or not torn) {
-      pages.push(last)
-      last = (problems: (), used: 0pt, torn: false)
+  let (gap, between) = (1.2em.to-absolute(), 0.9em.to-absolute())
+  let taken(body) = measure(width: width, body).height
+  let pages = ((chunks: (), used: taken(front)),)
+  for chunks in problems {
+    let heights(scale) = chunks.map(chunk => taken((chunk.draw)(scale)) + if chunk.begins { gap } else { between })
+    let whole = (least, least / 2, 0).find(scale => heights(scale).sum() <= height)
+    let scale = if whole == none { least } else { whole }
+    let heights = heights(scale)
+    let here = pages.pop()
+    if here.used + heights.sum() > height {
+      let begins = here.used + heights.first() <= height
+      if here.chunks.len() > 0 or not begins {
+        pages.push(here)
+        here = (chunks: (), used: 0pt)
+      }
     }
-    let used = last.used + needed
-    pages.push((
-      problems: last.problems + ((spaces: item.spaces, draw: extra => (item.draw)(shrink + extra)),),
-      used: if torn { used - height * calc.floor(used / height) } else { used },
-      torn: last.torn or torn,
-    ))
+    for (chunk, tall) in chunks.zip(heights) {
+      if here.used + tall > height and here.chunks.len() > 0 {
+        pages.push(here)
+        here = (chunks: (), used: 0pt)
+      }
+      here = (chunks: here.chunks + ((..chunk, scale: scale),), used: here.used + tall)
+    }
+    pages.push(here)
   }
   front
-  for (index, page) in pages.enumerate() {
-    let spaces = page.problems.map(item => item.spaces).sum(default: 1)
-    let most = if page.torn { 0pt } else if index + 1 == pages.len() { 2cm } else { 8cm }
-    let extra = calc.max(0pt, calc.min(most, (height - page.used - 4pt) / spaces))
-    for item in page.problems { v(gap, weak: true); (item.draw)(extra) }
+  for (index, here) in pages.enumerate() {
+    let space = here.chunks.map(chunk => chunk.space).sum(default: 1cm)
+    let more = calc.max(0, (height - here.used - 4pt) / space)
+    let limit = if index + 1 == pages.len() { most-at-the-end } else { most }
+    for chunk in here.chunks {
+      if chunk.begins { v(gap, weak: true) }
+      (chunk.draw)(calc.min(chunk.scale + more, limit))
+    }
     if index + 1 < pages.len() { pagebreak(weak: true) }
   }
 }
@@ -308,7 +321,8 @@ def _spaces(exercise: Exercise) -> list[float]:
     """The least room for working in every part, in centimetres: it grows with the printed working."""
     heights = []
     for part in exercise.parts:
-        lengths = [len(unicode_text(item)) for item in exercise.working(part.label)]
+        written = (item for item in exercise.working(part.label) if not isinstance(item, Picture))
+        lengths = [len(unicode_text(item)) for item in written]
         heights.append(1.2 + 0.6 * sum(math.ceil(length / _BY_HAND) for length in lengths))
     most = _MOST_SPACE / max(_MOST_SPACE, sum(heights))
     return [height * most for height in heights]

@@ -127,7 +127,9 @@ def test_every_word_is_inside_the_margins(folder: Path, name: str) -> None:
         assert inside, html.unescape(word)
 
 
-def test_a_problem_is_torn_only_if_no_page_can_hold_it(sheet: Sheet, folder: Path) -> None:
+def test_a_problem_is_torn_only_if_no_page_can_hold_it_or_the_first_would_stay_empty(
+    sheet: Sheet, folder: Path
+) -> None:
     pages = poppler("pdftotext", "-layout", str(folder / "exam-A.pdf"), "-").split("\f")
     identities = [str(exercise.id) for exercise in sheet.versions[0].exercises]
     torn = 0
@@ -137,9 +139,18 @@ def test_a_problem_is_torn_only_if_no_page_can_hold_it(sheet: Sheet, folder: Pat
         several = len(exercise.parts) > 1
         assert not several or "(a)" in rest, "the first part stays with the statement"
         if several and not all(f"({part.label})" in rest for part in exercise.parts):
-            torn += 1
+            torn += page is not pages[0]
             assert not any(identity in before for identity in identities), "it had a page of its own to begin on"
     assert torn <= len(identities) // 5
+
+
+def test_no_page_is_left_to_the_head_alone(tmp_path: Path) -> None:
+    version = plan(["ddp-backward"], 1, 2, 2, 1).versions[0]
+    (tmp_path / "x.pdf").write_bytes(pdf(worksheet_source(version, paper_of("a4"))))
+    first, second, *_ = poppler("pdftotext", "-layout", str(tmp_path / "x.pdf"), "-").split("\f")
+    assert str(version.exercises[0].id) in first
+    assert "(a)" in first
+    assert "(g)" in second
 
 
 @pytest.mark.parametrize(("paper", "size"), [("a4", "595.276 x 841.89"), ("letter", "612 x 792")])

@@ -8,7 +8,7 @@ from rldrill.problems.pictures import Arm, Pendulum
 from rldrill.render.pictures.scene import Box, Ellipse, Label, Path, Point, Scene, Shape, label_box, rectangle
 
 _REACH = 120.0
-_ROD = 60.0
+_ROD = 44.0
 #: Points of a line that are tested for a label lying on them.
 _SAMPLES = 24
 
@@ -85,10 +85,10 @@ def pendulum(picture: Pendulum) -> Scene:
         shapes += [Path(((-18, 0), (18, 0)), width=1.2)]
     shapes.append(Path((pivot, _swung(pivot, 0, _ROD * 0.8)), dashed=True, width=0.4))
     shapes.append(Path((pivot, weight), width=1.8))
-    arc = tuple(_swung(pivot, picture.angle * step / 24, 30) for step in range(25))
+    arc = tuple(_swung(pivot, picture.angle * step / 24, 22) for step in range(25))
     shapes.append(Path(arc, width=0.4))
     shapes += [Ellipse(pivot, (2.4, 2.4)), Ellipse(weight, (6, 6), 0.5)]
-    shapes.append(Label(_swung(pivot, picture.angle / 2, 39), "$θ$", plate=True))
+    shapes.append(Label(_swung(pivot, picture.angle / 2, 30), "$θ$", plate=True))
     return Scene(tuple(shapes))
 
 

@@ -1,0 +1,24 @@
+"""Write the README's images anew: pages of a worksheet, and the formula sheet. Run it after a change of layout."""
+
+from pathlib import Path
+
+import typst
+
+from rldrill.formula_sheet import sheet_source
+from rldrill.paper import PAPERS
+from rldrill.worksheet import plan, worksheet_source
+
+A4 = PAPERS["a4"]
+FAMILIES = ("value-iteration", "td-zero", "bayes-rule", "forward-kinematics")
+
+
+def write(name: str, source: str, page: int = 0) -> None:
+    """One page of a Typst source as a PNG beside this file."""
+    drawn = typst.compile(source.encode(), format="png", ppi=96, ignore_system_fonts=True)
+    pages = drawn if isinstance(drawn, list) else [drawn]
+    Path(__file__).with_name(name).write_bytes(pages[page])
+
+
+(version,) = plan(FAMILIES, 4, 1, seed=5, versions=1, title="Robot Learning").versions
+write("worksheet.png", worksheet_source(version, A4))
+write("sheet.png", sheet_source([], A4))
