@@ -164,7 +164,7 @@ _TOKEN = re.compile(
 _MARKS: dict[str, Literal["hat", "bar", "tilde"]] = {"\u0302": "hat", "\u0304": "bar", "\u0303": "tilde"}
 _RELATIONS = set("=<>≤≥≠←→∈≈∼↦")
 _OPERATORS = set("+−-·×*±")
-_OPENING = {"(": ")", "[": "]", "{": "}"}
+_OPENING = {"(": ")", "[": "]", "{": "}", "‖": "‖"}
 
 
 @lru_cache(maxsize=4096)
