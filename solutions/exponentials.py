@@ -1,7 +1,7 @@
 """Powers of e: whether an expression of them is identically zero, decided and not guessed; and its lowest terms.
 
-Exponentials whose exponents have no rational relation, not even up to a constant, are algebraically independent
-over the rational functions (Ax 1971, the Schanuel property for functions; for numbers it is the theorem of
+Exponentials of rational functions whose exponents have no linear relation with rational coefficients are
+algebraically independent over the rational functions (Ax 1971; for the constants among them it is the theorem of
 Lindemann and Weierstrass). So with one variable for each of them the expression is a quotient of polynomials, and it
 vanishes exactly where the upper one is zero.
 """
@@ -18,6 +18,8 @@ from rldrill.solutions.rational import RationalFunction, generator
 
 #: The greatest number of products of terms that one multiplication may take.
 _EFFORT = 20_000
+#: The highest degree of a polynomial in a root of e that is written out.
+_DEGREE = 1000
 
 #: A quotient of polynomials in the parameter and in exponentials: above and below the line.
 _Quotient: TypeAlias = tuple[Any, Any]
@@ -49,7 +51,8 @@ def lowest_terms(expression: sympy.Expr) -> sympy.Expr | None:
     def leaf(part: sympy.Expr) -> Any:
         if part.is_Rational:
             return _fraction(part)
-        if not (exponent := _exponent(part) * finest).is_Integer:
+        exponent = _exponent(part) * finest
+        if not exponent.is_Integer or abs(exponent) > _DEGREE:
             raise _UndecidedError
         return generator("e") ** int(exponent)
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import E, Rational, cos, exp, log, pi, sqrt
 
-from rldrill.solutions.exponentials import vanishes
+from rldrill.solutions.exponentials import lowest_terms, vanishes
 
 x, y = sympy.symbols("sigma tau")
 NEAR = Rational(1, 10**40)
@@ -70,3 +70,27 @@ def test_products_multiplied_out_are_the_same(
     out = sympy.expand(a * b)
     assert vanishes(product - out) is True
     assert vanishes(product - out - more * exp(x)) is (more == 0)
+
+
+@pytest.mark.parametrize(
+    ("number", "reduced"),
+    [
+        (exp(2) / (exp(2) + exp(4)), 1 / (1 + exp(2))),
+        (1 - E / (2 + E), 2 / (2 + E)),
+        ((1 + E) / exp(3), exp(-3) + exp(-2)),
+        ((2 * E + 2) / (4 * exp(2) - 4), 1 / (2 * E - 2)),
+        (E - E, 0),
+        (sympy.Mul(2, exp(3), exp(-3), evaluate=False), 2),
+        (exp(Rational(-1, 8)), exp(Rational(-1, 8))),
+    ],
+)
+def test_lowest_terms(number: sympy.Expr, reduced: sympy.Expr) -> None:
+    found = lowest_terms(sympy.sympify(number))
+    assert found is not None
+    assert sympy.simplify(found - reduced) == 0
+    assert sympy.count_ops(found) <= sympy.count_ops(reduced)
+
+
+@pytest.mark.parametrize("number", [log(2) * E, exp(pi), exp(Rational(123456789, 10**9)) + E, exp(x) + 1])
+def test_what_has_no_lowest_terms_here(number: sympy.Expr) -> None:
+    assert lowest_terms(number) is None
