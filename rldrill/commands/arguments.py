@@ -26,7 +26,7 @@ def complete_ids(incomplete: str) -> list[str]:
 
 Names = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[TOPIC|FAMILY]…", autocompletion=complete_names, help="Topics or families; all, if none."),
+    typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Topics or families; all, if none."),
 ]
 Level = Annotated[
     int | None,

@@ -12,7 +12,7 @@ NAME = "list"
 def command(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[TOPIC|FAMILY]…", autocompletion=complete_names, help="Only these."),
+        typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Only these."),
     ] = None,
     json: Json = False,
 ) -> None:

@@ -17,7 +17,7 @@ def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[TOPIC|FAMILY|ID|FILE]…",
+            metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=_complete,
             help="Topics, families, problem IDs or problem files; all families, if none.",
         ),

@@ -20,7 +20,7 @@ def complete_sections(incomplete: str) -> list[str]:
 def command(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[SECTION]…", autocompletion=complete_sections, help="Sections; all, if none."),
+        typer.Argument(metavar="SECTION", autocompletion=complete_sections, help="Sections; all, if none."),
     ] = None,
     output: Output = None,
     paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper of a PDF.")] = "a4",

@@ -18,7 +18,7 @@ _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "mis
 
 def command(
     files: Annotated[
-        list[Path], typer.Argument(metavar="FILE…", help="Files of answers: .toml, .json, .csv or .jsonl.")
+        list[Path], typer.Argument(metavar="FILE", help="Files of answers: .toml, .json, .csv or .jsonl.")
     ],
     json: Json = False,
     show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too.")] = False,
