@@ -63,7 +63,7 @@ def _fit(work: Work, data: Data, model: str) -> Value:
 
 
 def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...]) -> str:
-    numbers = " and ".join(f"BIC({name}) = {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
+    numbers = " and ".join(f"BIC({name}) ≈ {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
     work.say(f"In numbers, {numbers}; the smaller one wins.")
     difference = sign(criteria[names[0]] - criteria[names[1]])
     if difference == 0:
