@@ -93,7 +93,10 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
         right = dynamics.chained(text, by, tuple(part for part in moving if part in within))
         if work.makes(SINE_FOR_COSINE):
             right = dynamics.exchanged(right)
-        if right == 0 or (isinstance(index, str) and is_zero(evaluate(right, known))):
+        if right == 0:
+            return ZERO
+        if isinstance(index, str) and is_zero(evaluate(right, known)):
+            work.say(f"The derivative of ${index}$ by ${by}$ is $0$ here.")
             return ZERO
         into = partial if isinstance(index, int) else partial_part
         return work.step(formula, into=into, right=right, i=index, **known)

@@ -1,6 +1,7 @@
 """The belief over some hypotheses after one or several measurements."""
 
 from dataclasses import dataclass
+from math import prod
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -63,10 +64,13 @@ def draw(level: int, rng: Draws) -> Given:
         readings[0]: likely,
         readings[1]: {hypothesis: 1 - chance for hypothesis, chance in likely.items()},
     }
+    measurements = [rng.choice(readings) for _ in range(2 if level == 3 else 1)]
+    if len({prod(likelihood[reading][name] for reading in measurements) for name in hypotheses}) == 1:
+        measurements[-1] = measurements[0]  # two readings that take back what the other says
     return Given(
         prior=dict(zip(hypotheses, rng.split(len(hypotheses), (4, 5, 10)), strict=True)),
         likelihood=likelihood,
-        measurements=tuple(rng.choice(readings) for _ in range(2 if level == 3 else 1)),
+        measurements=tuple(measurements),
         story=story.told,
     )
 

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability, shown
+from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Part
@@ -25,16 +25,20 @@ COIN_MODELS = {
 }
 
 
+#: The same of a single coin.
+ONE_COIN = {"fair": "$θ = 1/2$", "shared": "$θ$ is unknown", "own": "$θ$ is unknown"}
+
+
 class Fitted(Givens):
     """A model that was fitted: its likelihood at the best parameters, and their number k."""
 
-    likelihood: Probability
+    likelihood: Exact
     k: int = Field(ge=0, le=1000)
 
     @model_validator(mode="after")
     def _possible(self) -> Self:
-        if not self.likelihood:
-            raise ValueError("likelihood is 0, so its logarithm does not exist")
+        if self.likelihood <= 0:
+            raise ValueError(f"likelihood is {self.likelihood}, which has no logarithm; it must be above 0")
         return self
 
 
@@ -128,6 +132,7 @@ def question(given: Given) -> Question:
         return Question(blocks, (criteria, _winner("b", names)))
     assert given.data is not None
     tosses = given.data.tosses
+    told = ONE_COIN if len(tosses) == 1 else COIN_MODELS
     blocks = (
         Paragraph("Independent tosses of " + ("a coin" if len(tosses) == 1 else f"{len(tosses)} coins") + " gave:"),
         Table(
@@ -135,7 +140,10 @@ def question(given: Given) -> Question:
             rows=tuple((coin, f"${heads}$", f"${tails}$") for coin, (heads, tails) in tosses.items()),
         ),
         Paragraph("With $θ$ the probability of heads, two models are compared:"),
-        Table(header=("$M$", "what it says"), rows=tuple((name, COIN_MODELS[name]) for name in names)),
+        Table(
+            header=("$M$", "what it says"),
+            rows=tuple((name, told[name]) for name in names),
+        ),
         Paragraph("The data $D$ are the tosses in their order; $n$ counts all of them, $k$ the unknown parameters."),
         rule,
     )

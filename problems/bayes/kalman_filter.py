@@ -17,7 +17,7 @@ from rldrill.problems.parts import Matrix, Part, Vector
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
-REVISION = 1
+REVISION = 2
 
 _ONE = ((Fraction(1),),)
 
@@ -105,7 +105,9 @@ def _handy() -> tuple[tuple[int, int, int], ...]:
         for before in range(1, 9)
         for process in range(1, 7)
         for sensor in range(1, 13)
-        if before + process != sensor and (before + process) * sensor % (before + process + sensor) == 0
+        if before + process != sensor
+        and process != sensor
+        and (before + process) * sensor % (before + process + sensor) == 0
     )
 
 

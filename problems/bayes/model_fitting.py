@@ -13,7 +13,7 @@ from rldrill.problems.parts import Number, Part, Vector
 
 TITLE = "Model fitting"
 SOURCE = "Bishop 2006, sections 1.2.4, 2.3.6 and 3.3.1"
-REVISION = 1
+REVISION = 2
 
 
 class Coin(Givens):

@@ -14,7 +14,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Centred):
@@ -35,7 +35,7 @@ def draw(level: int, rng: Draws) -> Given:
         centred = draw_on_a_line(rng, rng.distinct(2, 1, 4))
     else:
         centred = draw_in_the_plane(rng, 3, 0) if level == 2 else draw_in_the_plane(rng, 1, 2)
-    sigma = Parameter("sigma") if level == 3 else rng.choice(((2, 3), (2, 3, 5))[level - 1])
+    sigma = Parameter("sigma") if level == 3 else rng.choice(((3, 4), (3, 5))[level - 1])
     return Given(position=centred.position, centres=centred.centres, sigma=sigma)
 
 

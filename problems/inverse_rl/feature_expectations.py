@@ -46,9 +46,18 @@ def draw(level: int, rng: Draws) -> Given:
     count, length = {1: (2, 3), 2: (3, 4), 3: (2, 5)}[level]
     return Given(
         features=draw_features(rng, states, 2, 4),
-        trajectories=tuple(tuple(rng.choice(states) for _ in range(length)) for _ in range(count)),
+        trajectories=tuple(_distinct_runs(rng, states, count, length)),
         gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/3", "1/10"),
     )
+
+
+def _distinct_runs(rng: Draws, states: tuple[str, ...], count: int, length: int) -> list[tuple[str, ...]]:
+    runs: list[tuple[str, ...]] = []
+    while len(runs) < count:
+        run = tuple(rng.choice(states) for _ in range(length))
+        if run not in runs:
+            runs.append(run)
+    return runs
 
 
 def question(given: Given) -> Question:

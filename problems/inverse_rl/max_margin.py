@@ -1,5 +1,6 @@
 """Which max-margin constraints hold for given weights, and the smallest slack with which all do."""
 
+from fractions import Fraction
 from string import digits
 from typing import Self
 
@@ -16,7 +17,7 @@ from rldrill.problems.parts import Table as TableKind
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 1
+REVISION = 2
 
 EXPERT = "expert"
 _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
@@ -61,7 +62,15 @@ def draw(level: int, rng: Draws) -> Given:
     for number in range(1, level + 2):
         mu = tuple(rng.whole(0, 6) for _ in range(size))
         policies[f"π{str(number).translate(_LOW)}"] = Rival(mu=mu, margin=rng.whole(1, 6))
+    worth = _worth(w, expert)
+    needed = [_worth(w, rival.mu) + rival.margin for rival in policies.values()]
+    if worth in needed or worth < min(needed):  # a tie, or no constraint holds
+        return draw(level, rng)
     return Given(w=w, expert=expert, policies=policies)
+
+
+def _worth(w: tuple[Fraction, ...], mu: tuple[Fraction, ...]) -> Fraction:
+    return sum((weight * value for weight, value in zip(w, mu, strict=True)), Fraction(0))
 
 
 def question(given: Given) -> Question:

@@ -17,7 +17,7 @@ from rldrill.problems.robots import System, draw_system, plan
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 1
+REVISION = 2
 
 
 class Given(System):

@@ -8,7 +8,7 @@ from rldrill.problems.robots import System, discretised, draw_system, situation
 
 TITLE = "Linearisation"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(System):

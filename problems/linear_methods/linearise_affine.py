@@ -12,7 +12,7 @@ from rldrill.problems.robots import System, discretised, draw_system, situation
 
 TITLE = "Linearisation with a constant term"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(System):

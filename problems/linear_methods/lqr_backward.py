@@ -10,7 +10,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR over a finite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(LinearQuadratic):
@@ -43,7 +43,8 @@ def question(given: Given) -> Question:
             Paragraph(
                 f"The rewards of the times $0$ to ${last}$ are added, without a discount, and the sum is to be as "
                 f"large as possible. $V_t(s) = s^⊤ P_t s$ is the largest sum from time $t$ on, so $P_t$ is "
-                f"{'negative' if n == m == 1 else 'negative (semi)definite'}; at time ${last}$ the best action is $0$."
+                f"{'not positive' if n == m == 1 else 'negative semidefinite'}. At time ${last}$ the best action "
+                "is $0$."
             ),
         ),
         tuple(

@@ -1,5 +1,6 @@
 """The LQR gain at one time from the value matrix of the next."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Self
 
@@ -9,7 +10,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, check_weights, grid
 from rldrill.problems.parts import Matrix as MatrixKind
 from rldrill.problems.parts import Part
 
@@ -35,7 +36,21 @@ class Given(Givens):
             check_shape(name, matrix, rows, columns, f"with A {n}×{n} and {m} inputs ")
         for name, matrix in (("R", self.R), ("P", self.P)):
             check_symmetric(name, matrix)
+        inputs = tuple(zip(*self.B, strict=True))
+        curved = tuple(
+            tuple(self.R[i][j] - _between(first, self.P, then) for j, then in enumerate(inputs))
+            for i, first in enumerate(inputs)
+        )
+        check_weights("R − BᵀPB", curved, positive=True)
         return self
+
+
+def _between(first: Sequence[Fraction], matrix: Sequence[Sequence[Fraction]], then: Sequence[Fraction]) -> Fraction:
+    """The product of a row, a matrix and a column."""
+    entries = (
+        a * b * entry for a, line in zip(first, matrix, strict=True) for b, entry in zip(then, line, strict=True)
+    )
+    return sum(entries, Fraction(0))
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -111,8 +111,8 @@ def question(given: Given) -> Question:
             ),
             *(Equation(mathematics(name), (grid(matrix),), ("=",)) for name, matrix in named),
             Paragraph(
-                "The largest sum of all rewards from the state $s$ on is $V(s) = s^⊤ P s$; the best action is "
-                "$a = −L s$."
+                "The state has to go to $0$. Of all ways to bring it there, the largest sum of all rewards from the "
+                "state $s$ on is $V(s) = s^⊤ P s$; the best action is $a = −L s$."
             ),
             *(
                 (Paragraph("Sum and difference of the two states are two systems that do not act on each other."),)

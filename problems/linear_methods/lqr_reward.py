@@ -1,5 +1,6 @@
 """The rewards of a short rollout of a linear system under a linear feedback."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import model_validator
@@ -16,7 +17,12 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 1
+REVISION = 2
+
+Line = tuple[Fraction, ...]
+Rows = tuple[Line, ...]
+#: States stay this close to 0.
+_FAR = 6
 
 
 class Given(LinearQuadratic):
@@ -40,7 +46,24 @@ def draw(level: int, rng: Draws) -> Given:
     system = draw_system(rng, states, price)
     gain = (tuple(rng.whole(0, 2) if states > 1 else rng.fraction("1/2", "1", "2") for _ in range(states)),)
     start = tuple(rng.nonzero(-2, 3) for _ in range(states))
-    return Given(**system, L=gain, start=start, horizon=1 if level < 3 else 2)
+    horizon = 1 if level < 3 else 2
+    if _farthest(system["A"], system["B"], gain[0], start, horizon) > _FAR:
+        return draw(level, rng)
+    return Given(**system, L=gain, start=start, horizon=horizon)
+
+
+def _farthest(A: Rows, B: Rows, gain: Line, state: Line, horizon: int) -> Fraction:
+    """The greatest entry of a state on the way, with one action."""
+    greatest = max(map(abs, state))
+    for _ in range(horizon):
+        action = -_product(gain, state)
+        state = tuple(_product(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
+        greatest = max(greatest, *map(abs, state))
+    return greatest
+
+
+def _product(first: Line, second: Line) -> Fraction:
+    return sum((a * b for a, b in zip(first, second, strict=True)), Fraction(0))
 
 
 def question(given: Given) -> Question:

@@ -110,7 +110,7 @@ def question(given: Given) -> Question:
         ),
     )
     asked = f'What is the critic\'s $V("{given.visited[0]}")$' if len(given.visited) == 1 else "What are the critic's "
-    values = asked if len(given.visited) == 1 else f"{asked}values of the states that were left"
+    values = asked if len(given.visited) == 1 else f"{asked}values of the states that the agent left"
     opened = in_open(given)
     return Question(
         blocks,

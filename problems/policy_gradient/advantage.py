@@ -1,5 +1,6 @@
 """The advantage of every action in a state; or generalised advantage estimates along a run."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -25,7 +26,7 @@ from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 1
+REVISION = 2
 
 
 class Lookahead(Givens):
@@ -111,12 +112,20 @@ def draw(level: int, rng: Draws) -> Given:
         for row in draw_outcomes(rng, state, action, rng.sample(targets, rng.choice((1, level))), shape)
     ]
     needed = {state, *(row.next for row in rows)} if level == 1 else {row.next for row in rows}
+    gamma = rng.fraction("1/2", "1")
+    values = {name: 2 * rng.nonzero(-3, 5) for name in setting.states if name in needed}
+    if level == 1:  # every action has one outcome; one is better than the policy, and one is worse
+        worth = [row.reward + gamma * values[row.next] for row in rows if isinstance(row.reward, Fraction)]
+        between = [Fraction(value) for value in range(-30, 30) if value and min(worth) < value < max(worth)]
+        if not between:
+            return draw(level, rng)
+        values[state] = rng.choice(between)
     lookahead = Lookahead(
         dynamics=Dynamics(transitions=tuple(rows)),
-        values={name: 2 * rng.nonzero(-3, 5) for name in setting.states if name in needed},
+        values=values,
         policy=None if level == 1 else {state: dict(zip(actions, rng.split(3, (4, 5)), strict=True))},
     )
-    return Given(lookahead=lookahead, gamma=rng.fraction("1/2", "1"))
+    return Given(lookahead=lookahead, gamma=gamma)
 
 
 def question(given: Given) -> Question:

@@ -1,5 +1,6 @@
 """REINFORCE with a baseline: the gradient from one episode, each return taken relative to the state's baseline."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import model_validator
@@ -14,7 +15,7 @@ from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, grad
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Episode):
@@ -34,11 +35,18 @@ def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
     episode = draw_episode(level, rng)
     visited = tuple(dict.fromkeys(episode["trajectory"].states[:-1]))
+    gamma = Fraction(0) if level == 3 else rng.fraction("1/2", "1/2", "1")
+    baseline = {state: rng.nonzero(-2, 5) for state in visited}
+    run, later = episode["trajectory"], Fraction(0)
+    for state, reward in zip(run.states[-2::-1], run.rewards[::-1], strict=True):
+        later = reward + gamma * later
+        if later == baseline[state]:  # then a step would not count
+            return draw(level, rng)
     return Given(
         **episode,
-        baseline={state: rng.nonzero(-2, 5) for state in visited},
+        baseline=baseline,
         alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1"),
+        gamma=Parameter("gamma") if level == 3 else gamma,
     )
 
 

@@ -54,7 +54,10 @@ def _fit(work: Work, data: Data, model: str) -> Value:
         share = work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
         theta = dict.fromkeys(heads, share)
     else:
-        theta = {coin: work.step(COIN_ML, heads=heads[coin], tails=tails[coin]) for coin in heads}
+        theta = {}
+        for coin in heads:
+            work.say(f"Of {coin}:")
+            theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
     value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
     shorter = sympy.expand_log(value, factor=True)
     if shorter != value:

@@ -20,6 +20,7 @@ from rldrill.solutions.sheet.bayes import (
     MEAN,
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
+    N_MINUS_1_FOR_N,
     SAMPLE_VARIANCE,
 )
 from rldrill.solutions.work import Work
@@ -29,12 +30,11 @@ PRIOR_IGNORED = slip(
     "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
     when=lambda given: given.has_prior,
 )
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, PRIOR_IGNORED)
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, PRIOR_IGNORED)
 
 
 def solve(given: Given, work: Work) -> None:
     """What the data alone say; then with the prior."""
-    work.recall(MODEL_FITTING)
     if given.coin is not None:
         _coin(given.coin, work)
     elif given.sample is not None:
@@ -48,6 +48,7 @@ def _coin(coin: Coin, work: Work) -> None:
         "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
     }  # fmt: skip
     work.answer("a", work.step(COIN_ML, **known))
+    work.recall(MODEL_FITTING)
     work.answer("b", work.step(COIN_ML if work.makes(PRIOR_IGNORED) else COIN_MAP, **known))
 
 
@@ -63,6 +64,7 @@ def _sample(sample: Sample, work: Work) -> None:
         "prior_mean": exact(sample.prior.mean),
         "prior_variance": exact(sample.prior.variance),
     }
+    work.recall(MODEL_FITTING)
     ignored = work.makes(PRIOR_IGNORED)
     work.answer("d", work.step(GAUSSIAN_MEAN, **known) if ignored else work.step(GAUSSIAN_MAP, **known, **prior))
 
@@ -79,6 +81,7 @@ def _line(line: Line, work: Work) -> None:
     work.answer("a", (slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
     if line.prior is None:
         return
+    work.recall(MODEL_FITTING)
     if work.makes(PRIOR_IGNORED):
         slope = work.step(LINE_SLOPE, **known)
     else:

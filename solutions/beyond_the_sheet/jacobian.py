@@ -5,6 +5,7 @@ import numpy as np
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
 from rldrill.solutions.exact import ONE, exact, is_zero
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,
@@ -12,11 +13,15 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     JACOBIAN_X,
     JACOBIAN_Y,
     SINGULAR,
-    TRANSPOSED_J,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (TRANSPOSED_J, ABSOLUTE_ANGLES)
+TRANSPOSED = slip(
+    "transposed-jacobian",
+    "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
+    when=lambda given: given.square,
+)
+MISCONCEPTIONS = (TRANSPOSED, ABSOLUTE_ANGLES)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -28,7 +33,8 @@ def solve(given: Given, work: Work) -> None:
     if given.orientation:
         work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
         rows.append([ONE for _ in joints])
-    J = work.answer("a", matrices.matrix(rows))
+    J = matrices.matrix(rows)
+    J = work.answer("a", J.transpose() if work.makes(TRANSPOSED) else J)
     velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
     work.answer("b", tuple(velocity.entries()))
     if given.square:

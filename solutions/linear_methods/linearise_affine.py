@@ -5,6 +5,7 @@ import numpy as np
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.linearisation import (
     AT_ZERO,
     SINE_FOR_COSINE,
@@ -30,7 +31,11 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (C_IS_F, AT_ZERO, SINE_FOR_COSINE, FORGOT_IDENTITY)
+C_IS_RATES = slip(
+    "c-is-the-rates",
+    "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
+)
+MISCONCEPTIONS = (C_IS_F, C_IS_RATES, AT_ZERO, SINE_FOR_COSINE, FORGOT_IDENTITY)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -42,8 +47,10 @@ def solve(given: Given, work: Work) -> None:
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     assert given.step is not None, "checked with the givens"
-    f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=rates(work, given))
-    C = work.answer("a", work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
+    f = rates(work, given)
+    f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=f)
+    C = work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar)
+    C = work.answer("a", f if work.makes(C_IS_RATES) else C)
     work.answer("b", work.step(AUGMENTED_A, Ai=A, Cc=C))
     work.answer("c", work.step(AUGMENTED_B, Bi=B))
 

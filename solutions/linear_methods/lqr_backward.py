@@ -1,5 +1,7 @@
 """The Riccati recursion backwards from the horizon: at every time first the gain, then the value matrix."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
@@ -7,6 +9,7 @@ from rldrill.solutions import linear
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
+    COST_TO_GO,
     FORGOT_R,
     IN_COSTS,
     LQR_ACTION,
@@ -15,6 +18,7 @@ from rldrill.solutions.sheet.linear_methods import (
     LQR_TERMINAL,
     NO_TERMINAL,
     POSITIVE_S,
+    TRANSPOSED_A,
 )
 from rldrill.solutions.work import Work
 
@@ -22,7 +26,9 @@ SAME_TIME = slip(
     "gain-from-same-time",
     "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
 )
-MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, NO_TERMINAL, SAME_TIME)
+#: As for a single gain, but here matrices are given by time.
+TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
+MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, SAME_TIME, COST_TO_GO)
 _LABELS = "abcdefghijklmnopqrstuvwxyz"
 
 
@@ -41,7 +47,8 @@ def solve(given: Given, work: Work) -> None:
             gain = work.step(LQR_GAIN, t=time, Pt={time + 1: value}, **known)
         L = {time: work.answer(next(labels), gain)}
         value = work.step(LQR_RICCATI, t=time, Pt=P, Lt={time: right} if work.makes(SAME_TIME) else L, **known)
-        P = P | {time: work.answer(next(labels), value)}
+        given_ = work.answer(next(labels), -value if work.makes(COST_TO_GO) else value)
+        P = P | {time: value if work.makes(COST_TO_GO) else given_}
     work.answer(next(labels), work.step(LQR_ACTION, t=0, Lt=L, St={0: linear.start(given)}))
 
 

@@ -11,6 +11,7 @@ from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.riccati import stationary
 from rldrill.solutions.sheet.linear_methods import (
+    COST_TO_GO,
     LQR_BETA,
     LQR_CLOSED_LOOP,
     LQR_GAIN,
@@ -21,15 +22,25 @@ from rldrill.solutions.sheet.linear_methods import (
     POSITIVE_S,
     L_always,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Result, Work
 
-MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S)
+MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, COST_TO_GO)
+
+
+_QUADRATIC = (
+    "Multiplied by $B^2 P − R$, the scalar equation becomes $B^2 P^2 + β P − Q R = 0$; the negative one of its roots "
+    "brings the state to $0$."
+)
 
 
 def solve(given: Given, work: Work) -> None:
     """P, then the gain from it, then the closed loop, which shows that the root was the right one."""
     known = {name: matrices.given(getattr(given, name)) for name in "ABQR"}
-    P = work.answer("a", _value(work, **known))
+    P = _value(work, **known)
+    if work.makes(COST_TO_GO):
+        work.answer("a", -P)
+    else:
+        P = work.answer("a", P)
     by_time = {"At": {0: known["A"]}, "Bt": {0: known["B"]}, "Rt": {0: known["R"]}, "Pt": {1: P}}
     if all(isinstance(entry, fmpq) and entry.q > _LONG for entry in P.entries()):
         work.say("The gain follows from this $P$, and is rounded likewise.")
@@ -46,6 +57,7 @@ def _value(work: Work, A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -
     work.recall(LQR_STATIONARY)
     work.say("$P$ is the matrix of the value; for the cost-to-go, $S = −P$, it reads $S = Q + A^⊤ S A − A^⊤ S B L$.")
     if A.nrows() == B.ncols() == 1:
+        work.say(_QUADRATIC)
         return matrices.matrix([[_root(work, *(matrix[0, 0] for matrix in (A, B, Q, R)))]])
     for change in _changes(A.nrows()):
         split = [change.inv() * matrix * change for matrix in (A, B, Q, R)] if A.nrows() == B.ncols() else []
@@ -57,8 +69,15 @@ def _value(work: Work, A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -
 def _root(work: Work, a: Value, b: Value, q: Value, r: Value) -> Value:
     """The scalar P: the root that makes the closed loop stable."""
     known = {"Ak": a, "Bk": b, "Qk": q, "Rk": r}
-    if b == 0 or (q == 0 and abs(a) == 1):
-        raise NoSolution("no action keeps this system from running away, or none is worth its price")
+    if b == 0 and abs(a) >= 1:
+        raise NoSolution("no action has an effect on a part of the state that does not go to 0 by itself")
+    if b == 0:
+        work.say("No action has an effect here, so the gain is $0$, and $P = −Q + A^2 P$:")
+        value = -q / (1 - a * a)
+        work.lines.append(Result((LQR_ROOT.left,), (value,)))
+        return value
+    if q == 0 and abs(a) == 1:
+        raise NoSolution("to bring the state to 0 can be made as cheap as one likes, so no action is the best")
     beta = work.step(LQR_BETA, **known)
     return work.step(LQR_ROOT, betak=beta, **known)
 
@@ -76,9 +95,16 @@ def _is_diagonal(matrix: AnyMatrix) -> bool:
 def _by_modes(work: Work, change: AnyMatrix, *split: AnyMatrix) -> AnyMatrix:
     size = change.nrows()
     roots = []
-    for mode in range(size):
-        work.say(f"Mode {mode + 1}, a system of its own:")
-        roots.append(_root(work, *(matrix[mode, mode] for matrix in split)))
+    of = ("the sum", "the difference") if change[0, 1] != 0 else tuple(f"entry {mode + 1}" for mode in range(size))
+    names = tuple(f"{what} of the two states" if change[0, 1] != 0 else f"{what} of the state" for what in of)
+    work.say(_QUADRATIC)
+    for mode, what in enumerate(names):
+        numbers = [matrix[mode, mode] for matrix in split]
+        told = ", ".join(f"{name} = {number}".replace("-", "−") for name, number in zip("ABQR", numbers, strict=True))
+        work.say(f"Mode {mode + 1}, {what}, is a system of its own with ${told}$:")
+        roots.append(_root(work, *numbers))
+    if size > 1:
+        work.say("Back in the entries of the state, with the modes as the columns of $T$:")
     diagonal = matrices.matrix([[roots[i] if i == j else 0 for j in range(size)] for i in range(size)])
     return work.step(LQR_MODES, modes=change, Pm=diagonal)
 
@@ -108,7 +134,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 def oracle(given: Given) -> Answers:
     """Value iteration on the quadratic, until nothing changes."""
     A, B, Q, R = (linear.array(getattr(given, name)) for name in "ABQR")
-    S = Q
+    S = Q + np.eye(len(Q))  # from any positive matrix it comes to the solution that is stable
     for _ in range(100_000):
         L = np.linalg.solve(R + B.T @ S @ B, B.T @ S @ A)
         after = Q + L.T @ R @ L + (A - B @ L).T @ S @ (A - B @ L)

@@ -24,7 +24,7 @@ from rldrill.solutions.work import Work
 
 WRONG_SIDE = slip(
     "wrong-side-for-negative-advantage",
-    "For a negative advantage too the smaller of the two terms counts: the ratio is held at 1 − ε, not at 1 + ε.",
+    "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
     when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
 )
 MISCONCEPTIONS = (CLIP_WITHOUT_MIN, WRONG_SIDE, RATIO_INVERTED)

@@ -301,6 +301,13 @@ with evaluate(False):
         hint="Average the squared distances from the mean.",
         place=Place.BEYOND,
     )
+    N_MINUS_1_FOR_N = misread(
+        GAUSSIAN_VARIANCE,
+        "n-minus-1-for-n",
+        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
+        "Maximum likelihood divides by n; dividing by n − 1 makes the estimate unbiased.",
+        when=lambda given: given.sample is not None,
+    )
     SAMPLE_VARIANCE = Formula(
         "sample-variance",
         sample_variance,

@@ -10,7 +10,6 @@ from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
     SumOver,
-    Transposed,
     alpha,
     i,
     letter,
@@ -94,13 +93,6 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 3.1",
         hint="Each joint contributes its column of J times its angular velocity.",
         place=Place.BEYOND,
-    )
-    TRANSPOSED_J = misread(
-        END_POINT_VELOCITY,
-        "transposed-jacobian",
-        Transposed(Jacobian) * rates,
-        "Velocities are mapped by J itself; its transpose maps forces to joint torques.",
-        when=lambda given: given.square,
     )
     SINGULAR = Formula(
         "jacobian-determinant",

@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Place, misread, slip
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -52,6 +52,11 @@ St = _matrix("St", "s")
 Ut = _matrix("Ut", "a")
 rt = quantity("rt", _reward_layout)
 J = letter("J")
+
+COST_TO_GO = slip(
+    "cost-to-go-given",
+    "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
+)
 
 #: How a working in values of P reads for somebody who learnt it in costs.
 IN_COSTS = (

@@ -303,3 +303,18 @@ def test_models_that_do_not_fit_are_one_sentence(changed: dict[str, Any], fragme
         solved("kalman-filter", **KALMAN | changed)
     assert fragment in str(error.value)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(("level", "seed"), [(level, seed) for level in (1, 2, 3) for seed in range(8)])
+def test_a_measurement_tells_something(level: int, seed: int) -> None:
+    exercise = rldrill.draw("bayes-rule", level, seed)
+    prior = {name: fmpq(p.numerator, p.denominator) for name, p in exercise.problem.given.prior.items()}  # type: ignore[attr-defined]
+    assert list(exercise.solve().values())[-1] != prior
+
+
+def test_a_variance_by_the_other_divisor_is_recognised_both_ways() -> None:
+    sample = {"values": [1, 2, 6]}  # mean 3, squares 4 + 1 + 9 = 14
+    exercise = rldrill.read({"family": "model-fitting", "given": {"sample": sample}})
+    assert exercise.solve()["b"] == fmpq(14, 3)
+    assert [m.name for m in exercise.check("7", "b").misconceptions] == ["n-minus-1-for-n"]
+    assert [m.name for m in exercise.check("14/3", "c").misconceptions] == ["n-for-n-minus-1"]

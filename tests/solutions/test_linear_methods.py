@@ -203,6 +203,46 @@ def test_systems_with_wrong_weights_are_one_sentence(changed: dict[str, Any], me
         solved("lqr-backward", **(system | changed))
 
 
+def test_systems_that_nothing_acts_on() -> None:
+    # P = −1 + P/4, so P = −4/3; and the same as one half of a larger system.
+    answers = solved("lqr-infinite", A="1/2", B=0, Q=1, R=1)
+    assert [answers[label][0, 0] for label in "abc"] == [fmpq(-4, 3), 0, fmpq(1, 2)]
+    halves = solved("lqr-infinite", A=[["1/2", 0], [0, 2]], B=[[0, 0], [0, 1]], Q=[[1, 0], [0, 0]], R=[[1, 0], [0, 1]])
+    assert entries(halves["a"]) == [sympy.Rational(-4, 3), 0, 0, -3]
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        ({"A": 2, "B": 0, "Q": 1}, "no action has an effect on a part of the state that does not go to 0"),
+        ({"A": 1, "B": 1, "Q": 0}, "as cheap as one likes"),
+    ],
+)
+def test_systems_that_cannot_be_brought_to_rest(system: dict[str, Any], message: str) -> None:
+    with pytest.raises(FileError, match=message):
+        solved("lqr-infinite", **system, R=1)
+
+
+def test_a_gain_needs_an_action_that_is_the_best() -> None:
+    with pytest.raises(FileError, match="R − BᵀPB must be positive definite"):
+        solved("lqr-gain", A=1, B=1, R=4, P=8)  # more action earns ever more
+
+
+@pytest.mark.parametrize(
+    ("problem", "part", "typed", "name"),
+    [
+        ("lqr-infinite/1/11", "a", lambda answers: -answers["a"][0, 0], "cost-to-go-given"),
+        ("lqr-backward/2/11", "b", lambda answers: -answers["b"][0, 0], "cost-to-go-given"),
+        ("jacobian/1/11", "a", lambda answers: answers["a"].transpose().tolist(), "transposed-jacobian"),
+    ],
+)
+def test_the_commonest_slips_are_recognised(problem: str, part: str, typed: Any, name: str) -> None:
+    exercise = rldrill.load(problem)
+    wrong = str(typed(exercise.solve()))
+    verdict = exercise.check(wrong, part)
+    assert name in [misconception.name for misconception in verdict.misconceptions], (wrong, verdict)
+
+
 def test_letters_of_a_system_may_be_those_of_formulas() -> None:
     # A circuit of a coil, a resistor and a capacitor, with the field's own letters, and others that formulas have.
     circuit = {

@@ -253,3 +253,14 @@ def test_wrong_givens(name: str, given_: Any, fragment: str) -> None:
         family(name).read(given_)
     assert fragment in str(error.value)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_policy_is_better_than_one_action_and_worse_than_another(seed: int) -> None:
+    advantages = rldrill.draw("advantage", 1, seed).solve()["b"].values()
+    assert min(advantages) < 0 < max(advantages)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_every_step_counts_against_the_baseline(seed: int) -> None:
+    assert all(rldrill.draw("reinforce-baseline", 1 + seed % 2, seed).solve()["a"])
