@@ -144,8 +144,10 @@ def _sum(terms: list[Expr]) -> Expr:
     kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
     if not kept:
         return sympy.S.Zero
-    if len(kept) == 1:  # what is left of 0 − 5 is −5, not (−1)·5
+    if len(kept) == 1:  # what is left of 0 − 5 is −5, not (−1)·5; and of 0 − (−5) it is 5
         sign, *rest = kept[0].args if kept[0].is_Mul else (None,)
+        if sign == -1 and len(rest) == 1 and isinstance(rest[0], Negative):
+            return leaf(-rest[0].args[0])
         return Negative(-rest[0]) if sign == -1 and len(rest) == 1 and rest[0].is_Number else kept[0]
     return Add(*kept, evaluate=False)
 

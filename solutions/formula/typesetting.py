@@ -238,7 +238,7 @@ def _is_grid(factor: Expr) -> bool:
 def _needs_dot(before: Expr, factor: Expr) -> bool:
     """Numbers are kept apart by a dot; letters stand side by side, as the sheet prints them."""
     if _is_grid(before) or _is_grid(factor):
-        return False
+        return _is_grid(before) and _numeric(factor)
     if isinstance(before, VectorLeaf) or isinstance(factor, VectorLeaf):
         return True
     if before.is_Rational and not before.is_Integer:
