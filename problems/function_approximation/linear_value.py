@@ -96,7 +96,7 @@ def question(given: Given) -> Question:
         )
         parts.append(Part("a", f"What are the features ${', '.join(names)}$, in this order?", Vector(names)))
     last = given.size * len(given.actions)
-    stacked = tuple(f"φ_{{{number}}}" for number in range(1, last + 1))
+    stacked = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, last + 1))
     blocks += (
         Paragraph(
             "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features are stacked, one block "
