@@ -16,9 +16,11 @@ from rldrill.problems.exact import read_fraction
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp")
-_GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "theta": "θ", "kappa": "κ", "mu": "μ",
-    "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω",
+#: Greek letters by their names.
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ",
+    "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
 _LONGEST, _MOST = 300, 120
 _HIGHEST = 4
@@ -33,7 +35,7 @@ def letter(name: str) -> str:
         ValueError: it is not one letter (or a Greek one spelled out), perhaps with an index.
     """
     head, _, index = name.partition("_")
-    head = _GREEK.get(head, head)
+    head = GREEK.get(head, head)
     if (
         len(head) != 1
         or not head.isalpha()
