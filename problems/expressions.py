@@ -4,6 +4,8 @@ Python's own grammar reads them; what is not a number, a letter, arithmetic or o
 """
 
 import ast
+import re
+import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import lru_cache
@@ -22,6 +24,7 @@ GREEK = {
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ",
     "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
+_LAMBDA = re.compile(r"\blambda\b")  # a word of Python's own
 _LONGEST, _MOST = 300, 120
 _HIGHEST = 4
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
@@ -34,7 +37,8 @@ def letter(name: str) -> str:
     Raises:
         ValueError: it is not one letter (or a Greek one spelled out), perhaps with an index.
     """
-    head, _, index = name.partition("_")
+    # One sign of several for the same letter, as Python's own grammar has it: φ for ϕ.
+    head, _, index = unicodedata.normalize("NFKC", name).partition("_")
     head = GREEK.get(head, head)
     if (
         len(head) != 1
@@ -58,7 +62,7 @@ def parsed(text: str) -> ast.expr:
     if len(text) > _LONGEST:
         raise ValueError(f"the expression is longer than {_LONGEST} characters")
     try:
-        tree = ast.parse(text.replace("^", "**").replace("−", "-").strip(), mode="eval").body
+        tree = ast.parse(_LAMBDA.sub("λ", text.replace("^", "**").replace("−", "-")).strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{text!r} is not an expression; write one such as -g*sin(θ)/l + u") from None
     if sum(1 for _ in ast.walk(tree)) > 3 * _MOST:
