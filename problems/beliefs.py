@@ -1,6 +1,6 @@
 """Beliefs over states or hypotheses, how robots move and sense, and how questions show these."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from rldrill.problems.document import Table
@@ -39,6 +39,23 @@ def check_likelihood(likelihood: Mapping[str, Mapping[str, Fraction]], known: tu
     for hypothesis in known:
         if (total := sum(chances[hypothesis] for chances in likelihood.values())) > 1:
             raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {total}, more than 1")
+
+
+def check_possible(believed: Iterable[str], likelihood: Mapping[str, Fraction], what: str) -> tuple[str, ...]:
+    """Demand that a measurement is possible under a belief; what it leaves possible.
+
+    Args:
+        believed: what the belief holds for possible.
+        likelihood: the likelihood of the measurement, by state or hypothesis.
+        what: the measurement, for the sentence.
+
+    Raises:
+        ValueError: its likelihood is zero wherever the belief is not.
+    """
+    left = tuple(known for known in believed if likelihood[known])
+    if not left:
+        raise ValueError(f"{what} is impossible under the belief, which is 0 wherever its likelihood is not; change it")
+    return left
 
 
 def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] = ()) -> None:

@@ -4,6 +4,8 @@ Python's own grammar reads them; what is not a number, a letter, arithmetic or o
 """
 
 import ast
+import re
+import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import lru_cache
@@ -16,10 +18,13 @@ from rldrill.problems.exact import read_fraction
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp")
-_GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "theta": "θ", "kappa": "κ", "mu": "μ",
-    "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω",
+#: Greek letters by their names.
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ",
+    "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
+_LAMBDA = re.compile(r"\blambda\b")  # a word of Python's own
 _LONGEST, _MOST = 300, 120
 _HIGHEST = 4
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
@@ -32,8 +37,9 @@ def letter(name: str) -> str:
     Raises:
         ValueError: it is not one letter (or a Greek one spelled out), perhaps with an index.
     """
-    head, _, index = name.partition("_")
-    head = _GREEK.get(head, head)
+    # One sign of several for the same letter, as Python's own grammar has it: φ for ϕ.
+    head, _, index = unicodedata.normalize("NFKC", name).partition("_")
+    head = GREEK.get(head, head)
     if (
         len(head) != 1
         or not head.isalpha()
@@ -56,7 +62,7 @@ def parsed(text: str) -> ast.expr:
     if len(text) > _LONGEST:
         raise ValueError(f"the expression is longer than {_LONGEST} characters")
     try:
-        tree = ast.parse(text.replace("^", "**").replace("−", "-").strip(), mode="eval").body
+        tree = ast.parse(_LAMBDA.sub("λ", text.replace("^", "**").replace("−", "-")).strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{text!r} is not an expression; write one such as -g*sin(θ)/l + u") from None
     if sum(1 for _ in ast.walk(tree)) > 3 * _MOST:

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
@@ -96,7 +97,7 @@ class Family:
         try:
             return self.given.model_validate(given)
         except ValidationError as error:
-            raise FileError(_sentence(error)) from None
+            raise FileError(sentence(error)) from None
 
 
 def _demanded(module: ModuleType, name: str) -> Any:
@@ -104,19 +105,6 @@ def _demanded(module: ModuleType, name: str) -> Any:
         return getattr(module, name)
     except AttributeError:
         raise TypeError(f"{module.__file__}: a family must have {name}") from None
-
-
-def _sentence(error: ValidationError) -> str:
-    first, *rest = error.errors()
-    steps = [f"[{step + 1}]" if isinstance(step, int) else f".{step}" for step in first["loc"]]
-    if first["type"] == "missing":
-        message = "is missing"
-    elif first["type"] == "extra_forbidden":
-        message = "is not a field of this family"
-    else:
-        message = str(first["msg"]).removeprefix("Value error, ")
-    more = f" (and {len(rest)} more)" if rest else ""
-    return f"given{''.join(steps)}: {message}{more}"
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator
+from pydantic import AfterValidator, BeforeValidator
 
 from rldrill.problems.exact import Exact, Open, Scalar, shown
 from rldrill.problems.mathematics import Grid, Math, mathematics, number
@@ -31,12 +31,30 @@ def _is_row(value: Any) -> bool:
     return isinstance(value, list | tuple)
 
 
-MatrixField = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
+def _even(matrix: Rows, which: str = "") -> Rows:
+    """Refuse what is no rectangle of entries."""
+    if not matrix or not matrix[0]:
+        raise ValueError(f"{which}is empty; a matrix needs at least one row with one entry")
+    for index, line in enumerate(matrix, 1):
+        if len(line) != len(matrix[0]):
+            raise ValueError(f"{which}row {index} has length {len(line)}, row 1 has {len(matrix[0])}; make them equal")
+    return matrix
+
+
+def _all_even(series: tuple[Rows, ...]) -> tuple[Rows, ...]:
+    for index, matrix in enumerate(series, 1):
+        _even(matrix, f"matrix {index}: " if len(series) > 1 else "")
+    return series
+
+
+_Exact = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
+_Open = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
+MatrixField = Annotated[_Exact, AfterValidator(_even)]
 #: A matrix in which a parameter may be left open.
-OpenMatrixField = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
+OpenMatrixField = Annotated[_Open, AfterValidator(_even)]
 #: Matrices by time; a single one holds at all times.
-MatricesField = Annotated[tuple[MatrixField, ...], BeforeValidator(_by_time)]
-OpenMatricesField = Annotated[tuple[OpenMatrixField, ...], BeforeValidator(_by_time)]
+MatricesField = Annotated[tuple[_Exact, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]
+OpenMatricesField = Annotated[tuple[_Open, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]
 
 
 def check_shape(name: str, matrix: Rows, rows: int, columns: int, where: str = "") -> None:

@@ -128,7 +128,8 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} of {key!r} is missing")
     for key in values:
         if key not in known:
-            raise ValueError(f"{what} is given for {key!r}, which does not occur; known are {joined(list(known))}")
+            named = f"known are {joined(list(known))}" if known else "none is known"
+            raise ValueError(f"{what} is given for {key!r}, which does not occur; {named}")
 
 
 def sums_to_one(probabilities: Iterable[Scalar]) -> bool:

@@ -1,6 +1,7 @@
 """Dynamics of problems as expressions: their derivatives, worked out once for every robot, then put into."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache, lru_cache
 
 import numpy as np
@@ -11,7 +12,7 @@ from rldrill.problems.angles import Angle
 from rldrill.problems.expressions import worked_out, written_letter
 from rldrill.problems.mathematics import Fraction, row, variable
 from rldrill.problems.robots import System
-from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
 from rldrill.solutions.formula.notation import letter
 from rldrill.solutions.oracle import Array, at
 
@@ -149,6 +150,18 @@ def known(given: System) -> dict[str, Value]:
         **{code(name): exact(value) for name, value in given.constants.items()},
         **{code(name): angle(value) for name, value in (*given.state.items(), *given.action.items())},
     }
+
+
+@contextmanager
+def at_operating_point() -> Iterator[None]:
+    """Say of what cannot be worked out that it is the operating point at which it does not exist."""
+    try:
+        yield
+    except (NoSolution, ZeroDivisionError):
+        raise NoSolution(
+            "the dynamics or their derivatives do not exist at the operating point, where they divide by zero or take "
+            "a root of a negative number; change 'state', 'action' or 'constants'"
+        ) from None
 
 
 # For the independent solvers -------------------------------------------------------------------------

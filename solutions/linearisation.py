@@ -48,6 +48,7 @@ SINE_FOR_COSINE: Misconception = slip(
 )
 
 
+@dynamics.at_operating_point()
 def point(work: Work, given: System) -> dict[str, Value]:
     """The values of all letters at the operating point, named parts included."""
     known = dynamics.known(given)
@@ -63,6 +64,7 @@ def _right(text: str) -> Expr:
     return dynamics.readable(expression)
 
 
+@dynamics.at_operating_point()
 def rates(work: Work, given: System) -> AnyMatrix:
     """f at the operating point, a column."""
     known = dynamics.known(given)
@@ -74,6 +76,7 @@ def rates(work: Work, given: System) -> AnyMatrix:
     )
 
 
+@dynamics.at_operating_point()
 def jacobian(work: Work, given: System, formula: Formula, known: dict[str, Value]) -> AnyMatrix:
     """The derivatives of the dynamics by the state or by the action; those that are zero are not written down."""
     by = given.states if formula is STATE_JACOBIAN else tuple(given.action)

@@ -10,8 +10,8 @@ from sympy import Expr
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, Value, simplest, tidy
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy
+from rldrill.solutions.formula.compiling import DivisionError, evaluate
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.linear import Affine, solve_linear
 from rldrill.solutions.formula.notation import Negative, Quantity
@@ -164,7 +164,10 @@ class Work:
         """
         own = right is not None
         right = self.reading(formula) if right is None else right
-        value = tidy(evaluate(right, known))
+        try:
+            value = tidy(evaluate(right, known))
+        except DivisionError as error:
+            raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
         left = formula.left if into is None else into(*formula.left.args)
         sign = sign or (formula.sign if into is None else "=")
         self.lines.append(Step(formula, right, known, value, left, sign, own))

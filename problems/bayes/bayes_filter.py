@@ -13,6 +13,7 @@ from rldrill.problems.beliefs import (
     check_distribution,
     check_likelihood,
     check_motion,
+    check_possible,
     likelihood_table,
     motion_table,
 )
@@ -63,7 +64,19 @@ class Given(Givens):
             check_keys(dict.fromkeys(filter(None, [event.action])), tuple(self.motion) or ("none",), "an action", ())
             read = dict.fromkeys(filter(None, [event.measurement]))
             check_keys(read, tuple(self.likelihood) or ("none",), "a measurement", ())
+        self._check_run()
         return self
+
+    def _check_run(self) -> None:
+        """Demand that every measurement of the run is possible when it is made."""
+        believed = tuple(state for state, chance in self.belief.items() if chance)
+        for number, event in enumerate(self.run, 1):
+            if event.action is not None:
+                rows = self.motion[event.action]
+                believed = tuple({after: None for state in believed for after, chance in rows[state].items() if chance})
+            if event.measurement is not None:
+                what = f"run[{number}]: the measurement {event.measurement!r}"
+                believed = check_possible(believed, self.likelihood[event.measurement], what)
 
 
 def draw(level: int, rng: Draws) -> Given:

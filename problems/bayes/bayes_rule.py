@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.bars import belief_bars
-from rldrill.problems.beliefs import check_distribution, check_likelihood, likelihood_table
+from rldrill.problems.beliefs import check_distribution, check_likelihood, check_possible, likelihood_table
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
@@ -33,6 +33,10 @@ class Given(Givens):
         check_distribution(self.prior, "prior")
         check_likelihood(self.likelihood, tuple(self.prior))
         check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", needed=())
+        believed = tuple(hypothesis for hypothesis, chance in self.prior.items() if chance)
+        for number, reading in enumerate(self.measurements, 1):
+            what = f"measurements[{number}]: {reading!r}"
+            believed = check_possible(believed, self.likelihood[reading], what)
         return self
 
 

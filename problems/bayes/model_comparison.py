@@ -26,6 +26,16 @@ class CoinModel(Givens):
     a: int = Field(default=1, ge=1, le=100)
     b: int = Field(default=1, ge=1, le=100)
 
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Self:
+        if self.theta is not None and (self.a, self.b) != (1, 1):  # 1 is what files hold where nothing was said
+            raise ValueError("with theta there is no prior Beta(a, b); leave out theta, or a and b")
+        return self
+
+    def allows(self, heads: int, tails: int) -> bool:
+        """Whether there can be such tosses."""
+        return not ((self.theta == 0 and heads) or (self.theta == 1 and tails))
+
 
 class Given(Givens):
     """Some models of a coin with their priors, and how many heads and tails there were."""
@@ -41,6 +51,19 @@ class Given(Givens):
         check_distribution(self.prior, "prior")
         if self.heads + self.tails == 0:
             raise ValueError("heads: without a toss there is nothing to compare the models by")
+        left = [
+            name for name, model in self.models.items() if self.prior[name] and model.allows(self.heads, self.tails)
+        ]
+        names = list(self.models)
+        if not left:
+            raise ValueError(
+                "models: every model has the prior 0 or does not allow these tosses; add one that is possible"
+            )
+        if len(names) == 2 and names[1] not in left:
+            raise ValueError(
+                f"models: {names[1]!r} has the prior 0 or does not allow these tosses, so there are no odds against "
+                "it; put it first"
+            )
         return self
 
     @property

@@ -34,7 +34,7 @@ class Given(Givens):
 
     pulls: tuple[Pull, ...] = Field(min_length=1, max_length=100)
     c: Exact | None = Field(default=None, gt=0)
-    preferences: dict[Name, Exact] | None = None
+    preferences: dict[Name, Exact] | None = Field(default=None, min_length=2)
     alpha: Exact | None = Field(default=None, gt=0)
     pulled: Pull | None = None
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")

@@ -31,10 +31,15 @@ class Given(Givens):
     def _fits(self) -> Self:
         later = {f"policy {number}": mu for number, mu in enumerate(self.policies, 1)}
         check_lengths({"expert": self.expert, "first": self.first} | later, "features")
-        if self.policies[0] == self.first:
-            raise ValueError(
-                "policies: the first of them is where the projection starts, so there is no line through both"
-            )
+        point = self.first
+        for number, mu in enumerate(self.policies, 1):
+            if mu == point:
+                raise ValueError(
+                    f"policies[{number}]: this is where the projection stands before it, so there is no line through "
+                    "both; change it"
+                )
+            along, far = _shares(point, mu, self.expert)
+            point = tuple(here + along / far * (there - here) for here, there in zip(point, mu, strict=True))
         return self
 
 
@@ -54,6 +59,14 @@ def _vector(rng: Draws, size: int) -> Mu:
     return tuple(rng.whole(0, 6) for _ in range(size))
 
 
+def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
+    """The way to a policy times the way to the expert, and times itself; their quotient is where to project to."""
+    way = [there - here for here, there in zip(point, mu, strict=True)]
+    goal = [there - here for here, there in zip(point, expert, strict=True)]
+    along = sum((step * wanted for step, wanted in zip(way, goal, strict=True)), Fraction(0))
+    return along, sum((step**2 for step in way), Fraction(0))
+
+
 def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction]:
     """A policy as the algorithm finds it: at least as good as the expert for the weights, so not short of it.
 
@@ -62,11 +75,9 @@ def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fractio
     """
     for _ in range(200):
         mu = _vector(rng, len(point))
-        way = [there - here for here, there in zip(point, mu, strict=True)]
-        goal = [there - here for here, there in zip(point, expert, strict=True)]
-        along: Fraction = sum((step * wanted for step, wanted in zip(way, goal, strict=True)), Fraction(0))
-        far = sum((step**2 for step in way), Fraction(0))
-        if sum(wanted**2 for wanted in goal) <= along < far and (along / far).denominator <= finest:
+        along, far = _shares(point, mu, expert)
+        _, goal = _shares(point, expert, expert)
+        if goal <= along < far and (along / far).denominator <= finest:
             return mu, along / far
     return expert, Fraction(1)  # a start from which no small policy will do: the draw is refused
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
@@ -22,10 +22,10 @@ REVISION = 1
 class Given(Givens):
     """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows."""
 
-    A: MatrixField = Field(min_length=1)
-    B: MatrixField = Field(min_length=1)
-    R: MatrixField = Field(min_length=1)
-    P: MatrixField = Field(min_length=1)
+    A: MatrixField
+    B: MatrixField
+    R: MatrixField
+    P: MatrixField
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -157,7 +157,7 @@ class Screen:
         if verdict.read:
             line.append(f"  (read as {verdict.read})", style="dim")
         self._print(line)
-        for misconception in verdict.misconceptions:
+        for misconception in verdict.told:
             if misconception.formula is not None and misconception.reads is not None:
                 self._print(Text("  Your answer comes from this:", style="dim"))
                 self._indented(renderable(misconception.formula.equation(misconception.reads)))

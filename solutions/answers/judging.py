@@ -6,7 +6,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Reading, Unreadable
@@ -36,6 +36,7 @@ class Verdict:
         credit: the share of the points that it earns, 0 to 1.
         read: how the answer was read; empty if it was not.
         misconceptions: the typical mistakes that give exactly this answer.
+        told: those of them that ``says`` tells of; where few answers are possible, a wrong one proves none of several.
         wrong_cells: which entries of a table, vector or matrix are wrong.
         value: the value that was read, to go on from in later parts.
     """
@@ -47,6 +48,7 @@ class Verdict:
     misconceptions: tuple[Misconception, ...] = ()
     wrong_cells: tuple[str, ...] = ()
     value: Any = field(default=None, compare=False)
+    told: tuple[Misconception, ...] = ()
 
     @property
     def accepted(self) -> bool:
@@ -104,9 +106,9 @@ def _judge(
     made = _made(solution, part, cells, earlier)
     credit = Fraction(len(key) - len(wrong), len(key)) if len(key) > 1 else Fraction(0)
     named = tuple(name for name in wrong if name)
-    if made:
-        says = " Or: ".join(dict.fromkeys(misconception.says for misconception in made))
-        return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value)
+    if told := _told(part.kind, made):
+        says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
+        return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value, told)
     if all(_is_close(cells[name], key[name]) for name in wrong):
         return Verdict(
             Outcome.CLOSE, "Right idea; give an exact value or three digits.", credit, read, (), named, value
@@ -114,7 +116,7 @@ def _judge(
     says = "Not right."
     if named and len(named) < len(key):
         says = f"Not right at {'; '.join(named)}; the rest is right."
-    return Verdict(Outcome.WRONG, says, credit, read, (), named, value)
+    return Verdict(Outcome.WRONG, says, credit, read, made, named, value)
 
 
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
@@ -124,6 +126,13 @@ def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[
         if made:
             return made
     return ()
+
+
+def _told(kind: Kind, made: tuple[Misconception, ...]) -> tuple[Misconception, ...]:
+    """The mistakes to tell of: a word can be wrong for many reasons, so at most the first; yes or no for any."""
+    if isinstance(kind, YesNo):
+        return made[:1] if len({misconception.says for misconception in made}) == 1 else ()
+    return made[:1] if isinstance(kind, Choice | Policy) else made
 
 
 def _matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:

@@ -147,7 +147,7 @@ class VectorAnswer(Answer[parts.Vector]):
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
     def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
-        return dict(self.cells(read_vector(text, len(self.kind.entries), parameters)))
+        return dict(self.cells(read_vector(text, len(self.kind.entries), parameters, self.kind.entries)))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())
@@ -307,7 +307,7 @@ class ChoiceAnswer(Answer[parts.Choice]):
         return {"": (value,)}
 
     def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
-        return {"": read_choice(text, tuple(self.kind.options))}
+        return {"": read_choice(text, self.kind.options)}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         content = cells[""]

@@ -22,10 +22,11 @@ _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
 _COMMA = re.compile(r"([0-9]+),([0-9]+)(?![0-9.,])")
 _THOUSANDS = re.compile(r"[1-9][0-9]{0,2}(,[0-9]{3})+(?![0-9])(\.[0-9]*)?")
+_TAKEN = rf"(?i:{'|'.join(FUNCTIONS)})(?=[0-9])"  # ln3
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)"
-    r"|(?P<name>[A-Za-z][A-Za-z0-9_]*|[^\W\d_]|∞)"  # a Greek letter is a name of its own: αγ is α times γ
+    rf"|(?P<name>{_TAKEN}|[A-Za-z][A-Za-z0-9_]*|[^\W\d_]|∞)"  # a Greek letter is a name of its own: αγ is α times γ
     r"|(?P<sign>\*\*|[-+*/^(),;%√])"
 )
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)

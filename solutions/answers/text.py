@@ -1,9 +1,11 @@
 """Reads what a person typed as an answer: a number, a vector, a matrix, a table, a policy or a choice."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
+from rldrill.problems.expressions import GREEK
 from rldrill.solutions.answers.arithmetic import FUNCTIONS, Arithmetic
 from rldrill.solutions.answers.numbers import Reading, number, refuse_comma
 from rldrill.solutions.answers.source import Source, Unreadable, clean, quoted, spelled
@@ -22,12 +24,18 @@ __all__ = [
 
 Key = TypeVar("Key", bound=str | tuple[str, str])
 
-# x = · V(s) = · V^π(s) = · R_0 = · V_{k+1}(s) =
-_LEFT_SIDE = re.compile(r"(?:[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]|\{[^{}=]*\}|\([^()=]*\)|\[[^\[\]=]*\])*)?=(?!=)")
+# x · V(s) · V^π(s) · R_0 · V_{k+1}(s) · Q̂(s, a) · ∂J/∂θ₁
+_MARKS = "\u0300-\u036f"  # the hat, bar or tilde on a letter
+_NAME = rf"(?:[∂d]\w*/[∂d])?[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⊤{_MARKS}]|\{{[^{{}}=]*\}}|\([^()=]*\)|\[[^\[\]=]*\])*"
+_LEFT_SIDE = re.compile(rf"(?:{_NAME})?=(?!=)")
+_LABEL = re.compile(rf"({_NAME})(?::|=(?!=))")
 _TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?[T⊤]\}?|ᵀ|\.T|')$")
 _ARROW = re.compile(r"->|→|↦|:=|[:=]")
-_OF = re.compile(r"(?:[^\W\d_][\w'^*]*\s*)?[(\[](.*)[)\]]")  # V(cool), π(cool), (cool, fast)
-_BELOW = re.compile(r"[^\W\d_]_\{?(.*?)\}?")  # V_cool
+# V(cool), V^(π₀)(cool), ln p(cool), (cool, fast)
+_OF = re.compile(rf"(?:[^\W\d_](?:[\^_][({{][^(){{}}]*[)}}]|[\w '^*⊤{_MARKS}])*)?[(\[](.*)[)\]]")
+_BELOW = re.compile(rf"[^\W\d_][{_MARKS}]?_\{{?(.*?)\}}?")  # V_cool
+_LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
+_SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
 _LISTED = 60
@@ -48,23 +56,26 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     return number(source.unwrapped("[") or source, parameters, Arithmetic())
 
 
-def read_vector(text: str, length: int | None = None, parameters: Sequence[str] = ()) -> tuple[Reading, ...]:
-    """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``.
+def read_vector(
+    text: str, length: int | None = None, parameters: Sequence[str] = (), names: Sequence[str] = ()
+) -> tuple[Reading, ...]:
+    """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``, or by name: ``mu: 1, Sigma: 2``.
 
     Args:
         text: what was typed.
         length: how many numbers are needed, if that is known.
         parameters: the names of the open parameters that it may contain.
+        names: what the entries are, in mathematics; entries that are typed with these names may stand in any order.
 
     Raises:
-        Unreadable: an entry is not a number, or there are too few or too many.
+        Unreadable: an entry is not a number, or is given twice, or there are too few or too many.
     """
     source = clean(text)
     entries = _vector(_untransposed(source), length)
-    if len(entries) == 1 or not all(_LEFT_SIDE.match(entry.text) for entry in entries[1:]):
+    if len(entries) == 1 or not all(_LABEL.match(entry.text) for entry in entries[1:]):
         source = _right_side(source)  # R = 1, 2
         entries = _vector(_untransposed(source), length)
-    entries = [_right_side(entry) for entry in entries]  # R_0 = 1, R_1 = 2
+    entries = _unlabelled(entries, names)  # R_0 = 1, R_1 = 2
     readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None)
     if length is not None and len(readings) != length:
         raise source.unreadable(
@@ -171,26 +182,40 @@ def read_words(text: str, keys: Sequence[str], options: Mapping[str, Sequence[st
     return {key: _option(word, key, options[key]) for key, word in placed.items()}
 
 
-def read_choice(text: str, options: Sequence[str]) -> str:
-    """Read which option was chosen: its letter, ``b`` or ``(b)``, its text, or how its text begins.
+def read_choice(text: str, options: Mapping[str, str]) -> str:
+    """Read which option was chosen, and give its letter.
+
+    It may be typed as its letter, ``b`` or ``(b)``, its text, how its text begins, or words of it that no other has.
+
+    Args:
+        text: what was typed.
+        options: the text of every option, by its letter.
 
     Raises:
         Unreadable: no option fits, or several do.
     """
     source = clean(text)
-    by_text = _matches(source.text, [(option, option) for option in options])
-    letter = re.fullmatch(r"\(?([A-Za-z])[).:]?", source.text)
-    index = ord(letter[1].lower()) - ord("a") if letter else len(options)
-    by_letter = [options[index]] if index < len(options) else []
-    begun = source.text.casefold().rstrip(". ")
-    hits = list(dict.fromkeys(by_text + by_letter)) or [
-        option for option in options if begun and spelled(option).casefold().startswith(begun)
-    ]
+    spellings = [(told.replace("$", ""), letter) for letter, told in options.items()]
+    typed = re.fullmatch(r"\(?([A-Za-z])[).:]?", source.text)
+    lettered = [letter for letter in options if typed and letter.casefold() == typed[1].casefold()]
+    marked = bool(lettered) and len(source.text) > 1  # (b) is no text
+    named = [] if marked else _matches(source.text, spellings)
+    hits = list(dict.fromkeys(lettered + named)) or _partly(source.text, spellings)
     if len(hits) == 1:
         return hits[0]
-    last = chr(ord("a") + len(options) - 1)
     fault = "fits more than one option" if hits else "is not one of the options"
-    raise source.unreadable(f"{quoted(source.text)} {fault}; type a letter from a to {last}.")
+    raise source.unreadable(f"{quoted(source.text)} {fault}; type a letter from {min(options)} to {max(options)}.")
+
+
+def _partly(typed: str, spellings: Sequence[tuple[str, str]]) -> list[str]:
+    """The one option that has the typed words; else those that begin as typed."""
+    typed = typed.casefold().rstrip(". ")
+    if not typed:
+        return []
+    told = [(spelled(spelling).casefold(), letter) for spelling, letter in spellings]
+    words = re.compile(rf"(?<!\w){re.escape(typed)}(?!\w)")
+    having = [letter for spelling, letter in told if words.search(spelling)]
+    return having if len(having) == 1 else [letter for spelling, letter in told if spelling.startswith(typed)] or having
 
 
 def read_yes_no(text: str) -> bool:
@@ -210,6 +235,34 @@ def _right_side(source: Source) -> Source:
     """What is typed after ``x =`` or ``V(s) =``."""
     left = _LEFT_SIDE.match(source.text)
     return source.part(left.end(), len(source.text)) if left else source
+
+
+def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
+    """The entries without the ``R_0 =`` or ``R_0:`` before each; in the order of the names, if all are known."""
+    labels = [_LABEL.match(entry.text) for entry in entries]
+    values = [
+        entry.part(label.end(), len(entry.text)) if label else _right_side(entry)
+        for entry, label in zip(entries, labels, strict=True)
+    ]
+    meant = [index for label in labels if label and (index := _entry(label[1], names)) is not None]
+    if len(meant) < len(entries):
+        return values
+    placed: dict[int, Source] = {}
+    for entry, value, index in zip(entries, values, meant, strict=True):
+        if index in placed:
+            raise entry.unreadable(f"Entry {index + 1} is given twice; give every entry once.")
+        placed[index] = value
+    return [placed[index] for index in sorted(placed)]
+
+
+def _entry(label: str, names: Sequence[str]) -> int | None:
+    """Which entry a label means; its index may be left out where no other entry has the same letter."""
+    typed = _plain(label)
+    for form in (_plain, lambda name: _plain(name).rstrip("0123456789")):
+        hits = [index for index, name in enumerate(names) if form(name) == typed]
+        if len(hits) == 1:
+            return hits[0]
+    return None
 
 
 def _untransposed(source: Source) -> Source:
@@ -393,15 +446,37 @@ def _by_key(items: list[_Item], keys: Sequence[Key]) -> dict[Key, Source]:
 
 
 def _keys(name: str, keys: Sequence[Key]) -> list[Key]:
-    """The keys that a name may mean: ``cool``, ``V(cool)``, ``V_cool``; ``Q(cool, fast)``, ``cool/fast``."""
-    spellings = [(key if isinstance(key, str) else " ".join(key), key) for key in keys]
+    """The keys that a name may mean: ``cool``, ``V(cool)``, ``V_cool``, ``p(cool|wet)``; ``Q(cool, fast)``."""
+    spellings = _spellings(keys)
     inner = [match[1] for pattern in (_OF, _BELOW) if (match := pattern.fullmatch(name))]
     for candidate in (name, *inner):
-        if keys and not isinstance(keys[0], str):
-            candidate = re.sub(r"[\s,/|;()]+", " ", candidate).strip()
-        if hits := _matches(candidate, spellings):
+        spread = candidate if not keys or isinstance(keys[0], str) else re.sub(r"[\s,/|;()]+", " ", candidate).strip()
+        if hits := _matches(spread, spellings):
             return hits
-    return []
+    return list(dict.fromkeys(hit for candidate in inner for hit in _beside(candidate, spellings, keys)))
+
+
+def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
+    """How each key is typed; of pairs that have one half in common, the other half is enough."""
+    spellings = [(key if isinstance(key, str) else " ".join(key), key) for key in keys]
+    pairs = [key for key in keys if not isinstance(key, str)]
+    for half in (0, 1):
+        if len({key[half] for key in pairs}) == 1:
+            spellings += [(key[1 - half], key) for key in pairs]
+    return spellings
+
+
+def _beside(inner: str, spellings: Sequence[tuple[str, Key]], keys: Sequence[Key]) -> Iterator[Key]:
+    """The keys that stand beside something else: ``cool|wet``, ``D|cool``, ``s, fast``.
+
+    Behind or before a bar that may be anything where keys are single names; else it is a letter.
+    """
+    free = "|" in inner and isinstance(keys[0], str)
+    pieces = [piece.strip() for piece in re.split(r"[|]" if free else r"[|,]", inner)]
+    found = {piece: _matches(piece, spellings) for piece in pieces}
+    if len(pieces) > 1 and all(hits or free or _LETTER.fullmatch(piece) for piece, hits in found.items()):
+        for hits in found.values():
+            yield from hits
 
 
 def _option(word: Source, key: str, allowed: Sequence[str]) -> str:
@@ -414,9 +489,9 @@ def _option(word: Source, key: str, allowed: Sequence[str]) -> str:
 
 
 def _matches(typed: str, spellings: Iterable[tuple[str, Key]]) -> list[Key]:
-    """What is spelled as typed; else if capitals do not count; else if ``_``, spaces and quotes do not."""
+    """What is spelled so; else if capitals do not count; else if ``_``, spaces and quotes do not; else its name."""
     pairs = list(spellings)
-    for form in (_unquoted, lambda text: _unquoted(text).casefold(), _bare):
+    for form in (_unquoted, lambda text: _unquoted(text).casefold(), _bare, _plain):
         if hits := [meant for spelling, meant in pairs if form(spelling) == form(typed)]:
             return hits
     return []
@@ -429,6 +504,12 @@ def _unquoted(text: str) -> str:
 
 def _bare(text: str) -> str:
     return re.sub("[_\\s{}'\"]", "", spelled(text).casefold())
+
+
+def _plain(text: str) -> str:
+    """The name in Latin letters and digits alone: ``pi1`` for π₁ and ``pi(1)``."""
+    letters = unicodedata.normalize("NFD", re.sub("[()]", "", _bare(text)))
+    return "".join(sign for sign in letters if not unicodedata.combining(sign)).translate(_SPELLED_OUT)
 
 
 def _shown(key: str | tuple[str, str]) -> str:

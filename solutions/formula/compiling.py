@@ -152,11 +152,15 @@ def _mean(values: Sequence[Value]) -> Value:
     return sum(values, ZERO) / len(values)
 
 
+class DivisionError(NoSolution):
+    """A formula divides by zero, or inverts a singular matrix."""
+
+
 def _inverse(value: Value) -> Value:
     try:
         return value.inv() if is_matrix(value) else ONE / value
     except ZeroDivisionError:
-        raise NoSolution("it would divide by zero, or invert a singular matrix") from None
+        raise DivisionError("it would divide by zero, or invert a singular matrix") from None
 
 
 def _least(values: Sequence[Value]) -> Value:

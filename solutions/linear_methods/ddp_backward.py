@@ -80,12 +80,14 @@ def solve(given: Given, work: Work) -> None:
     work.answer("g", work.step(DDP_K, **Q))
 
 
+@dynamics.at_operating_point()
 def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of: int | str, name: str) -> Value:
     right = dynamics.chained(text, name, ())
     into = partial_part if of == "r" else partial
     return ZERO if right == 0 else work.step(formula, into=into, right=right, i=of, j=name, **values)
 
 
+@dynamics.at_operating_point()
 def _second(
     work: Work, values: Mapping[str, Value], text: str, of: int | str, rows: tuple[str, ...], columns: tuple[str, ...]
 ) -> AnyMatrix:

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
+from rldrill.problems.parts import Policy, Table, Vector
+from rldrill.render.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_right, tolerance
@@ -106,6 +108,17 @@ def test_every_kind_judges_its_own_samples(name: str) -> None:
                     assert verdict.says
 
 
+@pytest.mark.parametrize("name", families())
+def test_answers_are_read_as_they_are_printed(name: str) -> None:
+    for level in family(name).levels:
+        solution = draw(name, level, 11)
+        for part in solution.problem.parts:
+            if isinstance(part.kind, Table | Vector | Policy):
+                lines = answer_kind(part.kind).lines(solution.answers[part.label])
+                printed = "; ".join(f"{unicode(left)} = {unicode(right)}" for left, right in lines if left)
+                assert judge(solution, part.label, printed).outcome is Outcome.RIGHT, printed
+
+
 def verdicts(*typed: str) -> list[Verdict]:
     """The verdicts of answers to (a), (b), … of the racing car, each going on from the ones before."""
     solution = problem("value-iteration", **RACING_CAR)
@@ -133,6 +146,24 @@ def test_a_typical_mistake_is_named() -> None:
     verdict = verdicts("cool: 4, warm: 4")[0]
     assert verdict.outcome is Outcome.MISCONCEPTION
     assert [m.name for m in verdict.misconceptions] == ["in-place"]
+
+
+def test_a_word_proves_none_of_several_mistakes() -> None:
+    solution = draw("markov-property", 1, 1)
+    no = judge(solution, "b", "no")
+    assert (no.outcome, no.says, no.told) == (Outcome.WRONG, "Not right.", ())
+    assert len(no.misconceptions) == 3
+    action = judge(draw("linear-policy", 1, 11), "b", "search")
+    assert action.outcome is Outcome.MISCONCEPTION
+    assert len(action.misconceptions) > 1
+    assert action.says == action.misconceptions[0].says
+
+
+def test_a_word_names_the_only_mistake_that_fits() -> None:
+    diagram = judge(draw("backup-diagram-name", 1, 1), "a", "a")
+    assert diagram.outcome is not Outcome.MISCONCEPTION or diagram.says == diagram.misconceptions[0].says
+    yes = judge(draw("ppo-clip", 1, 11), "e", "yes")
+    assert "Or:" not in yes.says
 
 
 def test_part_of_a_table_earns_part_of_the_points() -> None:

@@ -24,7 +24,7 @@ from rldrill.solutions.rational import RationalFunction, generator
 
 GAMMA = generator("gamma")
 gamma = sympy.Symbol("gamma", positive=True)
-sqrt, exp, log, pi, E = sympy.sqrt, sympy.exp, sympy.log, sympy.pi, sympy.E
+sqrt, exp, log, pi, E, Rational = sympy.sqrt, sympy.exp, sympy.log, sympy.pi, sympy.E, sympy.Rational
 PAIRS = [("cool", "fast"), ("cool", "slow"), ("warm", "slow")]
 
 
@@ -112,6 +112,13 @@ IRRATIONALS = {
     "sqrt 2": sqrt(2),
     "√2": sqrt(2),
     "√2/2": sqrt(2) / 2,
+    "sqrt2": sqrt(2),
+    "sqrt2/2": sqrt(2) / 2,
+    "ln3": log(3),
+    "ln12 - 2ln2": log(12) - 2 * log(2),
+    "Log2": log(2),
+    "ln3.5": log(Rational(7, 2)),
+    "πln2": pi * log(2),
     "2 sqrt(3)": 2 * sqrt(3),
     "2^(-1/2)": sqrt(2) / 2,
     "(1+sqrt(5))/2": (1 + sqrt(5)) / 2,
@@ -238,6 +245,8 @@ REFUSED = {
     "1/2(3)": "two ways; write brackets",
     "e^2γ": "two ways; write brackets",
     "ln 2/3": "two ways; put it in brackets",
+    "ln2/3": "two ways; put it in brackets",
+    "log2(8)": "two ways; put it in brackets",
     "√2^2": "two ways; put it in brackets",
     "2/1 3/4": "two ways here; put brackets",
     "1 3/4γ": "two ways here; put brackets",
@@ -453,6 +462,44 @@ def test_names_of_keys(text, keys):
 
 
 @pytest.mark.parametrize(
+    ("text", "keys"),
+    [
+        ("p(west|wall) = 1, p(east | wall) = 2", ["west", "east"]),
+        ("p(D|west) = 1, ln p(D|east) = 2", ["west", "east"]),
+        ("h(s, bet) = 1, h(s_0,double) = 2", ["bet", "double"]),
+        ("pi(bet|s) = 1, π(double|s) = 2", ["bet", "double"]),
+        ("V^(π₀)(cool) = 1, V^π(warm) = 2", ["cool", "warm"]),
+        ("Q̂(cool) = 1, Q̂_warm = 2", ["cool", "warm"]),
+        ("pi1: 1, pi_2: 2", ["π₁", "π₂"]),
+        ("pi(1): 1, μ(pi_2): 2", ["π₁", "π₂"]),
+        ("ln3: 1, ln2: 2", ["ln3", "ln2"]),
+        ("fast: 1, A(slow): 2", [("cool", "fast"), ("cool", "slow")]),
+        ("A(s, fast) = 1, π(slow|s) = 2", [("cool", "fast"), ("cool", "slow")]),
+        ("cool: 1, Q(warm): 2", [("cool", "fast"), ("warm", "fast")]),
+    ],
+)
+def test_keys_as_they_are_printed(text, keys):
+    table = read_table(text, keys)
+    assert list(table) == keys
+    assert values(table.values()) == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "keys", "fragment"),
+    [
+        ("p(north|wall): 1, west: 2", ["west", "east"], "'p(north|wall)' is not a key here; the keys are west, east."),
+        ("p(west|east): 1, west: 2", ["west", "east"], "'p(west|east)' may be any of west, east"),
+        ("V(west, fast): 1, east: 2", ["west", "east"], "'V(west, fast)' is not a key here"),
+        ("pi3: 1, pi2: 2", ["π₁", "π₂"], "'pi3' is not a key here"),
+        ("A(warm, fast): 1, slow: 2", [("cool", "fast"), ("cool", "slow")], "'A(warm, fast)' is not a key here"),
+        ("fast: 1, slow: 2, warm slow: 3", PAIRS, "'fast' is not a key here"),
+    ],
+)
+def test_keys_that_are_not_meant(text, keys, fragment):
+    assert fragment in refusal(read_table, text, keys).message
+
+
+@pytest.mark.parametrize(
     ("text", "fragment"),
     [
         ("cool: 1", "warm is missing"),
@@ -511,28 +558,34 @@ def test_policies_refused(text, fragment):
 
 
 @pytest.mark.parametrize(
-    ("text", "option"),
+    ("text", "letter"),
     [
-        ("b", "Q-learning"),
-        ("(b)", "Q-learning"),
-        ("B.", "Q-learning"),
-        ("b)", "Q-learning"),
-        ("q-learn", "Q-learning"),
-        ("SARSA", "Sarsa"),
-        ("Expected Sarsa", "Expected Sarsa"),
-        ("exp", "Expected Sarsa"),
-        ("Q(λ)", "Q(λ)"),
+        ("b", "b"),
+        ("(b)", "b"),
+        ("B.", "b"),
+        ("b)", "b"),
+        ("q-learn", "b"),
+        ("SARSA", "a"),
+        ("Expected Sarsa", "d"),
+        ("exp", "d"),
+        ("Q(λ)", "c"),
+        ("EXPECTED", "d"),
+        ("learning", "b"),
     ],
 )
-def test_choices(text, option):
-    assert read_choice(text, ["Sarsa", "Q-learning", "Q(λ)", "Expected Sarsa"]) == option
+def test_choices(text, letter):
+    options = {"a": "Sarsa", "b": "Q-learning", "c": "$Q(λ)$", "d": "Expected Sarsa"}
+    assert read_choice(text, options) == letter
 
 
 def test_choices_refused():
-    options = ["Sarsa", "Q-learning", "Q(λ)"]
+    options = {"a": "Sarsa with zeal", "b": "Q-learning with zeal", "c": "Q(λ)"}
     assert "'Q' fits more than one option; type a letter from a to c." in refusal(read_choice, "Q", options).message
     assert "'z' is not one of the options" in refusal(read_choice, "z", options).message
-    assert "fits more than one" in refusal(read_choice, "a", ["b", "a"]).message
+    assert "'zeal' fits more than one option" in refusal(read_choice, "zeal", options).message
+    assert "'Sar-' is not one of the options" in refusal(read_choice, "Sar-", options).message
+    assert "fits more than one" in refusal(read_choice, "a", {"a": "b", "b": "a"}).message
+    assert read_choice("(A)", {"A": "b", "B": "a"}) == "A"
 
 
 def test_yes_and_no():
@@ -544,12 +597,13 @@ def test_yes_and_no():
 READERS = [
     lambda text: read_number(text, ["gamma"]),
     lambda text: read_vector(text, 2, ["gamma"]),
+    lambda text: read_vector(text, 2, ["gamma"], ["μ", "Σ"]),
     lambda text: read_matrix(text, (2, 2), ["gamma"]),
     lambda text: read_matrix(text, None, ["gamma"]),
     lambda text: read_table(text, ["cool", "warm"], ["gamma"]),
     lambda text: read_table(text, PAIRS, ["gamma"]),
     lambda text: read_words(text, ["cool", "warm"], ACTIONS),
-    lambda text: read_choice(text, ["Sarsa", "Q-learning"]),
+    lambda text: read_choice(text, {"a": "Sarsa", "b": "Q-learning"}),
     read_yes_no,
 ]
 
@@ -772,3 +826,23 @@ def test_what_people_put_around_a_number(text):
 @pytest.mark.parametrize("text", ["R_0 = 2; R_1 = 0; R_2 = 4", "2 0 4", "R = 2, 0, 4", "R = [2 0 4]"])
 def test_what_people_put_around_a_vector(text):
     assert [reading.value for reading in read_vector(text, 3)] == [2, 0, 4]
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("mu: 1, Sigma: 2", ["μ_{1}", "Σ_{1}"]),
+        ("Sigma_1 = 2; mu_1 = 1", ["μ_{1}", "Σ_{1}"]),
+        ("μ̄₁ = 1, Σ̄₁ = 2", ["μ̄_{1}", "Σ̄_{1}"]),
+        ("y: 2, x: 1", ["x", "y"]),
+        ("∂J/∂θ₁ = 1, dJ/dtheta_2 = 2", ["∂J/∂θ_{1}", "∂J/∂θ_{2}"]),
+        ("mean: 1, variance: 2", ["μ", "Σ"]),
+        ("theta: 1, theta: 2", ["θ_{1}", "θ_{2}"]),
+    ],
+)
+def test_entries_of_vectors_by_name(text, names):
+    assert values(read_vector(text, 2, (), names)) == [1, 2]
+
+
+def test_an_entry_that_is_given_twice_is_refused():
+    assert "Entry 1 is given twice" in refusal(read_vector, "x: 1, x: 2", 2, (), ["x", "y"]).message

@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+import rldrill
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
@@ -66,3 +67,109 @@ def test_givens_survive_being_written_and_read(name: str) -> None:
     for level in family(name).levels:
         problem = draw(name, level, 5).problem
         assert problem.family.read(problem.data()["given"]) == problem.given
+
+
+GAIN: dict[str, Any] = {"A": [[1, 0], [0, 1]], "B": [[1], [1]], "R": 1, "P": [[-1, 0], [0, -1]]}
+LQR: dict[str, Any] = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 1}
+SENSOR = {"wet": {"rain": 1, "sun": 0}, "dry": {"rain": 0, "sun": 1}}
+RULE: dict[str, Any] = {"prior": {"rain": "1/2", "sun": "1/2"}, "likelihood": SENSOR, "measurements": ["wet"]}
+FILTER: dict[str, Any] = {
+    "belief": {"rain": 1, "sun": 0},
+    "motion": {"wait": {"rain": {"sun": 1}, "sun": {"sun": 1}}},
+    "likelihood": SENSOR,
+    "run": [{"action": "wait", "measurement": "dry"}],
+}
+COINS: dict[str, Any] = {"models": {"bent": {}, "fair": {"theta": "1/2"}}, "prior": {"bent": "1/2", "fair": "1/2"}}
+COINS |= {"heads": 2, "tails": 1}
+TANK: dict[str, Any] = {"dynamics": {"h": "u - sqrt(h)"}, "state": {"h": 1}, "action": {"u": 1}}
+EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0], [2, 4]]}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "says"),
+    [
+        # matrices that are none
+        ("lqr-gain", GAIN | {"A": [[1, 2], [3]]}, "given.A: row 2 has length 1, row 1 has 2; make them equal."),
+        ("lqr-gain", GAIN | {"A": []}, "given.A: is empty; a matrix needs at least one row with one entry."),
+        ("lqr-gain", GAIN | {"B": [[]]}, "given.B: is empty; a matrix needs at least one row with one entry."),
+        ("lqr-backward", LQR | {"A": [[1, 2], [3]]}, "given.A: row 2 has length 1, row 1 has 2"),
+        ("lqr-backward", LQR | {"Q": [[[1]], [[1, 2], [3]]]}, "given.Q: matrix 2: row 2 has length 1, row 1 has 2"),
+        ("lqr-backward", LQR | {"B": []}, "given.B: is empty"),
+        ("kalman-filter", {"mean": 0, "covariance": 1, "process": 1, "sensor": 1, "B": [], "steps": [{"u": 1}]},
+         "given.B: is empty"),
+        # what is impossible
+        ("bayes-rule", RULE | {"measurements": ["wet", "dry"]}, "measurements[2]: 'dry' is impossible under the"),
+        ("bayes-filter", FILTER | {"run": [{"measurement": "dry"}]},
+         "run[1]: the measurement 'dry' is impossible under the belief"),
+        ("bayes-filter", FILTER | {"run": [{"action": "wait", "measurement": "wet"}]}, "run[1]: the measurement 'wet'"),
+        ("model-comparison", COINS | {"models": {"bent": {}, "fair": {"theta": 1}}}, "models: 'fair' has the prior 0"),
+        ("model-comparison", COINS | {"prior": {"bent": 1, "fair": 0}}, "models: 'fair' has the prior 0"),
+        ("model-comparison", COINS | {"models": {"bent": {"theta": 0}, "fair": {"theta": 1}}}, "models: every model"),
+        ("model-comparison", COINS | {"models": {"bent": {}, "fair": {"theta": "1/2", "a": 2}}},
+         "given.models.fair: with theta there is no prior Beta(a, b); leave out theta, or a and b."),
+        ("apprenticeship", EXPERT | {"policies": [[0, 0]]}, "policies[1]: this is where the projection stands"),
+        ("apprenticeship", EXPERT | {"policies": [[4, 0], [2, 0]]}, "policies[2]: this is where the projection stands"),
+        # what is not of the kind that is needed
+        ("rbf", {"position": 1, "centres": [[4]], "sigma": 1},
+         "given.position: must be a list; a single entry, too, stands in brackets: [1]."),
+        ("lqr-backward", LQR | {"start": 1}, "given.start: must be a list; a single entry"),
+        ("lqr-backward", LQR | {"start": []}, "given.start: is empty; it needs at least 1 entry."),
+        ("lqr-backward", LQR | {"horizon": "x"}, "given.horizon: 'x' is not a whole number; write one, such as 3."),
+        ("lqr-backward", LQR | {"horizon": 0}, "given.horizon: 0 is too small; it must be at least 1."),
+        ("lqr-backward", LQR | {"horizon": 99}, "given.horizon: 99 is too large; it must be at most 12."),
+        ("bayes-rule", RULE | {"prior": {"sun": 1}}, "given.prior: has 1 entry; it needs at least 2 entries."),
+        ("bayes-rule", RULE | {"prior": {}}, "given.prior: is empty; it needs at least 2 entries."),
+        ("bayes-rule", RULE | {"prior": [1, 2]}, "given.prior: must be a table, in which every name has its value."),
+        ("bayes-rule", RULE | {"likelihood": {}}, "given for 'wet', which does not occur; none is known."),
+        ("bayes-rule", RULE | {"prior": {"$a$": 1, "b": 0}}, "given.prior: '$a$' is no name; a name begins with"),
+        ("bayes-rule", RULE | {"prior": {"a,b": 1, "b": 0}}, "given.prior: 'a,b' is no name; a name begins with"),
+        ("bayes-rule", RULE | {"story": "$"}, "given.story: may hold neither $ nor a backslash; take them out."),
+        ("bayes-rule", RULE | {"story": "a" * 300}, "given.story: has 300 characters, 200 are the most; shorten it."),
+        ("value-iteration", mdp(["a", "go", "end"]), "given.mdp.transitions[1][4]: is missing; add it (and"),
+        ("value-iteration", mdp(["a", "go", "end", 1, 1, 1]), "given.mdp.transitions[1]"),
+        ("value-iteration", mdp(1), "given.mdp.transitions[1]: must be a list, with the entries of one"),
+        ("value-iteration", changed(mdp=1), "given.mdp: must be a table, in which every name has its value."),
+        ("ddp-backward", {"second_order": "x"}, "given.dynamics: is missing; add it (and"),
+        ("bandit", {"pulls": [["x", 1]], "preferences": {}, "alpha": 1, "pulled": ["x", 1]},
+         "given.preferences: is empty; it needs at least 2 entries."),
+        ("linearise", TANK | {"dynamics": {"height": "1"}}, "given.dynamics: 'height' is not a letter; write one such"),
+        ("linearise", TANK | {"picture": "x"}, "given.picture: 'x' is not possible here; write 'pendulum'"),
+    ],
+)  # fmt: skip
+def test_one_plain_sentence_names_the_field(name: str, given: Any, says: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given)
+    assert says in str(error.value)
+    assert str(error.value).startswith("given")
+    assert str(error.value).endswith(".")
+    assert not str(error.value).endswith("..")
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "says"),
+    [
+        ("linearise", TANK | {"state": {"h": 0}}, "do not exist at the operating point"),
+        ("linearise", TANK | {"dynamics": {"h": "u/(h - 1)"}}, "do not exist at the operating point"),
+        ("linearise-affine", TANK | {"state": {"h": 0}, "step": 1}, "do not exist at the operating point"),
+        ("ddp-backward", TANK | {"state": {"h": 0}, "reward": "-u^2", "gradient": [1], "hessian": -1},
+         "do not exist at the operating point"),
+        ("lqr-gain", GAIN | {"R": -2}, "R − BᵀPB is singular, so no action is the one best; change R, B or P."),
+    ],
+)  # fmt: skip
+def test_what_has_no_answer_says_why(name: str, given: Any, says: str) -> None:
+    with pytest.raises(FileError, match=r"has no answer: .*; change .*\.$") as error:
+        rldrill.read({"family": name, "given": given})
+    assert says in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["lambda", "λ", "lambda_1", "ϕ", "φ", "phi"])
+def test_greek_letters_of_dynamics_in_all_their_spellings(name: str) -> None:
+    given = TANK | {"dynamics": {name: f"u - 3*{name}"}, "state": {name: 1}}
+    assert str(rldrill.read({"family": "linearise", "given": given}).solve()["a"][0, 0]) == "-3"
+
+
+def test_spellings_of_a_letter_may_be_mixed() -> None:
+    for key, used in (("lambda", "λ"), ("ϕ", "phi"), ("φ", "ϕ")):
+        given = TANK | {"dynamics": {key: f"u - 3*{used}"}, "state": {used: 1}}
+        assert str(rldrill.read({"family": "linearise", "given": given}).solve()["a"][0, 0]) == "-3"

@@ -103,7 +103,7 @@ def test_what_does_not_fit_is_one_sentence(name: str, given_: dict[str, Any], fr
 
 def test_a_reading_that_cannot_happen_is_one_sentence() -> None:
     blind = {"belief": {"open": 1, "closed": 0}, "likelihood": {"light": {"open": 0, "closed": 1}}}
-    with pytest.raises(FileError, match="no answer"):
+    with pytest.raises(FileError, match="the measurement 'light' is impossible under the belief"):
         solved("bayes-filter", **blind, run=[{"measurement": "light"}])
 
 

@@ -277,6 +277,8 @@ def test_angles_survive_being_written() -> None:
 
 def test_an_expression_is_never_executed() -> None:
     with pytest.raises(ValueError, match="not understood"):
+        parsed("[x for x in y]")
+    with pytest.raises(ValueError, match="is not an expression"):
         parsed("(lambda: x)()")
     assert worked_out("2*x^2 - x/4", {"x": 4}, {}, float) == 31
 

@@ -14,11 +14,12 @@ from rldrill.audit import audit
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
-from rldrill.solutions.exact import to_sympy
+from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.putting_in import evaluated
-from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.matrices import is_matrix, matrix
+from rldrill.solutions.sheet.linear_methods import LQR_GAIN
 from rldrill.solutions.vector import Vector
-from rldrill.solutions.work import Step
+from rldrill.solutions.work import Step, Work
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)
 
@@ -132,8 +133,14 @@ def test_a_value_that_does_not_exist_is_one_sentence() -> None:
         solved("policy-value", mdp=forever, gamma=1)
 
 
+def test_a_formula_that_divides_by_zero_is_named() -> None:
+    zero = matrix([[fmpq(0)]])
+    with pytest.raises(NoSolution, match="in the formula “LQR gain” it would divide by zero"):
+        Work().step(LQR_GAIN, t=0, At={0: zero}, Bt={0: zero}, Rt={0: zero}, Pt={1: zero})
+
+
 def test_a_measurement_that_cannot_happen_is_one_sentence() -> None:
-    with pytest.raises(FileError, match="no answer"):
+    with pytest.raises(FileError, match="'z' is impossible under the belief"):
         solved("bayes-rule", prior={"a": 1, "b": 0}, likelihood={"z": {"a": 0, "b": 1}}, measurements=["z"])
 
 

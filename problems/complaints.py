@@ -1,0 +1,103 @@
+"""What is wrong with the givens of a problem file, as one plain sentence that names the field."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+_LONGEST = 40
+_NAMES = "a name begins with a letter or digit and holds letters, digits, blanks and . ' ( ) + - _ alone"
+_TABLE = "must be a table, in which every name has its value"
+_WHOLE = "{given} is not a whole number; write one, such as 3"
+_TRUTH = "{given} is neither true nor false; write one of them"
+_LIST = "must be a list; a single entry, too, stands in brackets: {listed}"
+#: What to say of the faults that pydantic finds, by its names for them.
+_SAYS = {
+    "missing": "is missing; add it",
+    "missing_argument": "is missing; add it",
+    "unexpected_positional_argument": "is one entry too many; take it out",
+    "extra_forbidden": "is not a field of this family; take it out, or mend its name",
+    "model_type": _TABLE,
+    "dict_type": _TABLE,
+    "tuple_type": _LIST,
+    "list_type": _LIST,
+    "named_tuple_type": "must be a list, with the entries of one {class_name}",
+    "string_type": "must be a text; put it in quotes",
+    "string_too_long": "has {length} characters, {max_length} are the most; shorten it",
+    "int_type": _WHOLE,
+    "int_parsing": _WHOLE,
+    "int_parsing_size": _WHOLE,
+    "int_from_float": _WHOLE,
+    "bool_type": _TRUTH,
+    "bool_parsing": _TRUTH,
+    "greater_than": "{given} is too small; it must be above {gt}",
+    "greater_than_equal": "{given} is too small; it must be at least {ge}",
+    "less_than": "{given} is too large; it must be below {lt}",
+    "less_than_equal": "{given} is too large; it must be at most {le}",
+    "literal_error": "{given} is not possible here; write {expected}",
+}
+
+
+def sentence(error: ValidationError) -> str:
+    """The first fault, and how many more there are."""
+    first, *rest = error.errors()
+    place = list(first["loc"])
+    if place[-1:] == ["[key]"]:  # the fault is the name itself
+        del place[-2:]
+    path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
+    more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
+    return f"given{path}: {_told(first)}{more}."
+
+
+def _told(fault: Mapping[str, Any]) -> str:
+    kind, given, told = fault["type"], fault["input"], fault.get("ctx", {})
+    if kind in ("too_short", "too_long") and not isinstance(given, str):
+        return _counted(kind, told)
+    if kind in ("too_short", "too_long"):
+        kind = kind.replace("too", "string_too")
+    if kind == "string_pattern_mismatch":
+        return _mismatch(given, told["pattern"])
+    says = _SAYS.get(kind, str(fault["msg"]).removeprefix("Value error, ").removesuffix("."))
+    if kind not in _SAYS:
+        return says
+    length = len(given) if isinstance(given, str) else 0
+    listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
+    about = {key: str(value).lower() if key == "class_name" else value for key, value in told.items()}
+    return says.format(**about, given=_shown(given), listed=listed, length=length)
+
+
+def _counted(kind: str, told: Mapping[str, Any]) -> str:
+    """What to say of a list or table that has too few or too many entries."""
+    count, bound = told["actual_length"], told["min_length" if kind == "too_short" else "max_length"]
+    has = "is empty" if count == 0 else f"has {count} {_entries(count)}"
+    if kind == "too_short":
+        return f"{has}; it needs at least {bound} {_entries(bound)}"
+    return f"{has}; it may have at most {bound} {_entries(bound)}"
+
+
+def _entries(count: int) -> str:
+    return "entry" if count == 1 else "entries"
+
+
+def _mismatch(given: str, pattern: str) -> str:
+    """What to say of a text that holds what it may not hold."""
+    if not pattern.startswith(r"^[^\W_]"):
+        signs = "neither $ nor a backslash" if "$" in pattern.removesuffix("$") else "no backslash"
+        return f"may hold {signs}; take them out"
+    return f"{_shown(given)} is no name; {_NAMES}"
+
+
+def _shown(given: object) -> str:
+    if isinstance(given, list | tuple):
+        return "a list"
+    if isinstance(given, dict):
+        return "a table"
+    if given is None:
+        return "nothing"
+    text = repr(given) if isinstance(given, str) else str(given)
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+
+
+def _brief(step: object) -> str:
+    text = "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in str(step))
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
