@@ -1,5 +1,6 @@
 """Matrices as problems give them: lists of rows, a plain number where they are 1×1."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Annotated, Any
 
@@ -90,6 +91,11 @@ def check_weights(name: str, matrix: Rows, *, positive: bool) -> None:
         return
     if not _definite(rows, positive=positive):
         raise ValueError(f"{name} must be positive {'definite' if positive else 'semidefinite'}")
+
+
+def is_positive(matrix: Sequence[Sequence[Fraction]]) -> bool:
+    """Whether a symmetric matrix is positive definite."""
+    return _definite([list(line) for line in matrix], positive=True)
 
 
 def _definite(rows: list[list[Fraction]], *, positive: bool) -> bool:

@@ -10,7 +10,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, check_weights, grid
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid, is_positive
 from rldrill.problems.parts import Matrix as MatrixKind
 from rldrill.problems.parts import Part
 
@@ -41,7 +41,8 @@ class Given(Givens):
             tuple(self.R[i][j] - _between(first, self.P, then) for j, then in enumerate(inputs))
             for i, first in enumerate(inputs)
         )
-        check_weights("R − BᵀPB", curved, positive=True)
+        if not is_positive(curved):
+            raise ValueError("R − BᵀPB is not positive definite, so no action is the best; change R, B or P")
         return self
 
 
