@@ -34,7 +34,10 @@ class Matrix:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A number for every state, or for every pair of state and action; ``of`` is the function asked for."""
+    """A number for every state, or for every pair of state and action.
+
+    ``of`` is the function asked for, ``V``; a dot in it says where the key stands, ``p(D|·)``.
+    """
 
     of: str
     keys: tuple[Key, ...]

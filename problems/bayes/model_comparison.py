@@ -112,11 +112,11 @@ def question(given: Given) -> Question:
     if len(names) == 2:
         odds = Part("b", f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
     else:
-        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", TableKind("p", names), 2)
+        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", TableKind("p(·|D)", names), 2)
     return Question(
         blocks,
         (
-            Part("a", "What is the evidence $p(D|M)$ of every model?", TableKind("p", names), 2),
+            Part("a", "What is the evidence $p(D|M)$ of every model?", TableKind("p(D|·)", names), 2),
             odds,
             Part("c", f"Is “{first}” the most probable model now?", YesNo()),
         ),

@@ -247,14 +247,13 @@ class TableAnswer(Answer[parts.Table]):
         return result
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
-        head = mathematics(self.kind.of)
-        return [
-            (
-                row(head, Fence(listed(map(name, (key,) if isinstance(key, str) else key)))),
-                typeset_value(value[key]),
-            )
-            for key in self.kind.keys
-        ]
+        return [(self._left(key), typeset_value(value[key])) for key in self.kind.keys]
+
+    def _left(self, key: parts.Key) -> Math:
+        if "·" in self.kind.of and isinstance(key, str):
+            return mathematics(self.kind.of.replace("·", f'"{key}"'))
+        names = (key,) if isinstance(key, str) else key
+        return row(mathematics(self.kind.of), Fence(listed(map(name, names))))
 
     def how_to_type(self) -> str:
         first = self.kind.keys[0]

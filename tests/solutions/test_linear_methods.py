@@ -224,9 +224,7 @@ def test_systems_that_cannot_be_brought_to_rest(system: dict[str, Any], message:
 
 
 def test_a_gain_needs_an_action_that_is_the_best() -> None:
-    with pytest.raises(
-        FileError, match="R − BᵀPB is not positive definite, so no action is the best"
-    ):
+    with pytest.raises(FileError, match="R − BᵀPB is not positive definite, so no action is the best"):
         solved("lqr-gain", A=1, B=1, R=4, P=8)  # more action earns ever more
 
 
