@@ -9,7 +9,7 @@ from rldrill.paper import PAPERS
 from rldrill.worksheet import plan, worksheet_source
 
 A4 = PAPERS["a4"]
-FAMILIES = ("value-iteration", "td-zero", "bayes-rule", "forward-kinematics")
+FAMILIES = ("return", "policy-evaluation", "forward-kinematics")
 
 
 def write(name: str, source: str, page: int = 0) -> None:
@@ -19,6 +19,6 @@ def write(name: str, source: str, page: int = 0) -> None:
     Path(__file__).with_name(name).write_bytes(pages[page])
 
 
-(version,) = plan(FAMILIES, 4, 1, seed=5, versions=1, title="Robot Learning").versions
+(version,) = plan(FAMILIES, 3, 1, seed=4, versions=1, title="Robot Learning").versions
 write("worksheet.png", worksheet_source(version, A4))
 write("sheet.png", sheet_source([], A4))
