@@ -49,7 +49,10 @@ def draw(level: int, rng: Draws) -> Given:
     expert, first = _vector(rng, size), _vector(rng, size)
     point, policies = first, []
     for _ in range(2 if level == 3 else 1):
-        mu, share = _beyond(rng, point, expert, 5 if level == 3 else 100)
+        found = _beyond(rng, point, expert, 5 if level == 3 else 100)
+        if found is None:
+            return draw(level, rng)
+        mu, share = found
         policies.append(mu)
         point = tuple(here + share * (there - here) for here, there in zip(point, mu, strict=True))
     return Given(expert=expert, first=first, policies=tuple(policies))
@@ -67,19 +70,20 @@ def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
     return along, sum((step**2 for step in way), Fraction(0))
 
 
-def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction]:
+def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction] | None:
     """A policy as the algorithm finds it: at least as good as the expert for the weights, so not short of it.
 
     The projection then lies between the point and the policy; also returned is where, as a share of the way, whose
-    denominator is at most ``finest``.
+    denominator is at most ``finest``. None where no small policy will do.
     """
-    for _ in range(200):
+    for _ in range(16):
         mu = _vector(rng, len(point))
         along, far = _shares(point, mu, expert)
         _, goal = _shares(point, expert, expert)
-        if goal <= along < far and (along / far).denominator <= finest:
+        beside = along**2 < goal * far  # or the expert would be on the line, and be met
+        if beside and goal <= along < far and (along / far).denominator <= finest:
             return mu, along / far
-    return expert, Fraction(1)  # a start from which no small policy will do: the draw is refused
+    return None
 
 
 def question(given: Given) -> Question:
