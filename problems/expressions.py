@@ -25,6 +25,8 @@ GREEK = {
     "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
 _LAMBDA = re.compile(r"\blambda\b")  # a word of Python's own
+#: Letters that mean something already.
+_TAKEN = {"e": "the number e", "π": "the number π", "t": "the time"}
 _LONGEST, _MOST = 300, 120
 _HIGHEST = 4
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
@@ -40,14 +42,9 @@ def letter(name: str) -> str:
     # One sign of several for the same letter, as Python's own grammar has it: φ for ϕ.
     head, _, index = unicodedata.normalize("NFKC", name).partition("_")
     head = GREEK.get(head, head)
-    if (
-        len(head) != 1
-        or not head.isalpha()
-        or head == "π"
-        or (index and not index.isalnum())
-        or len(index) > 3
-        or name[-1:] == "_"
-    ):
+    if not index and head in _TAKEN:
+        raise ValueError(f"{name!r} is {_TAKEN[head]}; write another letter, such as θ, theta or m_1")
+    if len(head) != 1 or not head.isalpha() or (index and not index.isalnum()) or len(index) > 3 or name[-1:] == "_":
         raise ValueError(f"{name!r} is not a letter; write one such as θ, theta or m_1")
     return f"{head}_{index}" if index else head
 

@@ -109,7 +109,7 @@ def is_matrix(value: object) -> bool:
 
 def matrix(rows: Iterable[Iterable[Value]]) -> AnyMatrix:
     """Rows of values as a matrix, of flint's kind if it can be."""
-    lines = [[tidy(simplest(entry)) for entry in line] for line in rows]
+    lines = [[entry if isinstance(entry, fmpq) else tidy(simplest(entry)) for entry in line] for line in rows]
     if all(isinstance(entry, fmpq) for line in lines for entry in line):
         return fmpq_mat(len(lines), len(lines[0]), [entry for line in lines for entry in line])
     return ExactMatrix(lines)

@@ -133,6 +133,8 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("bandit", {"pulls": [["x", 1]], "preferences": {}, "alpha": 1, "pulled": ["x", 1]},
          "given.preferences: is empty; it needs at least 2 entries."),
         ("linearise", TANK | {"dynamics": {"height": "1"}}, "given.dynamics: 'height' is not a letter; write one such"),
+        ("linearise", TANK | {"dynamics": {"e": "1"}}, "given.dynamics: 'e' is the number e; write another letter"),
+        ("linearise", TANK | {"dynamics": {"t": "1"}}, "given.dynamics: 't' is the time; write another letter"),
         ("linearise", TANK | {"picture": "x"}, "given.picture: 'x' is not possible here; write 'pendulum'"),
     ],
 )  # fmt: skip
