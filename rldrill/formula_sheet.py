@@ -47,7 +47,7 @@ _HELPERS = r"""
   let mark = if beyond [~+]
   let named = text(0.85em, strong(title + mark)) + if source != [] { block(text(0.72em, luma(110), source)) }
   let remarked = if note == [] { [] } else { remark(note) }
-  grid(columns: (2.5cm, 1fr), column-gutter: 0.6em, align: horizon, named, noted(flat, equation, remarked))
+  grid(columns: (9.4em, 1fr), column-gutter: 0.6em, align: horizon, named, noted(flat, equation, remarked))
 })
 #let gallery(note, ..pictures) = block(width: 100%, breakable: false, above: 0.8em, layout(size => {
   let row = stack(dir: ltr, spacing: 1em, ..pictures.pos().map(box))
@@ -93,16 +93,11 @@ def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) 
     Raises:
         UsageError: there is no section of that name.
     """
-    setup = page_setup(
-        paper,
-        title=TITLE,
-        left="",
-        right="",
-        margin="(x: 1cm, top: 0.9cm, bottom: 1cm)",
-        size=_SIZES[paper.name],
-        columns=2,
-    )
-    head = f"text(1.9em, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
+    # A few sections are a handout, in the size of a book.
+    size, columns, title_size = ("10pt", 1, "1.5em") if names else (_SIZES[paper.name], 2, "1.9em")
+    margin = "(x: 1cm, top: 0.9cm, bottom: 1cm)"
+    setup = page_setup(paper, title=TITLE, left="", right="", margin=margin, size=size, columns=columns)
+    head = f"text({title_size}, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
     found = sections(names, workings=workings).items()
     return (
         f'{setup}#set columns(gutter: 0.6cm)\n{_HELPERS}#place(top, scope: "parent", float: true, '

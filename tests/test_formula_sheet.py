@@ -94,6 +94,19 @@ def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, wor
     assert not [box for box in below_title if box[0] < width / 2 < box[1]]
 
 
+def test_a_section_alone_is_one_page_in_the_size_of_a_book(tmp_path: Path) -> None:
+    if shutil.which("pdftotext") is None:
+        pytest.skip("poppler's pdftotext is not installed")
+    path = tmp_path / "sheet.pdf"
+    path.write_bytes(pdf(sheet_source(["bayes"], PAPERS["a4"])))
+    printed = subprocess.run(
+        ["pdftotext", "-layout", str(path), "-"], capture_output=True, check=True, text=True
+    ).stdout
+    assert printed.count("\f") == 1
+    assert "Bayes" in printed
+    assert "Bellman" not in printed
+
+
 def test_the_command_prints_plain_text_when_piped(app: typer.Typer) -> None:
     printed = CliRunner().invoke(app, ["bellman"], catch_exceptions=False).stdout
     assert "\x1b" not in printed
