@@ -115,7 +115,7 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
     first, second = rng.shuffled(setting.states)[:2]
     states = {1: (first, first), 2: (first, second, first), 3: (first, second, second)}[level]
     actions = setting.actions[: 3 if level == 3 else 2]
-    policy = {1: draw_even_policy, 2: draw_log_policy, 3: draw_tied_policy}[level]
+    policy = draw_even_policy if level == 1 else draw_log_policy
     theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
     run = draw_run(rng, (*states, setting.terminal), actions, setting.terminal)
     return {"trajectory": run, "theta": theta, "features": features}
@@ -137,22 +137,6 @@ def draw_log_policy(
     """Weights that are logarithms and whole features, so that every e^h is a whole number."""
     theta = tuple(Logarithm(f"ln {rng.choice((2, 2, 3))}") for _ in range(size))
     return theta, _drawn(rng, states, actions, size, 1)
-
-
-def draw_tied_policy(
-    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...]
-) -> tuple[tuple[Weight, ...], ActionFeatures]:
-    """Three weights and features that give all actions of a state the same preference."""
-    weight = rng.choice((1, 2, -1))
-    features: ActionFeatures = {}
-    for state in states:
-        shared = 2 + rng.below(2)
-        # The first two weights are the same, so it is the sum of these features that counts; the third is 0.
-        features[state] = {
-            action: (first, shared - first, rng.whole(0, 1))
-            for action, first in zip(actions, rng.distinct(len(actions), 0, shared), strict=True)
-        }
-    return (Fraction(weight), Fraction(weight), Fraction(0)), features
 
 
 def draw_even_policy(

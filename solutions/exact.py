@@ -56,7 +56,8 @@ def ordered(expression: sympy.Expr) -> sympy.Expr:
     """A computed sum with its terms as one writes them by hand: the constant, then rising powers."""
     if not expression.is_Add:
         return expression
-    return sympy.Add(*sorted(expression.args, key=_rank), evaluate=False)
+    letters = tuple(expression.free_symbols)
+    return sympy.Add(*sorted(expression.args, key=lambda term: _rank(term, letters)), evaluate=False)
 
 
 def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
@@ -67,9 +68,9 @@ def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
     return reduced if reduced is not None else sympy.together(expression) if expression.is_Add else expression
 
 
-def _rank(term: sympy.Expr) -> tuple[int, object]:
-    free = term.free_symbols
-    degree = sympy.total_degree(term) if term.is_polynomial(*free) else 99
+def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, object]:
+    """The degree in the letters that are left open; without any, in what stands in their place, such as e."""
+    degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
     return int(degree), sympy.default_sort_key(term)
 
 

@@ -9,7 +9,7 @@ from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, grad
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Episode):

@@ -146,11 +146,19 @@ def scripts(below: Math | None, above: Math | None) -> str:
 
 def _script(body: Math, below: Math | None, above: Math | None) -> str:
     base = unicode(body)
-    if body == Glyph("e", "variable") and below is None and above is not None and not _all_shift(above, _ABOVE):
+    if body == Glyph("e", "variable") and below is None and above is not None and not _is_readable_above(above):
         return f"exp({unicode(above)})"
     if isinstance(body, Fraction | Row):
         base = f"({base})"
     return base + scripts(below, above)
+
+
+def _is_readable_above(math: Math) -> bool:
+    """Whether an exponent can be written with small signs, and holds no words such as ln."""
+    words = any(
+        isinstance(item, Glyph) and item.style == "word" for item in (math.items if isinstance(math, Row) else ())
+    )
+    return _all_shift(math, _ABOVE) and not words
 
 
 def _lowered(math: Math | None) -> str:
