@@ -1,14 +1,12 @@
 """The formula sheet in the terminal, as PDF and as Markdown: always the same formulas."""
 
-import re
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
+from printed import poppler, words
 from rldrill.commands import sheet as sheet_command
 from rldrill.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
 from rldrill.paper import PAPERS, pdf
@@ -77,31 +75,19 @@ def test_an_unknown_section_is_refused_with_the_list() -> None:
 @pytest.mark.parametrize("workings", [False, True])
 @pytest.mark.parametrize("paper", ["a4", "letter"])
 def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, workings: bool, tmp_path: Path) -> None:
-    if shutil.which("pdftotext") is None:
-        pytest.skip("poppler's pdftotext is not installed")
     path = tmp_path / "sheet.pdf"
     path.write_bytes(pdf(sheet_source([], PAPERS[paper], workings=workings)))
-    command = ["pdftotext", "-bbox", str(path), "-"]
-    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
-    assert printed.count("<page ") <= (4 if workings else 2)
-    match = re.search(r'<page width="([\d.]+)"', printed)
-    assert match is not None
-    width = float(match[1])
-    words = re.findall(r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)"', printed)
-    boxes = [tuple(map(float, word)) for word in words]
-    assert all(left > MARGIN and right < width - MARGIN for left, _, right in boxes)
-    below_title = [(left, right) for left, top, right in boxes if 80 < top < 740]
-    assert not [box for box in below_title if box[0] < width / 2 < box[1]]
+    found = list(words(path))
+    assert len({word.page for word in found}) == (4 if workings else 2)
+    assert not [word for word in found if word.left <= MARGIN or word.right >= word.width - MARGIN]
+    below_title = [word for word in found if 80 < word.top < 740]
+    assert not [word for word in below_title if word.left < word.width / 2 < word.right]
 
 
 def test_a_section_alone_is_one_page_in_the_size_of_a_book(tmp_path: Path) -> None:
-    if shutil.which("pdftotext") is None:
-        pytest.skip("poppler's pdftotext is not installed")
     path = tmp_path / "sheet.pdf"
     path.write_bytes(pdf(sheet_source(["bayes"], PAPERS["a4"])))
-    printed = subprocess.run(
-        ["pdftotext", "-layout", str(path), "-"], capture_output=True, check=True, text=True
-    ).stdout
+    printed = poppler("pdftotext", "-layout", str(path), "-")
     assert printed.count("\f") == 1
     assert "Bayes" in printed
     assert "Bellman" not in printed

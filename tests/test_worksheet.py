@@ -1,11 +1,9 @@
 """Worksheets: the same arguments print the same bytes, versions share no problem, all fits the page."""
 
 import hashlib
-import html
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +12,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from printed import poppler, words
 from rldrill import load
 from rldrill.commands import worksheet as worksheet_command
 from rldrill.paper import PAPERS, paper_of, pdf, write_bytes_atomically
@@ -48,12 +47,6 @@ def folder(sheet: Sheet, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("printed")
     write(sheet, folder / "exam.pdf", LETTER)
     return folder
-
-
-def poppler(tool: str, *arguments: str) -> str:
-    if shutil.which(tool) is None:
-        pytest.skip(f"poppler's {tool} is not installed")
-    return subprocess.run([tool, *arguments], capture_output=True, check=True, text=True).stdout
 
 
 def test_versions_share_families_and_levels_but_no_problem(sheet: Sheet) -> None:
@@ -116,15 +109,11 @@ def test_the_key_has_every_id_and_title(sheet: Sheet, folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["exam-A", "exam-A-key", "exam-B", "exam-C-key"])
 def test_every_word_is_inside_the_margins(folder: Path, name: str) -> None:
-    printed = poppler("pdftotext", "-bbox", str(folder / f"{name}.pdf"), "-")
-    boxes = re.findall(
-        r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)">(.*?)</word>', printed
-    )
-    assert boxes
-    for left, top, right, bottom, word in boxes:
-        across = float(left) > MARGIN and float(right) < 612 - MARGIN
-        inside = across and float(top) > 20 and float(bottom) < 772
-        assert inside, html.unescape(word)
+    found = list(words(folder / f"{name}.pdf"))
+    assert found
+    for word in found:
+        inside = word.left > MARGIN and word.right < 612 - MARGIN and word.top > 20 and word.bottom < 772
+        assert inside, word
 
 
 def test_a_problem_is_torn_only_if_no_page_can_hold_it_or_the_first_would_stay_empty(

@@ -1,8 +1,6 @@
 """Pictures: nothing lies over anything else, everything is inside its box, and every run draws the same."""
 
 import os
-import re
-import shutil
 import subprocess
 import sys
 from io import StringIO
@@ -12,6 +10,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from printed import Word, words
 from rldrill.exercise import draw
 from rldrill.paper import PAPERS, page_setup, pdf
 from rldrill.problems.backup_diagrams.backup_diagram_value import diagram
@@ -133,15 +132,10 @@ def test_labels_of_arms_cover_no_other_label() -> None:
         assert not [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])], arm
 
 
-def words(source: str, folder: Path) -> list[tuple[float, float, float, float]]:
-    """Where the words of a page are: left, top, right and bottom."""
-    if shutil.which("pdftotext") is None:
-        pytest.skip("poppler's pdftotext is not installed")
+def words_of(source: str, folder: Path) -> list[Word]:
+    """The words of a page."""
     (folder / "page.pdf").write_bytes(pdf(source))
-    command = ["pdftotext", "-bbox", str(folder / "page.pdf"), "-"]
-    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
-    found = re.findall(r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)"', printed)
-    return [(float(a), float(b), float(c), float(d)) for a, b, c, d in found]
+    return list(words(folder / "page.pdf"))
 
 
 def test_everything_that_is_written_is_inside_its_box(tmp_path: Path) -> None:
@@ -154,18 +148,11 @@ def test_everything_that_is_written_is_inside_its_box(tmp_path: Path) -> None:
         if isinstance(picture, Timeline):
             source = source.replace("width: auto", "width: 14cm")
         # A page is as wide as the picture says that it is; words that stand out of it are outside the page.
-        found = words(source + "\n#metadata(none)", tmp_path)
-        printed = subprocess.run(
-            ["pdfinfo", str(tmp_path / "page.pdf")], capture_output=True, check=True, text=True
-        ).stdout
-        size = re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", printed)
-        assert size is not None
-        wide, high = float(size[1]), float(size[2])
-        for left, top, right, bottom in found:
-            assert left > -1, picture
-            assert right < wide + 1, picture
-            assert top > -3, picture  # the boxes of words hold room for accents that are not there
-            assert bottom < high + 3, picture
+        for word in words_of(source + "\n#metadata(none)", tmp_path):
+            assert word.left > -1, picture
+            assert word.right < word.width + 1, picture
+            assert word.top > -3, picture  # the boxes of words hold room for accents that are not there
+            assert word.bottom < word.height + 3, picture
 
 
 def test_labels_are_at_least_as_small_as_was_reckoned(tmp_path: Path) -> None:
@@ -173,8 +160,8 @@ def test_labels_are_at_least_as_small_as_was_reckoned(tmp_path: Path) -> None:
     source = f"{SETUP}#set page(width: 20cm, height: 25cm, margin: 0pt, header: none, footer: none)\n"
     for text in texts:
         (tmp_path / "one").mkdir(exist_ok=True)
-        found = words(source + block(BackupDiagram(backup_diagram("td-zero").root, text)), tmp_path / "one")
-        assert max(w[2] for w in found) - min(w[0] for w in found) <= text_width(text) + 2, text
+        found = words_of(source + block(BackupDiagram(backup_diagram("td-zero").root, text)), tmp_path / "one")
+        assert max(w.right for w in found) - min(w.left for w in found) <= text_width(text) + 2, text
 
 
 def test_too_large_a_diagram_is_left_out() -> None:

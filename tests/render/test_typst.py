@@ -1,15 +1,12 @@
 """Blocks and mathematics as Typst: all compiles, nothing is read as code, nothing is too wide."""
 
-import html
-import re
-import shutil
-import subprocess
 from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
 import pytest
 
+from printed import Word, words
 from rldrill.exercise import Exercise, draw
 from rldrill.paper import PAPERS, page_setup, pdf
 from rldrill.problems.catalogue import families, family
@@ -57,26 +54,15 @@ NARROW = SETUP + "#set page(width: 9cm, height: 25cm, margin: 1cm)\n#set text(si
 CENTIMETRE = 72 / 2.54
 
 
-def words_of(data: bytes, folder: Path) -> list[tuple[str, float, float, float]]:
-    """Every word of a PDF with its left and right edge and the width of its page."""
-    if shutil.which("pdftotext") is None:
-        pytest.skip("poppler's pdftotext is not installed")
+def words_of(data: bytes, folder: Path) -> list[Word]:
+    """Every word of a PDF."""
     (folder / "page.pdf").write_bytes(data)
-    command = ["pdftotext", "-bbox", str(folder / "page.pdf"), "-"]
-    printed = subprocess.run(command, capture_output=True, check=True, text=True).stdout
-    found, width = [], 0.0
-    for line in printed.splitlines():
-        if page := re.search(r'<page width="([\d.]+)"', line):
-            width = float(page[1])
-        elif match := re.search(r'<word xMin="([-\d.]+)" yMin="[-\d.]+" xMax="([-\d.]+)" .*?>(.*)</word>', line):
-            found.append((html.unescape(match[3]), float(match[1]), float(match[2]), width))
-    return found
+    return list(words(folder / "page.pdf"))
 
 
 def assert_inside(data: bytes, folder: Path, margin: float) -> None:
     edge = margin * CENTIMETRE - 1
-    outside = [word for word, left, right, width in words_of(data, folder) if left < edge or right > width - edge]
-    assert outside == []
+    assert not [word for word in words_of(data, folder) if word.left < edge or word.right > word.width - edge]
 
 
 def exercises() -> list[Exercise]:
@@ -108,7 +94,7 @@ def test_names_are_never_read_as_code(tmp_path: Path) -> None:
         Table(("name",), tuple((name,) for name in HOSTILE)),
         *(Equation(row(variable("V"), Fence(word(name))), (word(name),), ("=",)) for name in HOSTILE),
     ]
-    found = [word for word, *_ in words_of(pdf(SETUP + document(tuple(blocks))), tmp_path)]
+    found = [word.text for word in words_of(pdf(SETUP + document(tuple(blocks))), tmp_path)]
     joined = "".join(found).replace("”", '"').replace("“", '"')
     for name in HOSTILE:
         assert joined.count(name) >= 5, name
