@@ -1,6 +1,7 @@
 """Exact numbers as people write them in problem files: ``9/10``, ``0.9``, ``-2``, or a parameter's name."""
 
 import re
+from collections.abc import Iterable
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from typing import Annotated, Any
@@ -120,6 +121,11 @@ def read_weight(value: object) -> Weight:
 def write(value: Weight) -> str:
     """Write an exact number as problem files have it: ``3``, ``-1/2``, ``gamma``."""
     return str(value)
+
+
+def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
+    """The sum of the products of two rows of numbers."""
+    return sum((a * b for a, b in zip(first, second, strict=True)), Fraction(0))
 
 
 def shown(value: Weight | int) -> str:

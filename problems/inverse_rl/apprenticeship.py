@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.parts import Number, Part, Vector
@@ -66,8 +66,8 @@ def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
     """The way to a policy times the way to the expert, and times itself; their quotient is where to project to."""
     way = [there - here for here, there in zip(point, mu, strict=True)]
     goal = [there - here for here, there in zip(point, expert, strict=True)]
-    along = sum((step * wanted for step, wanted in zip(way, goal, strict=True)), Fraction(0))
-    return along, sum((step**2 for step in way), Fraction(0))
+    along = dot(way, goal)
+    return along, dot(way, way)
 
 
 def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction] | None:

@@ -1,6 +1,5 @@
 """Which max-margin constraints hold for given weights, and the smallest slack with which all do."""
 
-from fractions import Fraction
 from string import digits
 from typing import Self
 
@@ -8,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.models import Name
@@ -62,15 +61,11 @@ def draw(level: int, rng: Draws) -> Given:
     for number in range(1, level + 2):
         mu = tuple(rng.whole(0, 6) for _ in range(size))
         policies[f"π{str(number).translate(_LOW)}"] = Rival(mu=mu, margin=rng.whole(1, 6))
-    worth = _worth(w, expert)
-    needed = [_worth(w, rival.mu) + rival.margin for rival in policies.values()]
+    worth = dot(w, expert)
+    needed = [dot(w, rival.mu) + rival.margin for rival in policies.values()]
     if worth in needed or worth < min(needed):  # a tie, or no constraint holds
         return draw(level, rng)
     return Given(w=w, expert=expert, policies=policies)
-
-
-def _worth(w: tuple[Fraction, ...], mu: tuple[Fraction, ...]) -> Fraction:
-    return sum((weight * value for weight, value in zip(w, mu, strict=True)), Fraction(0))
 
 
 def question(given: Given) -> Question:

@@ -1,6 +1,5 @@
 """The LQR gain at one time from the value matrix of the next."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Self
 
@@ -8,6 +7,7 @@ from pydantic import model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
+from rldrill.problems.exact import dot
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid, is_positive
@@ -38,20 +38,12 @@ class Given(Givens):
             check_symmetric(name, matrix)
         inputs = tuple(zip(*self.B, strict=True))
         curved = tuple(
-            tuple(self.R[i][j] - _between(first, self.P, then) for j, then in enumerate(inputs))
+            tuple(self.R[i][j] - dot(first, (dot(line, then) for line in self.P)) for j, then in enumerate(inputs))
             for i, first in enumerate(inputs)
         )
         if not is_positive(curved):
             raise ValueError("R − BᵀPB is not positive definite, so no action is the best; change R, B or P")
         return self
-
-
-def _between(first: Sequence[Fraction], matrix: Sequence[Sequence[Fraction]], then: Sequence[Fraction]) -> Fraction:
-    """The product of a row, a matrix and a column."""
-    entries = (
-        a * b * entry for a, line in zip(first, matrix, strict=True) for b, entry in zip(then, line, strict=True)
-    )
-    return sum(entries, Fraction(0))
 
 
 def draw(level: int, rng: Draws) -> Given:

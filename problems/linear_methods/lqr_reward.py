@@ -7,7 +7,7 @@ from pydantic import model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.linear import LinearQuadratic, draw_system, situation
 from rldrill.problems.mathematics import mathematics
@@ -56,14 +56,10 @@ def _farthest(A: Rows, B: Rows, gain: Line, state: Line, horizon: int) -> Fracti
     """The greatest entry of a state on the way, with one action."""
     greatest = max(map(abs, state))
     for _ in range(horizon):
-        action = -_product(gain, state)
-        state = tuple(_product(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
+        action = -dot(gain, state)
+        state = tuple(dot(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
         greatest = max(greatest, *map(abs, state))
     return greatest
-
-
-def _product(first: Line, second: Line) -> Fraction:
-    return sum((a * b for a, b in zip(first, second, strict=True)), Fraction(0))
 
 
 def question(given: Given) -> Question:

@@ -214,7 +214,7 @@ class TableAnswer(Answer[parts.Table]):
     """A number for every state, or every state and action."""
 
     def _name(self, key: parts.Key) -> str:
-        return key if isinstance(key, str) else ", ".join(key)
+        return key if isinstance(key, str) else f"({', '.join(key)})"
 
     def cells(self, value: Any) -> dict[str, Any]:
         return {self._name(key): value[key] for key in self.kind.keys}
@@ -226,10 +226,7 @@ class TableAnswer(Answer[parts.Table]):
         return {key: cells[self._name(key)] for key in self.kind.keys}
 
     def write(self, value: Any) -> str:
-        return ", ".join(
-            f"{key if isinstance(key, str) else f'({self._name(key)})'}: {text_of(value[key])}"
-            for key in self.kind.keys
-        )
+        return ", ".join(f"{self._name(key)}: {text_of(value[key])}" for key in self.kind.keys)
 
     def data(self, value: Any) -> Any:
         return self._nested(value, text_of)
@@ -256,8 +253,7 @@ class TableAnswer(Answer[parts.Table]):
         return row(mathematics(self.kind.of), Fence(listed(map(name, names))))
 
     def how_to_type(self) -> str:
-        first = self.kind.keys[0]
-        return f"one value for each: {first if isinstance(first, str) else f'({self._name(first)})'}: 3/4, …"
+        return f"one value for each: {self._name(self.kind.keys[0])}: 3/4, …"
 
 
 class PolicyAnswer(Answer[parts.Policy]):

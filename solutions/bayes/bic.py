@@ -10,7 +10,7 @@ from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, t
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
-from rldrill.solutions.work import Note, Result, Work
+from rldrill.solutions.work import Work
 
 LARGEST_WINS = slip(
     "largest-wins",
@@ -61,7 +61,8 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
     shorter = sympy.expand_log(value, factor=True)
     if shorter != value:
-        work.lines += [Note("With the logarithms of prime numbers only:"), Result((LOG_LIKELIHOOD.left,), (shorter,))]
+        work.say("With the logarithms of prime numbers only:")
+        work.give(LOG_LIKELIHOOD, shorter)
     return shorter
 
 

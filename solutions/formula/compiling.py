@@ -213,7 +213,10 @@ def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
     return tuple(key for key, value in zip(keys, values, strict=True) if sign(best - value) == 0)
 
 
+#: All that a compiled formula can call: Python's own functions are not among it, unless they are named here.
 _NAMES = {
+    "__builtins__": {},
+    "abs": abs,
     "total": _total,
     "product": _product,
     "root": _root,
@@ -247,8 +250,9 @@ def needs(expression: Expr) -> tuple[str, ...]:
 def compiled(expression: Expr) -> Callable[..., Value]:
     """The expression as a Python function of the names that it needs, in their order.
 
-    What is compiled is printed from a tree of our own node types; of what a person types, only the names of
-    letters get here, each checked to be a name and bound as an argument.
+    What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
+    get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
+    they are printed, and are bound as arguments. Typed answers and the names of states never do.
     """
     source = f"lambda {', '.join(needs(expression))}: {_Code().doprint(expression)}"
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))

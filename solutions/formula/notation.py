@@ -206,7 +206,7 @@ class Cases(Expr):
 
     def __new__(cls, condition: Expr, then: Expr, otherwise: Expr) -> "Cases":
         """Build it without evaluating anything."""
-        return Expr.__new__(cls, condition, sympy.sympify(then), sympy.sympify(otherwise))
+        return Expr.__new__(cls, condition, sympy.sympify(then, strict=True), sympy.sympify(otherwise, strict=True))
 
 
 class Transposed(Expr):
@@ -225,7 +225,7 @@ class Blocks(Expr):
 
     def __new__(cls, rows: int, *blocks: Any) -> "Blocks":
         """Build it without evaluating anything."""
-        return Expr.__new__(cls, sympy.sympify(rows), *map(sympy.sympify, blocks))
+        return Expr.__new__(cls, *(sympy.sympify(part, strict=True) for part in (rows, *blocks)))
 
 
 class MaxOf(Expr):

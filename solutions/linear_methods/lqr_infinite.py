@@ -22,7 +22,7 @@ from rldrill.solutions.sheet.linear_methods import (
     POSITIVE_S,
     L_always,
 )
-from rldrill.solutions.work import Result, Work
+from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, COST_TO_GO)
 
@@ -74,7 +74,7 @@ def _root(work: Work, a: Value, b: Value, q: Value, r: Value) -> Value:
     if b == 0:
         work.say("No action has an effect here, so the gain is $0$, and $P = −Q + A^2 P$:")
         value = -q / (1 - a * a)
-        work.lines.append(Result((LQR_ROOT.left,), (value,)))
+        work.give(LQR_ROOT, value)
         return value
     if q == 0 and abs(a) == 1:
         raise NoSolution("to bring the state to 0 can be made as cheap as one likes, so no action is the best")

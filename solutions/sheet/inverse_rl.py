@@ -4,6 +4,7 @@ from typing import Any
 
 from sympy import Pow, evaluate, sqrt
 
+from rldrill.problems.exact import dot
 from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Place, misread
 from rldrill.solutions.formula.notation import (
@@ -72,12 +73,8 @@ remaining = letter("remaining", "t")
 
 def several_violated(given: Any) -> bool:
     """Whether more than one constraint is violated, so that a sum is more than the maximum."""
-    expert = sum(weight * value for weight, value in zip(given.w, given.expert, strict=True))
-    values = (
-        sum(weight * value for weight, value in zip(given.w, rival.mu, strict=True)) + rival.margin
-        for rival in given.policies.values()
-    )
-    return sum(value > expert for value in values) > 1
+    expert = dot(given.w, given.expert)
+    return sum(dot(given.w, rival.mu) + rival.margin > expert for rival in given.policies.values()) > 1
 
 
 with evaluate(False):
