@@ -1,14 +1,10 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
-from typing import Self
-
-from pydantic import model_validator
-
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter
+from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import PolicyField, check_policy, equiprobable, model_blocks, policy_table
+from rldrill.problems.models import ModelAndPolicy, model_blocks, policy_table
 from rldrill.problems.parts import Part, Table
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -19,23 +15,10 @@ SOURCE = "Sutton & Barto 2018, section 4.1"
 REVISION = 1
 
 
-class Given(Sweeps):
+class Given(ModelAndPolicy, Sweeps):
     """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps."""
 
-    policy: PolicyField | None = None
-    gamma: Discount
     in_place: bool = False
-
-    @model_validator(mode="after")
-    def _policy_fits(self) -> Self:
-        if self.policy is not None:
-            check_policy(self.policy, self.mdp)
-        return self
-
-    @property
-    def chances(self) -> PolicyField:
-        """The policy, written out."""
-        return self.policy or equiprobable(self.mdp)
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -163,7 +163,7 @@ class MeanOver(Over):
     """The unweighted mean over a finite set; no formula of the sheet has it, but mistakes do."""
 
 
-class Expectation(MeanOver):
+class SampleMean(MeanOver):
     """𝔼 over cases that are equally probable; which case it runs over is not written."""
 
 

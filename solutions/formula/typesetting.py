@@ -37,7 +37,6 @@ from rldrill.solutions.formula.notation import (
     Cases,
     Clipped,
     Counting,
-    Expectation,
     Expected,
     Greatest,
     Indicator,
@@ -53,6 +52,7 @@ from rldrill.solutions.formula.notation import (
     Over,
     ProductOver,
     Quantity,
+    SampleMean,
     Size,
     SumOver,
     Transposed,
@@ -290,7 +290,7 @@ def _body(expression: Expr) -> Math:
 def _over(expression: Over) -> Math:
     signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
     body = expression.body
-    if isinstance(expression, Expectation):
+    if isinstance(expression, SampleMean):
         return row(operator("𝔼"), Fence(typeset(body), "[", "]"))
     if isinstance(expression, IntegralOver):
         return row(Big("∫"), _body(body), variable("d"), typeset(expression.index))

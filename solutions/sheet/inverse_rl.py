@@ -11,11 +11,11 @@ from rldrill.solutions.formula.notation import (
     INFINITY,
     Actions,
     Counting,
-    Expectation,
     Features,
     MaxOver,
     MeanOver,
     P,
+    SampleMean,
     States,
     Successors,
     SumOver,
@@ -83,7 +83,7 @@ with evaluate(False):
     FEATURE_EXPECTATIONS = Formula(
         "feature-expectations",
         mu(j),
-        Expectation(_DISCOUNTED, tau, Trajectories),
+        SampleMean(_DISCOUNTED, tau, Trajectories),
         title="Feature expectations",
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
@@ -91,13 +91,13 @@ with evaluate(False):
     FEATURES_UNDISCOUNTED = misread(
         FEATURE_EXPECTATIONS,
         "undiscounted",
-        Expectation(SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories),
+        SampleMean(SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories),
         "The features at time t count with γᵗ.",
     )
     FEATURES_EARLY = misread(
         FEATURE_EXPECTATIONS,
         "gamma-one-step-early",
-        Expectation(
+        SampleMean(
             SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
         ),
         "The features of the first state are not discounted: γ⁰ = 1.",

@@ -11,7 +11,7 @@ from rldrill.problems.mathematics import mathematics
 from rldrill.render.latex import latex
 from rldrill.render.stacked import stacked
 from rldrill.render.unicode import unicode, unicode_text
-from rldrill.solutions.formula.notation import Counting, Expectation, IntegralOver, S, T, n, t
+from rldrill.solutions.formula.notation import Counting, IntegralOver, S, SampleMean, T, n, t
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.rational import generator
@@ -58,7 +58,7 @@ def test_factorials_expectations_integrals_and_roots_are_written() -> None:
     with evaluate(False):
         quotient = factorial(heads) * factorial(heads + 1) / factorial(3)
         assert unicode(typeset(quotient)) == "(n₁!(n₁ + 1)!)/(3!)"
-        assert unicode(typeset(Expectation(S(t), n, Counting(1, T)))).strip() == "𝔼[sₜ]"
+        assert unicode(typeset(SampleMean(S(t), n, Counting(1, T)))).strip() == "𝔼[sₜ]"
         assert unicode(typeset(IntegralOver(theta**2, theta, Thetas))).strip() == "∫ θ²dθ"
         assert unicode(typeset(sqrt(heads + 1))) == "√(n₁ + 1)"
 
