@@ -76,14 +76,6 @@ def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] 
             check_distribution(chances, f"motion of {action!r} in {state!r}")
 
 
-def belief_table(belief: Mapping[str, Scalar], letter: str = "s") -> Table:
-    """A belief, one column for every state or hypothesis."""
-    return Table(
-        header=(f"${letter}$", *belief),
-        rows=((f"$p({letter})$", *(f"${shown(chance)}$" for chance in belief.values())),),
-    )
-
-
 def likelihood_table(
     likelihood: Mapping[str, Mapping[str, Fraction]], known: tuple[str, ...], letter: str = "s"
 ) -> Table:

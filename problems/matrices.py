@@ -51,8 +51,6 @@ def _all_even(series: tuple[Rows, ...]) -> tuple[Rows, ...]:
 _Exact = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
 _Open = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
 MatrixField = Annotated[_Exact, AfterValidator(_even)]
-#: A matrix in which a parameter may be left open.
-OpenMatrixField = Annotated[_Open, AfterValidator(_even)]
 #: Matrices by time; a single one holds at all times.
 MatricesField = Annotated[tuple[_Exact, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]
 OpenMatricesField = Annotated[tuple[_Open, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]

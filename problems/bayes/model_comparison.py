@@ -66,11 +66,6 @@ class Given(Givens):
             )
         return self
 
-    @property
-    def averages(self) -> bool:
-        """Whether the evidence of some model is an average over its prior."""
-        return any(model.theta is None for model in self.models.values())
-
 
 def draw(level: int, rng: Draws) -> Given:
     """A bent and a fair coin, equally probable; a bent and a worn one; these two and a fair one."""

@@ -300,7 +300,6 @@ States = letter("states", "S")
 Choices = letter("choices", "A")
 Features = letter("features", "F")
 Hypotheses = letter("hypotheses", "H")
-Measurements = letter("measurements", "Z")
 
 # Quantities ---------------------------------------------------------------------------------------
 V = quantity("V", called("V"))
