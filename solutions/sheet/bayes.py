@@ -416,6 +416,7 @@ with evaluate(False):
         "best-fit-for-evidence",
         (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
+        when=lambda given: any(model.theta is None for model in given.models.values()),
     )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
