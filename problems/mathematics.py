@@ -82,7 +82,7 @@ class Accent:
 
 
 @dataclass(frozen=True, slots=True)
-class Grid:
+class Tabular:
     """A matrix, or a column of cells, between brackets."""
 
     rows: tuple[tuple["Math", ...], ...]
@@ -90,7 +90,7 @@ class Grid:
     right: str = "]"
 
 
-Math: TypeAlias = Glyph | Row | Fraction | Script | Fence | Big | Root | Accent | Grid
+Math: TypeAlias = Glyph | Row | Fraction | Script | Fence | Big | Root | Accent | Tabular
 
 
 def variable(text: str) -> Glyph:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator
 
 from rldrill.problems.exact import Exact, Open, Scalar, shown
-from rldrill.problems.mathematics import Grid, Math, mathematics, number
+from rldrill.problems.mathematics import Math, Tabular, mathematics, number
 
 Rows = tuple[tuple[Scalar, ...], ...]
 
@@ -116,11 +116,11 @@ def diagonal(*entries: Scalar) -> Rows:
     return tuple(tuple(entries[i] if i == j else Fraction(0) for j in size) for i in size)
 
 
-def grid(lines: Rows) -> Math:
+def tabular(lines: Rows) -> Math:
     """A given matrix as mathematics; a 1×1 matrix is a number."""
     if len(lines) == len(lines[0]) == 1:
         return scalar(lines[0][0])
-    return Grid(tuple(tuple(scalar(entry) for entry in line) for line in lines))
+    return Tabular(tuple(tuple(scalar(entry) for entry in line) for line in lines))
 
 
 def scalar(entry: Scalar) -> Math:

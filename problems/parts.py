@@ -16,7 +16,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Vector:
+class Numbers:
     """Numbers in a stated order; ``entries`` says in mathematics what each is (``R_0``)."""
 
     entries: tuple[str, ...]
@@ -33,7 +33,7 @@ class Matrix:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class Values:
     """A number for every state, or for every pair of state and action.
 
     ``of`` is the function asked for, ``V``; a dot in it says where the key stands, ``p(D|·)``.
@@ -67,7 +67,7 @@ class YesNo:
     name: ClassVar[str] = "yes/no"
 
 
-Kind: TypeAlias = Number | Vector | Matrix | Table | Policy | Choice | YesNo
+Kind: TypeAlias = Number | Numbers | Matrix | Values | Policy | Choice | YesNo
 
 
 @dataclass(frozen=True, slots=True)

@@ -221,5 +221,5 @@ def _assignments(values: Mapping[str, Fraction]) -> str:
 def _point(head: str, values: Mapping[str, Angle]) -> Equation:
     """The operating point by its letters, and as a column."""
     column = tuple(map(shown, values.values()))
-    right = column[0] if len(column) == 1 else maths.Grid(tuple((entry,) for entry in column))
+    right = column[0] if len(column) == 1 else maths.Tabular(tuple((entry,) for entry in column))
     return Equation(maths.Accent(variable(head), "bar"), (right,), ("=",))

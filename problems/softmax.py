@@ -19,7 +19,7 @@ from rldrill.problems.features import (
     weights,
 )
 from rldrill.problems.models import check_keys
-from rldrill.problems.parts import Part, Vector
+from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import Trajectory, trajectory_table
 from rldrill.problems.settings import draw_setting
@@ -95,14 +95,14 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
     names = weight_names(given.theta)
     asked = f"What are the {weighted} ${', '.join(entries)}$, in this order{in_open(given)}?"
     return (
-        Part("a", asked, Vector(entries), zero=True),
+        Part("a", asked, Numbers(entries), zero=True),
         Part(
             "b",
             f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
-            Vector(tuple(f"∂J/∂{name}" for name in names)),
+            Numbers(tuple(f"∂J/∂{name}" for name in names)),
             points=3,
         ),
-        Part("c", f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Vector(names)),
+        Part("c", f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Numbers(names)),
     )
 
 

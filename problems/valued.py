@@ -7,8 +7,7 @@ from typing import NamedTuple
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.models import Dynamics, Model, Policy, Transition, policy_table, values_table
-from rldrill.problems.parts import Part
-from rldrill.problems.parts import Table as ValuesKind
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import Setting, Shape
 
 #: Discounts, and the number whose multiples are still whole when they are discounted.
@@ -146,5 +145,5 @@ def known_or_asked(values: Mapping[str, Fraction] | None, states: tuple[str, ...
     """The values of π as a question gives them, or the part that asks for them first."""
     if values is None:
         ask = "What is $V^π(s)$, the value of every state under $π$?"
-        return [], [Part("", ask, ValuesKind("V^π", states), points=len(states))]
+        return [], [Part("", ask, Values("V^π", states), points=len(states))]
     return [Paragraph("The values under $π$ are known:"), values_table(values, "V^π")], []

@@ -21,7 +21,7 @@ from rldrill.problems import parts
 from rldrill.problems.document import Equation
 from rldrill.problems.errors import UsageError
 from rldrill.problems.family import Family
-from rldrill.problems.mathematics import EMPTY, Glyph, Grid, Math, Script, number, operator, relation, row
+from rldrill.problems.mathematics import EMPTY, Glyph, Math, Script, Tabular, number, operator, relation, row
 from rldrill.problems.parts import Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.typst import block, document, text, typst
@@ -406,14 +406,14 @@ def _decimal(value: Decimal) -> Math:
 
 def _rounded_grid(grid: Math, cells: Sequence[Value]) -> tuple[str, Math] | None:
     decimals = [rounded(cell) for cell in cells]
-    if not isinstance(grid, Grid) or not any(decimals):
+    if not isinstance(grid, Tabular) or not any(decimals):
         return None
     exact = [entry for line in grid.rows for entry in line]
     entries = [entry if pair is None else pair[1] for entry, pair in zip(exact, decimals, strict=True)]
     width = len(grid.rows[0])
     lines = tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
     sign = "=" if all(pair is None or pair[0] == "=" for pair in decimals) else "≈"
-    return sign, Grid(lines, grid.left, grid.right)
+    return sign, Tabular(lines, grid.left, grid.right)
 
 
 # Files

@@ -6,7 +6,7 @@ import sympy
 from sympy import Expr
 
 from rldrill.solutions.exact import parameters
-from rldrill.solutions.formula.notation import Clipped, Greatest, Label, Least, MatrixLeaf, MaxOf
+from rldrill.solutions.formula.notation import Clipped, Greatest, Least, MatrixLeaf, MaxOf, PutInName
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Result, Step
 
@@ -47,7 +47,7 @@ def _seconds(expression: Expr) -> Fraction:
             digits += sum(map(_digits, matrix))
         elif node.is_Rational:
             digits += _digits(node)
-        elif node.is_Symbol and not isinstance(node, Label):
+        elif node.is_Symbol and not isinstance(node, PutInName):
             digits += LETTER
         elif node.is_Add or node.is_Mul or isinstance(node, MaxOf | Greatest | Least | Clipped):
             operations += len(node.args) - 1

@@ -8,7 +8,7 @@ from rldrill.problems.expressions import letters
 from rldrill.problems.robots import System
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.sheet.linear_methods import (
@@ -69,7 +69,7 @@ def rates(work: Work, given: System) -> AnyMatrix:
     """f at the operating point, a column."""
     known = dynamics.known(given)
     for name, text in given.where.items():
-        known[dynamics.code(name)] = evaluate(_right(text), known)
+        known[dynamics.code(name)] = value_of(_right(text), known)
     return matrices.column(
         work.step(PART_VALUE, into=f_value, right=_right(text), i=index, **known)
         for index, text in enumerate(given.dynamics.values(), 1)
@@ -98,7 +98,7 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
             right = dynamics.exchanged(right)
         if right == 0:
             return ZERO
-        if isinstance(index, str) and is_zero(evaluate(right, known)):
+        if isinstance(index, str) and is_zero(value_of(right, known)):
             work.say(f"The derivative of ${index}$ by ${by}$ is $0$ here.")
             return ZERO
         into = partial if isinstance(index, int) else partial_part

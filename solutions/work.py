@@ -11,12 +11,12 @@ from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy
-from rldrill.solutions.formula.compiling import DivisionError, evaluate
+from rldrill.solutions.formula.compiling import DivisionError, value_of
+from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.formula.linear import Affine, solve_linear
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
-from rldrill.solutions.formula.typesetting import grid, typeset, typeset_value, vector
+from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
 
@@ -109,7 +109,7 @@ def shown_value(value: Any) -> Math:
     if isinstance(value, Vector):
         return vector(value)
     if is_matrix(value):
-        return typeset_value(value[0, 0]) if value.nrows() == value.ncols() == 1 else grid(value.tolist())
+        return typeset_value(value[0, 0]) if value.nrows() == value.ncols() == 1 else tabular(value.tolist())
     return typeset_value(value)
 
 
@@ -165,7 +165,7 @@ class Work:
         own = right is not None
         right = self.reading(formula) if right is None else right
         try:
-            value = tidy(evaluate(right, known))
+            value = tidy(value_of(right, known))
         except DivisionError as error:
             raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
         left = formula.left if into is None else into(*formula.left.args)
@@ -175,7 +175,7 @@ class Work:
 
     def value(self, formula: Formula, **known: Any) -> Value:
         """What a formula, as it is read here, gives for known quantities, without a step in the working."""
-        return evaluate(self.reading(formula), known)
+        return value_of(self.reading(formula), known)
 
     def system(
         self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any
@@ -198,7 +198,7 @@ class Work:
         bound = {**known, unknown.code: _Unknowns({**lookup, **fixed}, ZERO)}
         equations = {}
         for key, case in keys:
-            equations[key] = evaluate(right, {**bound, **case})
+            equations[key] = value_of(right, {**bound, **case})
             self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
         solution = solve_linear(equations)
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
@@ -210,7 +210,7 @@ class Work:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""
         self.lines.append(Recalled(formula))
 
-    def draw(self, *pictures: Picture) -> None:
+    def picture(self, *pictures: Picture) -> None:
         """Draw pictures between the steps."""
         self.lines += map(Drawn, pictures)
 

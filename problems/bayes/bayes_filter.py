@@ -22,7 +22,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
@@ -111,7 +111,7 @@ def question(given: Given) -> Question:
     )
     numbers = range(1, 1 + len(given.run)) if len(given.run) > 1 else [None]
     parts = [
-        Part(label, f"{_told(event, number)} What is the belief then?", Table("p", states))
+        Part(label, f"{_told(event, number)} What is the belief then?", Values("p", states))
         for label, number, event in zip(ascii_lowercase, numbers, given.run, strict=False)
     ]
     return Question(blocks, tuple(parts))

@@ -18,7 +18,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.scenes import SCENES, draw_motion
 
@@ -72,5 +72,5 @@ def question(given: Given) -> Question:
     parts: list[Part] = []
     for label, action in zip(ascii_lowercase, given.actions, strict=False):
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
-        parts.append(Part(label, f"{told} What is the belief after it{in_open(given)}?", Table("p", states)))
+        parts.append(Part(label, f"{told} What is the belief after it{in_open(given)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

@@ -13,7 +13,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
@@ -93,5 +93,5 @@ def question(given: Given) -> Question:
     for index, measurement in enumerate(given.measurements):
         first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
         ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
-        parts.append(Part(chr(ord("a") + index), ask, Table("p", hypotheses)))
+        parts.append(Part(chr(ord("a") + index), ask, Values("p", hypotheses)))
     return Question(blocks, tuple(parts))

@@ -10,8 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Choice, Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Choice, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
@@ -121,7 +120,7 @@ def question(given: Given) -> Question:
     """The models; log-likelihoods unless they are given, both criteria, and the winner."""
     names = given.names
     rule = Paragraph('$"BIC"(M) = −2 log p(D|M, θ) + k log n$, where $log$ is the natural logarithm, $ln$.')
-    criteria = Part("a", "What is the BIC of both models?", TableKind("BIC", names), 2, zero=True)
+    criteria = Part("a", "What is the BIC of both models?", Values("BIC", names), 2, zero=True)
     if given.fitted is not None:
         rows = tuple((name, f"${model.k}$", f"${shown(model.likelihood)}$") for name, model in given.fitted.items())
         blocks: tuple[Block, ...] = (
@@ -150,7 +149,7 @@ def question(given: Given) -> Question:
     fit = Part(
         "a",
         "What is $ln p(D|M, θ)$ of both models, each at the parameters that fit it best?",
-        TableKind("ln p", names),
+        Values("ln p", names),
         2,
         zero=True,
     )

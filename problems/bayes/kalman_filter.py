@@ -12,8 +12,8 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_weights, diagonal, grid
-from rldrill.problems.parts import Matrix, Part, Vector
+from rldrill.problems.matrices import MatrixField, check_shape, check_weights, diagonal, tabular
+from rldrill.problems.parts import Matrix, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
@@ -161,18 +161,18 @@ def _models(given: Given) -> tuple[Block, ...]:
             "The noises $ε_t$ and $δ_t$ are normal and independent, with mean $0$ and covariances $R$ and $Q$. The "
             "first belief is normal, with mean $μ_0$ and covariance $Σ_0$."
         ),
-        *(Equation(mathematics(name), (grid(rows),), ("=",)) for name, rows in named),
+        *(Equation(mathematics(name), (tabular(rows),), ("=",)) for name, rows in named),
     )
 
 
-def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Vector | Matrix, int]]:
+def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Numbers | Matrix, int]]:
     after = f"after the motion of step ${time}$, before the measurement"
     if given.on_a_line:
-        wanted: list[tuple[str, Vector | Matrix, int]] = [
-            (f"What are mean and variance {after}?", Vector((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")), 1)
+        wanted: list[tuple[str, Numbers | Matrix, int]] = [
+            (f"What are mean and variance {after}?", Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")), 1)
         ]
         if event.z is not None:
-            entries = Vector((f"μ_{{{time}}}", f"Σ_{{{time}}}"))
+            entries = Numbers((f"μ_{{{time}}}", f"Σ_{{{time}}}"))
             wanted.append((f"What are mean and variance after the measurement $z_{{{time}}}$?", entries, 2))
         return wanted
     n = len(given.mean)

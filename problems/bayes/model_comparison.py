@@ -11,8 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Number, Part, YesNo
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Number, Part, Values, YesNo
 
 TITLE = "Model comparison"
 SOURCE = "MacKay 2003, section 3.3"
@@ -107,11 +106,11 @@ def question(given: Given) -> Question:
     if len(names) == 2:
         odds = Part("b", f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
     else:
-        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", TableKind("p(·|D)", names), 2)
+        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", Values("p(·|D)", names), 2)
     return Question(
         blocks,
         (
-            Part("a", "What is the evidence $p(D|M)$ of every model?", TableKind("p(D|·)", names), 2),
+            Part("a", "What is the evidence $p(D|M)$ of every model?", Values("p(D|·)", names), 2),
             odds,
             Part("c", f"Is “{first}” the most probable model now?", YesNo()),
         ),

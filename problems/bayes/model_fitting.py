@@ -9,7 +9,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Model fitting"
 SOURCE = "Bishop 2006, sections 1.2.4, 2.3.6 and 3.3.1"
@@ -177,7 +177,7 @@ def _line(line: Line) -> Question:
         ),
         Paragraph("The model is a line with independent normal noise of the same variance: $y = θ_0 + θ_1 x + ε$."),
     )
-    entries = Vector(("θ_1", "θ_0"))
+    entries = Numbers(("θ_1", "θ_0"))
     parts = [
         Part("a", "Which slope $θ_1$ and intercept $θ_0$ have the greatest likelihood (least squares)?", entries, 2)
     ]

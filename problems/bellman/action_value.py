@@ -5,7 +5,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import Dynamics, Lookahead, Transition, transitions_table, values_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
@@ -50,4 +50,4 @@ def question(given: Given) -> Question:
         Paragraph(f"The values of the states under a policy $π$ are known. {discount(given.gamma)}"),
         values_table(given.values, "V^π"),
     )
-    return Question(blocks, (Part("a", one if len(pairs) == 1 else every, Table("Q^π", pairs)),))
+    return Question(blocks, (Part("a", one if len(pairs) == 1 else every, Values("Q^π", pairs)),))

@@ -19,7 +19,7 @@ from rldrill.problems.models import (
     policy_blocks,
     values_table,
 )
-from rldrill.problems.parts import Part, Table, YesNo
+from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -121,7 +121,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is the residual $δ(s)$ of every state?", Table("δ", given.mdp.states), zero=True),
+            Part("a", "What is the residual $δ(s)$ of every state?", Values("δ", given.mdp.states), zero=True),
             Part("b", f"Is $V$ equal to ${of}$?", YesNo()),
         ),
     )

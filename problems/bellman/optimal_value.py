@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Transition, model_blocks
-from rldrill.problems.parts import Part, Policy, Table
+from rldrill.problems.parts import Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -58,8 +58,8 @@ def question(given: Given) -> Question:
     return Question(
         (*model_blocks(given.mdp), Paragraph(discount(given.gamma))),
         (
-            Part("a", "What is $V^*(s)$, the optimal value of every state?", Table("V^*", given.mdp.states), points=2),
+            Part("a", "What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states), points=2),
             Part("b", "Which action is best in every state?", Policy(given.mdp.actions)),
-            Part("c", "What is $Q^*(s, a)$ for every state and action?", Table("Q^*", given.mdp.pairs)),
+            Part("c", "What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
         ),
     )

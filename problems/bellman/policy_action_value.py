@@ -7,7 +7,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.family import Question
 from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, policy_blocks
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -40,11 +40,11 @@ def question(given: Given) -> Question:
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
         (
-            Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),
+            Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),
             Part(
                 "b",
                 f"What is $Q^π(s, a)$ for every state and action{in_open(given)}?",
-                Table("Q^π", given.mdp.pairs),
+                Values("Q^π", given.mdp.pairs),
             ),
         ),
     )

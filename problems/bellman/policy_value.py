@@ -5,7 +5,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import Model, ModelAndPolicy, Transition, model_blocks, policy_blocks
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -65,5 +65,5 @@ def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
-        (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Table("V^π", given.mdp.states)),),
+        (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),),
     )

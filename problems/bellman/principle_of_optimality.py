@@ -13,8 +13,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part, Policy
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Number, Part, Policy, Values
 
 TITLE = "Principle of optimality"
 SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
@@ -144,7 +143,7 @@ def question(given: Given) -> Question:
         Part(
             "a",
             f"What is $V^*(s)$, the greatest total reward of a path to {given.goal}, from every state $s$?",
-            TableKind("V^*", states),
+            Values("V^*", states),
         ),
     ]
     if given.forks:

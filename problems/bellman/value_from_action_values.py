@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import action_values_table
 from rldrill.problems.settings import draw_setting
@@ -65,10 +65,10 @@ def question(given: Given) -> Question:
         Part(
             "a",
             f"The table holds $Q^π$, the action values of this policy. What is $V^π(s)$ {every}{in_open(given)}?",
-            Table("V^π", states),
+            Values("V^π", states),
         )
     ]
     if not given.parameters():
         ask = f"Suppose instead that the table holds $Q^*$, the optimal action values. What is $V^*(s)$ {every}?"
-        parts.append(Part("b", ask, Table("V^*", states)))
+        parts.append(Part("b", ask, Values("V^*", states)))
     return Question(blocks, tuple(parts))

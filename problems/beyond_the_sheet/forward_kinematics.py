@@ -3,7 +3,7 @@
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
 SOURCE = "Siciliano et al. 2009, section 2.9.1"
@@ -27,6 +27,6 @@ def question(given: Given) -> Question:
         situation(given),
         (
             Part("a", "What is the angle $φ$ of the last link against the $x$ axis, in radians?", Number(), zero=True),
-            Part("b", "Where is the end point $(x, y)$ of the last link?", Vector(("x", "y")), points=2),
+            Part("b", "Where is the end point $(x, y)$ of the last link?", Numbers(("x", "y")), points=2),
         ),
     )

@@ -11,7 +11,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Matrix, Part, Vector, YesNo
+from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
@@ -64,7 +64,7 @@ def question(given: Given) -> Question:
     velocity = tuple(f"v_{row}" for row in given.rows)
     parts = [
         Part("a", "What is $J$ at this configuration?", Matrix(m, n), points=3),
-        Part("b", f"What is the velocity $({', '.join(velocity)})$?", Vector(velocity), zero=True),
+        Part("b", f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True),
     ]
     if given.square:
         parts.append(Part("c", "Is the configuration singular, that is, is $det J = 0$?", YesNo()))

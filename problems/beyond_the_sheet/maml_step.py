@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import in_open, step_size
 
 TITLE = "MAML step"
@@ -79,7 +79,7 @@ def question(given: Given) -> Question:
                 "a",
                 f"What {'is the adapted parameter' if count == 1 else 'are the adapted parameters'} "
                 f"${', '.join(adapted)}${open_}?",
-                Vector(adapted) if count > 1 else Number(),
+                Numbers(adapted) if count > 1 else Number(),
                 zero=True,
             ),
             Part("b", f"What is $θ$ after the outer step{open_}?", Number(), points=2, zero=True),

@@ -12,7 +12,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Policy, Table
+from rldrill.problems.parts import Part, Policy, Values
 
 TITLE = "Bandits"
 SOURCE = "Sutton & Barto 2018, chapter 2"
@@ -119,7 +119,7 @@ def question(given: Given) -> Question:
     )
     if given.kind == "gradient":
         return Question((*blocks, *_preferences(given)), _gradient_parts(given))
-    estimates = Part("a", "What is the sample average $Q(a)$ of every arm?", Table("Q", given.arms), zero=True)
+    estimates = Part("a", "What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
     choice = Policy({NEXT: given.arms})
     if given.kind == "estimates":
         return Question(blocks, (estimates, Part("b", "Which arm is pulled next, if the choice is greedy?", choice)))
@@ -131,7 +131,7 @@ def question(given: Given) -> Question:
         (*blocks, explained),
         (
             estimates,
-            Part("b", "What is the upper confidence bound $U(a)$ of every arm?", Table("U", given.arms), points=2),
+            Part("b", "What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
             Part("c", "Which arm does UCB pull next?", choice),
         ),
     )
@@ -158,6 +158,8 @@ def _preferences(given: Given) -> tuple[Block, ...]:
 def _gradient_parts(given: Given) -> tuple[Part, ...]:
     last = len(given.every_pull)
     return (
-        Part("a", f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Table("π", given.arms)),
-        Part("b", f"What is the preference $H(a)$ of every arm after pull ${last}$?", Table("H", given.arms), points=2),
+        Part("a", f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", given.arms)),
+        Part(
+            "b", f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", given.arms), points=2
+        ),
     )

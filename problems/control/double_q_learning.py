@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, draw_row, run_situation
 
@@ -100,5 +100,5 @@ def question(given: Given) -> Question:
             if len(pairs) == 1
             else f"the value in $Q_{table}$ of every pair that is updated there"
         )
-        parts.append(Part(label, f"What is {asked} after the run{in_open(given)}?", Table(f"Q_{table}", pairs)))
+        parts.append(Part(label, f"What is {asked} after the run{in_open(given)}?", Values(f"Q_{table}", pairs)))
     return Question(blocks, tuple(parts))

@@ -7,7 +7,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part, Table
+from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import exploration, in_open
 from rldrill.problems.runs import action_values_table, draw_row
 from rldrill.problems.settings import draw_setting
@@ -71,7 +71,7 @@ def question(given: Given) -> Question:
         Part(
             "a",
             f"With which probability $π(a|{where})$ is every action taken{in_open(given)}?",
-            Table("π", tuple(given.values)),
+            Values("π", tuple(given.values)),
         )
     ]
     if given.valued:

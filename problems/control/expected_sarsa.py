@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import exploration, in_open
 from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_blocks
 
@@ -80,5 +80,5 @@ def question(given: Given) -> Question:
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
         (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *chosen),
-        (Part("a", f"What is {asked} after the run{in_open(given)}?", Table("Q", pairs)),),
+        (Part("a", f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
     )

@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, read_policy
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open, terminal_note
 from rldrill.problems.runs import Trajectory, timeline
 from rldrill.problems.settings import Setting, draw_setting
@@ -132,7 +132,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"{ratios}{in_open(given)}?", Vector(entries)),
+            Part("a", f"{ratios}{in_open(given)}?", Numbers(entries)),
             Part("b", f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
             Part("c", f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
         ),

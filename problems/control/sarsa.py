@@ -6,7 +6,7 @@ from pydantic import model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, run_blocks
 from rldrill.problems.settings import draw_setting
@@ -57,5 +57,5 @@ def question(given: Given) -> Question:
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
         run_blocks(given, action_values_table(given.values), "Sarsa"),
-        (Part("a", f"What is {asked} after the run{in_open(given)}?", Table("Q", pairs)),),
+        (Part("a", f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
     )

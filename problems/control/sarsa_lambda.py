@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_situation
 
@@ -79,11 +79,11 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"What is the trace of these pairs after the run{in_open(given)}?", Table("e", given.eligible)),
+            Part("a", f"What is the trace of these pairs after the run{in_open(given)}?", Values("e", given.eligible)),
             Part(
                 "b",
                 f"What is the action value of these pairs after the run{in_open(given)}?",
-                Table("Q", given.eligible),
+                Values("Q", given.eligible),
                 points=2,
             ),
         ),

@@ -7,7 +7,7 @@ from pydantic import model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Choice, Number, Part, Vector
+from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_situation
 
@@ -57,7 +57,7 @@ def question(given: Given) -> Question:
             "updates after every transition. A target is what an update moves $Q(s_t, a_t)$ towards."
         ),
     )
-    kind = Number() if steps == 1 else Vector(tuple(f"y_{{{time}}}" for time in range(steps)))
+    kind = Number() if steps == 1 else Numbers(tuple(f"y_{{{time}}}" for time in range(steps)))
     asked = "What is the target $y_0$" if steps == 1 else f"What are the targets $y_0, …, y_{{{steps - 1}}}$"
     return Question(
         blocks,

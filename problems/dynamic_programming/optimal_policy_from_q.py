@@ -9,8 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Dynamics, Name, transitions_table
-from rldrill.problems.parts import Part, Policy, lettered
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Policy, Values, lettered
 from rldrill.problems.phrases import discount, terminal_note
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
@@ -110,7 +109,7 @@ def question(given: Given) -> Question:
     ask = (
         "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
     )
-    return Question(blocks, lettered([Part("", ask, TableKind("Q^*", given.gaps), points=len(given.gaps)), best]))
+    return Question(blocks, lettered([Part("", ask, Values("Q^*", given.gaps), points=len(given.gaps)), best]))
 
 
 def _table(given: Given) -> Table:

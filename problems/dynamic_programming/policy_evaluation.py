@@ -5,7 +5,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import ModelAndPolicy, model_blocks, policy_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted
@@ -62,4 +62,4 @@ def question(given: Given) -> Question:
         Paragraph(f"{discount(given.gamma)} {in_place if given.in_place else SYNCHRONOUS}"),
     )
     ask = f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}{in_open(given)}?"
-    return Question(blocks, (Part("a", ask, Table(f"V_{{{k}}}", given.mdp.states), points=len(states)),))
+    return Question(blocks, (Part("a", ask, Values(f"V_{{{k}}}", given.mdp.states), points=len(states)),))

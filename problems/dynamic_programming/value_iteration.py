@@ -5,7 +5,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Question
 from rldrill.problems.models import model_blocks
-from rldrill.problems.parts import Part, Policy, Table
+from rldrill.problems.parts import Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted
@@ -44,7 +44,7 @@ def question(given: Given) -> Question:
             Part(
                 "a",
                 f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}?",
-                Table(f"V_{{{k}}}", given.mdp.states),
+                Values(f"V_{{{k}}}", given.mdp.states),
             ),
             Part("b", f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),
         ),

@@ -11,7 +11,7 @@ from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, weights
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part, Policy, Table, Vector
+from rldrill.problems.parts import Numbers, Part, Policy, Values
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Linear action values"
@@ -94,7 +94,7 @@ def question(given: Given) -> Question:
                 f"They are piecewise linear radial basis functions of the width $b = {shown(given.bumps.width)}$."
             ),
         )
-        parts.append(Part("a", f"What are the features ${', '.join(names)}$, in this order?", Vector(names)))
+        parts.append(Part("a", f"What are the features ${', '.join(names)}$, in this order?", Numbers(names)))
     last = given.size * len(given.actions)
     stacked = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, last + 1))
     blocks += (
@@ -105,8 +105,8 @@ def question(given: Given) -> Question:
         ),
     )
     asked = (
-        (f'What is the stacked vector $φ(s, "{given.action}")$?', Vector(stacked), 1),
-        ("What is $Q̂(s, a)$ of every action?", Table("Q̂", tuple(("s", action) for action in given.actions)), 2),
+        (f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(stacked), 1),
+        ("What is $Q̂(s, a)$ of every action?", Values("Q̂", tuple(("s", action) for action in given.actions)), 2),
         ("Which action is greedy?", Policy({"s": given.actions}), 1),
     )
     for ask, kind, points in asked:

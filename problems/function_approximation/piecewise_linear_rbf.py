@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Part, Vector
+from rldrill.problems.parts import Numbers, Part
 
 TITLE = "Piecewise linear RBF"
 SOURCE = "Lecture sheet; triangular kernel"
@@ -52,4 +52,4 @@ def question(given: Given) -> Question:
         *bumps(given, given.width, "tent"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order?"
-    return Question(blocks, (Part("a", ask, Vector(names), points=2),))
+    return Question(blocks, (Part("a", ask, Numbers(names), points=2),))

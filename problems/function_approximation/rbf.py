@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Part, Vector
+from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
@@ -54,4 +54,4 @@ def question(given: Given) -> Question:
         *bumps(given, given.sigma, "gaussian"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order{in_open(given)}?"
-    return Question(blocks, (Part("a", ask, Vector(names), points=2),))
+    return Question(blocks, (Part("a", ask, Numbers(names), points=2),))

@@ -10,7 +10,7 @@ from rldrill.problems.exact import Discount, Exact, Parameter, StepSize
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Part, Vector
+from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open, step_size
 from rldrill.problems.runs import Trajectory, trajectory_table
 from rldrill.problems.settings import draw_setting
@@ -118,4 +118,4 @@ def question(given: Given) -> Question:
     first = f"What {'is the TD error' if steps == 1 else 'are the TD errors'} ${', '.join(errors)}${in_open(given)}?"
     second = f"What are the weights $θ$ after the run{in_open(given)}?"
     names = weight_names(range(size * max(1, len(given.actions))))
-    return Question(blocks, (Part("a", first, Vector(errors)), Part("b", second, Vector(names), points=2)))
+    return Question(blocks, (Part("a", first, Numbers(errors)), Part("b", second, Numbers(names), points=2)))

@@ -12,8 +12,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Choice, Part, YesNo
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Choice, Part, Values, YesNo
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Markov property"
@@ -118,7 +117,7 @@ def question(given: Given) -> Question:
     )
     ask = f'What is $Pr(s_{{t+1}} = "{given.asked}" | s_{{t-1}}, s_t)$ for every history $s_{{t-1}}, s_t$ of the table?'
     parts = [
-        Part("a", ask, TableKind("Pr", given.histories)),
+        Part("a", ask, Values("Pr", given.histories)),
         Part("b", "Can the process of these states be Markov, going by this table?", YesNo()),
     ]
     if options := where(given):

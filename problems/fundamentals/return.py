@@ -6,7 +6,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open
 
 TITLE = "Return"
@@ -51,7 +51,7 @@ def question(given: Given) -> Question:
     if given.time is None:
         entries = tuple(f"R_{{{time}}}" for time in range(end))
         ask = f"What are the returns $R_0, …, R_{{{end - 1}}}$, in this order{in_open(given)}?"
-        return Question(blocks, (Part("a", ask, Vector(entries)),))
+        return Question(blocks, (Part("a", ask, Numbers(entries)),))
     parts = [Part("a", f"What is the return $R_{{{given.time}}}${in_open(given)}?", Number())]
     if given.time:
         parts.append(Part("b", f"What is the return $R_0${in_open(given)}?", Number()))

@@ -11,7 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
@@ -105,8 +105,8 @@ def question(given: Given) -> Question:
     labels = iter(ascii_lowercase)
     parts = [Part(next(labels), "What is the distance $‖μ(π_1) − μ(π_E)‖$ (Euclidean)?", Number())]
     for number in range(1, count + 1):
-        point = Vector(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
-        weights = Vector(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
+        point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
+        weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
         parts.append(Part(next(labels), f"Where is $μ̄$ after $π_{{{number}}}$?", point, 2))
         parts.append(Part(next(labels), "What are the weights $w$ then?", weights, zero=True))
     parts.append(Part(next(labels), f"What is the distance $‖w‖$ that is left after $π_{{{count}}}$?", Number()))

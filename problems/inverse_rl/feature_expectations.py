@@ -11,7 +11,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part, Vector
+from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import draw_setting
 
@@ -76,4 +76,4 @@ def question(given: Given) -> Question:
     )
     size = len(next(iter(given.features.values())))
     ask = f"Which estimate of the feature expectations $μ(π)$ of the expert's policy do they give{in_open(given)}?"
-    return Question(blocks, (Part("a", ask, Vector(tuple(f"μ_{{{index}}}" for index in range(1, size + 1)))),))
+    return Question(blocks, (Part("a", ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, size + 1)))),))

@@ -13,8 +13,7 @@ from rldrill.problems.exact import Discount, Probability, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Part, Vector
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -117,14 +116,14 @@ def question(given: Given) -> Question:
             label,
             f"With $μ_{{{number}}}(s)$ the expected discounted sum of the feature $φ_{{{number}}}$ of the states from "
             f"$s_0 = s$ on, $s_0$ included: what is $μ_{{{number}}}(s)$ for every state{in_open(given)}?",
-            TableKind(f"μ_{{{number}}}", given.states),
+            Values(f"μ_{{{number}}}", given.states),
             2,
         )
         for label, number in zip(ascii_lowercase, numbers, strict=False)
     ]
     entries = tuple(f"μ_{{{number}}}" for number in numbers)
     ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
-    parts.append(Part(ascii_lowercase[given.size], ask, Vector(entries)))
+    parts.append(Part(ascii_lowercase[given.size], ask, Numbers(entries)))
     return Question(blocks, tuple(parts))
 
 

@@ -11,8 +11,7 @@ from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Number, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
@@ -93,7 +92,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is $w^⊤ μ(π)$ of every policy?", TableKind("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
+            Part("a", "What is $w^⊤ μ(π)$ of every policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
             Part("b", "How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
             Part("c", "What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), 2, zero=True),
         ),

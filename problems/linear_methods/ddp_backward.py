@@ -11,7 +11,7 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.expressions import Expression, letters
 from rldrill.problems.family import Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, tabular
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import System, draw_system, plan
 
@@ -73,8 +73,8 @@ def question(given: Given) -> Question:
         (
             *plan(given, given.reward),
             Paragraph("There the gradient and the Hessian of the next state's value are"),
-            Equation(mathematics("V′_s"), (grid(tuple((entry,) for entry in given.gradient)),), ("=",)),
-            Equation(mathematics("V′_{s s}"), (grid(given.hessian),), ("=",)),
+            Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
+            Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),
             Paragraph(
                 "$Q(s, a) = r(s, a) + V′(f(s, a))$ is expanded to second order around the operating point; there is no "
                 f"discount. {kept} The change of the action that makes it greatest is $a − ā = k + K (s − s̄)$."

@@ -4,7 +4,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.linear import LinearQuadratic, draw_system, situation
+from rldrill.problems.linear_quadratic import LinearQuadratic, draw_system, situation
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.phrases import in_open
 

@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import dot
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, grid, is_positive
+from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, is_positive, tabular
 from rldrill.problems.parts import Matrix as MatrixKind
 from rldrill.problems.parts import Part
 
@@ -71,7 +71,7 @@ def question(given: Given) -> Question:
             "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$. The value from the next time on is "
             "$V_{t+1}(s) = s^⊤ P_{t+1} s$. At $t = 0$:"
         ),
-        *(Equation(mathematics(name), (grid(lines),), ("=",)) for name, lines in named),
+        *(Equation(mathematics(name), (tabular(lines),), ("=",)) for name, lines in named),
     )
     rows, columns = len(given.B[0]), len(given.A)
     return Question(

@@ -12,7 +12,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, grid
+from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, tabular
 from rldrill.problems.parts import Matrix, Part
 
 TITLE = "LQR over an infinite horizon"
@@ -109,7 +109,7 @@ def question(given: Given) -> Question:
                 f"{story} has the dynamics $s_{{t+1}} = A s_t + B a_t$ and earns the reward "
                 "$r(s_t, a_t) = −(s_t^⊤ Q s_t + a_t^⊤ R a_t)$ at every time $t = 0, 1, 2, …$ without end or discount:"
             ),
-            *(Equation(mathematics(name), (grid(matrix),), ("=",)) for name, matrix in named),
+            *(Equation(mathematics(name), (tabular(matrix),), ("=",)) for name, matrix in named),
             Paragraph(
                 "The state has to go to $0$. Of all ways to bring it there, the largest sum of all rewards from the "
                 "state $s$ on is $V(s) = s^⊤ P s$; the best action is $a = −L s$."

@@ -9,9 +9,9 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, dot
 from rldrill.problems.family import Question
-from rldrill.problems.linear import LinearQuadratic, draw_system, situation
+from rldrill.problems.linear_quadratic import LinearQuadratic, draw_system, situation
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatricesField, check_shape, grid
+from rldrill.problems.matrices import MatricesField, check_shape, tabular
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 
@@ -65,7 +65,7 @@ def _farthest(A: Rows, B: Rows, gain: Line, state: Line, horizon: int) -> Fracti
 def question(given: Given) -> Question:
     """The first reward, then the total."""
     gains = (
-        Equation(mathematics(f"L_{'t' if len(given.L) == 1 else time}"), (grid(gain),), ("=",))
+        Equation(mathematics(f"L_{'t' if len(given.L) == 1 else time}"), (tabular(gain),), ("=",))
         for time, gain in enumerate(given.L)
     )
     last = given.horizon

@@ -11,7 +11,7 @@ from rldrill.problems.exact import Exact, Parameter, StepSize, Weight, shown
 from rldrill.problems.family import Question
 from rldrill.problems.features import ActionFeatures, weight_names
 from rldrill.problems.models import Name, values_table
-from rldrill.problems.parts import Part, Table, Vector
+from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
 from rldrill.problems.settings import Setting, draw_setting
@@ -116,9 +116,9 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part("a", f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
-                 Vector(errors)),
-            Part("b", f"{values} after the run{opened}?", Table("V", given.visited), zero=True),
-            Part("c", f"What are the actor's weights $θ$ after the run{opened}?", Vector(weight_names(given.theta)),
+                 Numbers(errors)),
+            Part("b", f"{values} after the run{opened}?", Values("V", given.visited), zero=True),
+            Part("c", f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta)),
                  points=3),
         ),
     )  # fmt: skip

@@ -19,7 +19,7 @@ from rldrill.problems.models import (
     transitions_table,
     values_table,
 )
-from rldrill.problems.parts import Number, Part, Table, Vector
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, terminal_note, trace_parameter
 from rldrill.problems.runs import Trajectory, check_values, trajectory_table
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
@@ -144,7 +144,7 @@ def _of_one_state(given: Given, ahead: Lookahead) -> Question:
         Paragraph(f"In state {state} the actions do this:"),
         transitions_table(ahead.dynamics),
     )
-    parts = [Part("a", f"What are the action values $Q^π(s, a)$ in {state}?", Table("Q^π", pairs), zero=True)]
+    parts = [Part("a", f"What are the action values $Q^π(s, a)$ in {state}?", Values("Q^π", pairs), zero=True)]
     if ahead.policy is None:
         of_states = "The values of the states under the policy $π$ are estimated as follows."
     else:
@@ -152,7 +152,7 @@ def _of_one_state(given: Given, ahead: Lookahead) -> Question:
         of_states = "The values of the next states under it are known."
         parts.append(Part("b", f'What is the value $V^π("{state}")$?', Number(), zero=True))
     label = chr(ord("a") + len(parts))
-    parts.append(Part(label, f"What is the advantage $A(s, a)$ of every action in {state}?", Table("A", pairs)))
+    parts.append(Part(label, f"What is the advantage $A(s, a)$ of every action in {state}?", Values("A", pairs)))
     blocks = (*opening, Paragraph(f"{of_states} {discount(given.gamma)}"), values_table(ahead.values, "V^π"))
     return Question(blocks, tuple(parts))
 
@@ -174,6 +174,8 @@ def _along(given: Given, run: Run) -> Question:
     )
     ask = f"What are the estimates ${', '.join(estimates)}$, in this order{in_open(given)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
-        return Question(blocks, (Part("a", ask, Vector(estimates), points=3),))
+        return Question(blocks, (Part("a", ask, Numbers(estimates), points=3),))
     first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
-    return Question(blocks, (Part("a", first, Vector(errors), zero=True), Part("b", ask, Vector(estimates), points=2)))
+    return Question(
+        blocks, (Part("a", first, Numbers(errors), zero=True), Part("b", ask, Numbers(estimates), points=2))
+    )

@@ -9,8 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionFeatures, action_features_table, check_action_features, weights
-from rldrill.problems.parts import Part, Policy
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Policy, Values
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Linear policy"
@@ -57,7 +56,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is $Q̂(s, a)$ of every action?", TableKind("Q̂", pairs), points=2, zero=True),
+            Part("a", "What is $Q̂(s, a)$ of every action?", Values("Q̂", pairs), points=2, zero=True),
             Part(
                 "b",
                 "Which action does the policy take in each state?"

@@ -11,7 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part, Vector, YesNo
+from rldrill.problems.parts import Number, Numbers, Part, YesNo
 from rldrill.problems.settings import draw_setting
 
 TITLE = "PPO: clipped objective"
@@ -132,7 +132,7 @@ def _asked(label: str, what: str, letter: str, times: range) -> Part:
     names = tuple(f"{letter}_{{{time}}}" for time in times)
     if len(names) == 1:
         return Part(label, f"What is the {what} ${names[0]}$?", Number())
-    return Part(label, f"What are the {what}s ${', '.join(names)}$, in this order?", Vector(names))
+    return Part(label, f"What are the {what}s ${', '.join(names)}$, in this order?", Numbers(names))
 
 
 def _samples_table(given: Given) -> Table:

@@ -10,8 +10,7 @@ from rldrill.problems.exact import Logarithm, OpenProbability, Parameter, Weight
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
 from rldrill.problems.models import Name, check_keys, sums_to_one
-from rldrill.problems.parts import Part, Vector
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.settings import draw_setting
 from rldrill.problems.softmax import draw_log_policy
@@ -95,10 +94,10 @@ def question(given: Given) -> Question:
             Part(
                 "a",
                 f"With which probability $π(a|s)$ is every action taken{in_open(given)}?",
-                TableKind("π", tuple(given.features)),
+                Values("π", tuple(given.features)),
             ),
         )
     parts = [*probabilities]
     for text in wanted:
-        parts.append(Part(chr(ord("a") + len(parts)), text, Vector(names), points=2))
+        parts.append(Part(chr(ord("a") + len(parts)), text, Numbers(names), points=2))
     return Question(blocks, tuple(parts))

@@ -10,8 +10,7 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weights
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Softmax policy"
@@ -57,11 +56,11 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is the preference $h(s, a)$ of every action?", TableKind("h", actions), zero=True),
+            Part("a", "What is the preference $h(s, a)$ of every action?", Values("h", actions), zero=True),
             Part(
                 "b",
                 "With which probability $π(a|s)$ is every action taken?",
-                TableKind("π", actions),
+                Values("π", actions),
                 points=2,
             ),
         ),

@@ -9,8 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import draw_setting
 
@@ -82,7 +81,7 @@ def question(given: Given) -> Question:
         ),
     )
     tail = in_open(given)
-    key = TableKind("V", given.states)
+    key = Values("V", given.states)
     what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
     return Question(
         blocks,

@@ -9,8 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, OpenProbability, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.settings import draw_setting
 
@@ -76,7 +75,7 @@ def question(given: Given) -> Question:
         Part(
             chr(ord("a") + index),
             f"What are the traces $e(s)$ of {every} after the update at $t = {time}${in_open(given)}?",
-            TableKind("e", given.visited),
+            Values("e", given.visited),
         )
         for index, time in enumerate(given.asked)
     )

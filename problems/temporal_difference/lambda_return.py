@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, OpenProbability, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, values_table
-from rldrill.problems.parts import Number, Part, Vector
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.runs import Episode, check_values, draw_episode, seen
 from rldrill.problems.settings import draw_setting
@@ -82,7 +82,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"What are the {many} and the return ${entries[-1]}$?", Vector(entries)),
+            Part("a", f"What are the {many} and the return ${entries[-1]}$?", Numbers(entries)),
             Part("b", average, Number()),
         ),
     )

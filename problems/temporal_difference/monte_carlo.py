@@ -7,7 +7,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
-from rldrill.problems.parts import Number, Part, Table, Vector
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import Episode, ValueRun, draw_episode, run_situation, values_asked
 from rldrill.problems.settings import draw_setting
@@ -71,11 +71,11 @@ def question(given: Given) -> Question:
     tail = in_open(given)
     values = f"What is {values_asked(given)} after the updates{tail}?"
     if not given.in_parts:
-        return Question(blocks, (Part("a", values, Table("V", given.visited)),))
+        return Question(blocks, (Part("a", values, Values("V", given.visited)),))
     entries = tuple(f"R_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     if len(entries) == 1:
         returns = Part("a", f"What is the return ${entries[0]}${tail}?", Number())
     else:
         listed = ", ".join(entries) if len(entries) < 4 else f"{entries[0]}, …, {entries[-1]}"
-        returns = Part("a", f"What are the returns ${listed}$, in this order{tail}?", Vector(entries))
-    return Question(blocks, (returns, Part("b", values, Table("V", given.visited))))
+        returns = Part("a", f"What are the returns ${listed}$, in this order{tail}?", Numbers(entries))
+    return Question(blocks, (returns, Part("b", values, Values("V", given.visited))))

@@ -9,8 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys, values_table
-from rldrill.problems.parts import Number, Part, Vector
-from rldrill.problems.parts import Table as TableKind
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, step_size
 from rldrill.problems.settings import draw_setting
 
@@ -83,7 +82,7 @@ def question(given: Given) -> Question:
                 _averages(given),
                 *_visits(given, "averaged in"),
             ),
-            (Part("a", _values_asked(given), TableKind("V", given.visited)),),
+            (Part("a", _values_asked(given), Values("V", given.visited)),),
         )
     state, count = given.visited[0], len(given.visits)
     blocks = (
@@ -100,7 +99,7 @@ def question(given: Given) -> Question:
         weights = Part("a", f"With which weight $w_1$ does the return enter {after}{tail}?", Number())
     else:
         ask = f"With which weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
-        weights = Part("a", f"{ask} {after}{tail}?", Vector(entries))
+        weights = Part("a", f"{ask} {after}{tail}?", Numbers(entries))
     return Question(blocks, (weights, Part("b", value, Number())))
 
 

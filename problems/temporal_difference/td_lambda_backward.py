@@ -5,7 +5,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
 from rldrill.problems.runs import Trajectory, ValueRun, run_situation, values_asked
 from rldrill.problems.settings import draw_setting
@@ -54,5 +54,5 @@ def question(given: Given) -> Question:
                 "the TD error of the values that are current before the transition."
             ),
         ),
-        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Table("V", given.visited)),),
+        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
     )

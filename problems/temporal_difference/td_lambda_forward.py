@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
-from rldrill.problems.parts import Number, Part, Table, Vector
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
 from rldrill.problems.runs import Episode, ValueRun, draw_episode, run_situation
 from rldrill.problems.settings import draw_setting
@@ -71,8 +71,8 @@ def question(given: Given) -> Question:
         returns = Part("a", f"What is the λ-return ${entries[0]}${tail}?", Number())
         asked = f'$V("{given.updated[0]}")$'
     else:
-        returns = Part("a", f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Vector(entries))
+        returns = Part("a", f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Numbers(entries))
         asked = f"the values of the states visited at times {joined([f'${time}$' for time in given.asked])}"
     verb = "is" if len(entries) == 1 else "are"
-    values = Part("b", f"What {verb} {asked} after the update{tail}?", Table("V", given.updated))
+    values = Part("b", f"What {verb} {asked} after the update{tail}?", Values("V", given.updated))
     return Question(blocks, (returns, values))

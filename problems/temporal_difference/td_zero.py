@@ -4,7 +4,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
-from rldrill.problems.parts import Part, Table
+from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import Trajectory, ValueRun, run_blocks, values_asked
 from rldrill.problems.settings import draw_setting
@@ -42,5 +42,5 @@ def question(given: Given) -> Question:
     """The run, the values before it; all visited states are asked for."""
     return Question(
         run_blocks(given, values_table(given.values), "TD(0)"),
-        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Table("V", given.visited)),),
+        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
     )

@@ -6,11 +6,11 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
-    Grid,
     Math,
     Root,
     Row,
     Script,
+    Tabular,
 )
 
 _COMMANDS = {
@@ -47,7 +47,7 @@ def latex(math: Math) -> str:
             return rf"\sqrt{{{latex(body)}}}"
         case Accent(body, mark):
             return rf"\{mark}{{{latex(body)}}}"
-        case Grid(rows, left, right):
+        case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"
 

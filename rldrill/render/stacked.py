@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from rldrill.problems.mathematics import Fence, Grid, Math, Row, Script
+from rldrill.problems.mathematics import Fence, Math, Row, Script, Tabular
 from rldrill.render.unicode import scripts, unicode
 
 _BRACKETS = {
@@ -15,7 +15,7 @@ _BRACKETS = {
 
 
 @dataclass(frozen=True)
-class Box:
+class Stack:
     """Lines of the same width; the one at ``base`` is in line with what stands beside it."""
 
     lines: tuple[str, ...]
@@ -34,7 +34,7 @@ def stacked(math: Math) -> tuple[str, ...]:
 
 def _has_grid(math: Math) -> bool:
     match math:
-        case Grid(rows):
+        case Tabular(rows):
             return len(rows) > 1
         case Row(items):
             return any(map(_has_grid, items))
@@ -44,9 +44,9 @@ def _has_grid(math: Math) -> bool:
             return False
 
 
-def _box(math: Math) -> Box:
+def _box(math: Math) -> Stack:
     match math:
-        case Grid(rows, left, right):
+        case Tabular(rows, left, right):
             return _fenced(_cells(rows), left, right)
         case Row(items) if _has_grid(math):
             return _beside(items)
@@ -56,24 +56,24 @@ def _box(math: Math) -> Box:
             box = _box(body)
             raised = scripts(below, above)
             top = [line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)]
-            return Box(tuple(top), box.base)
+            return Stack(tuple(top), box.base)
         case _:
-            return Box((unicode(math),))
+            return Stack((unicode(math),))
 
 
-def _cells(rows: tuple[tuple[Math, ...], ...]) -> Box:
+def _cells(rows: tuple[tuple[Math, ...], ...]) -> Stack:
     texts = [[unicode(cell) for cell in line] for line in rows]
     widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
     lines = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in texts]
-    return Box(tuple(lines), len(lines) // 2)
+    return Stack(tuple(lines), len(lines) // 2)
 
 
-def _fenced(box: Box, left: str, right: str) -> Box:
+def _fenced(box: Stack, left: str, right: str) -> Stack:
     height = len(box.lines)
     lines = [
         f"{_bracket(left, index, height)}{line}{_bracket(right, index, height)}" for index, line in enumerate(box.lines)
     ]
-    return Box(tuple(lines), box.base)
+    return Stack(tuple(lines), box.base)
 
 
 def _bracket(sign: str, index: int, height: int) -> str:
@@ -83,9 +83,9 @@ def _bracket(sign: str, index: int, height: int) -> str:
     return top if index == 0 else bottom if index == height - 1 else middle
 
 
-def _beside(items: tuple[Math, ...]) -> Box:
+def _beside(items: tuple[Math, ...]) -> Stack:
     # What stands between two matrices is written as one piece, so that its signs get their spaces.
-    boxes: list[Box] = []
+    boxes: list[Stack] = []
     plain: list[Math] = []
     for item in (*items, None):
         if item is not None and not _has_grid(item):
@@ -95,7 +95,7 @@ def _beside(items: tuple[Math, ...]) -> Box:
             text = unicode(Row(tuple(plain)))
             sign = text[0] in "+−" and bool(boxes)
             tail = item is not None and text[-1] in "+−"
-            boxes.append(Box((f" {text[0]} {text[1:].lstrip()}" if sign else text + " " * tail,)))
+            boxes.append(Stack((f" {text[0]} {text[1:].lstrip()}" if sign else text + " " * tail,)))
             plain = []
         if item is not None:
             boxes.append(_box(item))
@@ -106,4 +106,4 @@ def _beside(items: tuple[Math, ...]) -> Box:
         for index in range(above + below):
             inside = index - above + box.base
             lines[index] += box.lines[inside] if 0 <= inside < len(box.lines) else " " * box.width
-    return Box(tuple(lines), above)
+    return Stack(tuple(lines), above)

@@ -16,12 +16,12 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
-    Grid,
     Math,
     Root,
     Row,
     Script,
     Style,
+    Tabular,
 )
 from rldrill.problems.pictures import Picture
 from rldrill.render.pictures import preamble
@@ -130,7 +130,7 @@ def typst(math: Math) -> str:
             return f"sqrt({typst(body)})"
         case Accent(body, mark):
             return f"{_ACCENTS[mark]}({typst(body)})"
-        case Grid(rows, left, right):
+        case Tabular(rows, left, right):
             lines = "; ".join(", ".join(map(typst, line)) for line in rows)
             return f"lr({_fence(left)} mat(delim: #none, {lines}) {_fence(right)})"
 
@@ -389,4 +389,4 @@ def _begins_factor(before: Math, item: Math) -> bool:
 
 
 def _is_tall(item: Math) -> bool:
-    return isinstance(item.body if isinstance(item, Script) else item, Fence | Grid | Fraction)
+    return isinstance(item.body if isinstance(item, Script) else item, Fence | Tabular | Fraction)

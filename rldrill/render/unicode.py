@@ -7,11 +7,11 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
-    Grid,
     Math,
     Root,
     Row,
     Script,
+    Tabular,
 )
 from rldrill.problems.pictures import Picture
 
@@ -52,7 +52,7 @@ def unicode(math: Math) -> str:
             return f"√({unicode(body)})" if isinstance(body, Script) else f"√{_grouped(body)}"
         case Accent(body, mark):
             return unicode(body) + _MARKS[mark]
-        case Grid(rows, left, right):
+        case Tabular(rows, left, right):
             lines = ["  ".join(unicode(cell) for cell in line) for line in rows]
             return f"{left}{' ; '.join(lines)}{right}"
 

@@ -30,7 +30,7 @@ from rldrill.solutions.answers.text import (
     read_yes_no,
 )
 from rldrill.solutions.exact import Value, decimal, in_one_quotient, to_sympy
-from rldrill.solutions.formula.typesetting import grid, typeset_value
+from rldrill.solutions.formula.typesetting import tabular, typeset_value
 from rldrill.solutions.matrices import is_matrix, matrix
 
 KindT = TypeVar("KindT", bound=parts.Kind)
@@ -140,7 +140,7 @@ class NumberAnswer(Answer[parts.Number]):
         return "a number: 3/4, 0.75 or 2 + 1/2*3"
 
 
-class VectorAnswer(Answer[parts.Vector]):
+class NumbersAnswer(Answer[parts.Numbers]):
     """Numbers in a stated order."""
 
     def cells(self, value: Any) -> dict[str, Any]:
@@ -202,7 +202,7 @@ class MatrixAnswer(Answer[parts.Matrix]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         rows = self._lines(value)
-        return [(None, typeset_value(rows[0][0]) if len(rows) == len(rows[0]) == 1 else grid(rows))]
+        return [(None, typeset_value(rows[0][0]) if len(rows) == len(rows[0]) == 1 else tabular(rows))]
 
     def how_to_type(self) -> str:
         if self.kind.rows == self.kind.columns == 1:
@@ -210,7 +210,7 @@ class MatrixAnswer(Answer[parts.Matrix]):
         return f"{self.kind.rows} × {self.kind.columns}, rows parted by semicolons: [1, 2; 3, 4]"
 
 
-class TableAnswer(Answer[parts.Table]):
+class ValuesAnswer(Answer[parts.Values]):
     """A number for every state, or every state and action."""
 
     def _name(self, key: parts.Key) -> str:
@@ -359,9 +359,9 @@ class YesNoAnswer(Answer[parts.YesNo]):
 
 _KINDS: dict[type, type[Answer[Any]]] = {
     parts.Number: NumberAnswer,
-    parts.Vector: VectorAnswer,
+    parts.Numbers: NumbersAnswer,
     parts.Matrix: MatrixAnswer,
-    parts.Table: TableAnswer,
+    parts.Values: ValuesAnswer,
     parts.Policy: PolicyAnswer,
     parts.Choice: ChoiceAnswer,
     parts.YesNo: YesNoAnswer,

@@ -44,7 +44,7 @@ def solve(given: Given, work: Work) -> None:
         moves = (_weighed, _moved) if work.makes(ORDER_SWAPPED) else (_moved, _weighed)
         for move in moves:
             belief = move(work, event, belief, known)
-        work.draw(*before_and_after(before, belief))
+        work.picture(*before_and_after(before, belief))
         belief = work.answer(part, belief)
 
 

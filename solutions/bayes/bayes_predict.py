@@ -23,7 +23,7 @@ def solve(given: Given, work: Work) -> None:
     for part, action in zip(ascii_lowercase, given.actions, strict=False):
         known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
         after = {state: work.step(PREDICT, s1=state, **known) for state in states}
-        work.draw(*before_and_after(belief, after))
+        work.picture(*before_and_after(belief, after))
         belief = work.answer(part, after)
 
 

@@ -35,7 +35,7 @@ def solve(given: Given, work: Work) -> None:
             "hypotheses": hypotheses,
         }
         after = {h: work.step(BAYES, h=h, **known) for h in hypotheses}
-        work.draw(*before_and_after(belief, after))
+        work.picture(*before_and_after(belief, after))
         belief = work.answer(part, after)
 
 

@@ -6,11 +6,11 @@ from rldrill.problems.bellman.optimal_value import Given
 from rldrill.problems.document import joined
 from rldrill.problems.models import Policy, equiprobable
 from rldrill.solutions import knowns
-from rldrill.solutions.evaluation import TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
+from rldrill.solutions.policy_values import TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
     Q_STAR_FORGOT_GAMMA,

@@ -2,9 +2,9 @@
 
 from rldrill.problems.bellman.policy_action_value import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.evaluation import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, swept
+from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
     Q_FORGOT_GAMMA,

@@ -1,9 +1,9 @@
 """The Bellman equations of all states, solved as a linear system."""
 
 from rldrill.problems.bellman.policy_value import Given
-from rldrill.solutions.evaluation import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, swept
+from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import TRANSPOSED
 from rldrill.solutions.work import Work
 

@@ -6,7 +6,7 @@ from rldrill.problems.dynamic_programming.contraction import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -68,7 +68,7 @@ def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) ->
             work.step(CONTRACTION, k=k, **known)
             work.say(f"That is {relation} {limit}.")
         else:  # the fraction has more digits than anybody reads
-            value = evaluate(work.reading(CONTRACTION), {**known, "k": k})
+            value = value_of(work.reading(CONTRACTION), {**known, "k": k})
             work.say(f"After {k} sweeps the bound is about ${decimal(value, 4)}$, {relation} {limit}.")
 
 
@@ -80,11 +80,11 @@ def _sweeps(work: Work, known: dict[str, Any], accuracy: Value) -> int:
     """
     bound = work.reading(CONTRACTION)
     low, high = 0, MOST_SWEEPS
-    if sign(accuracy - evaluate(bound, {**known, "k": high})) < 0:
+    if sign(accuracy - value_of(bound, {**known, "k": high})) < 0:
         raise NoSolution(f"the accuracy takes more than {MOST_SWEEPS} sweeps")
     while low < high:
         middle = (low + high) // 2
-        if sign(accuracy - evaluate(bound, {**known, "k": middle})) >= 0:
+        if sign(accuracy - value_of(bound, {**known, "k": middle})) >= 0:
             high = middle
         else:
             low = middle + 1

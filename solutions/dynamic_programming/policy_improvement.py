@@ -4,9 +4,9 @@ from typing import Any
 
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.bellman import BELLMAN_V
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,

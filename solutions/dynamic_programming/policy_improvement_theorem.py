@@ -8,10 +8,10 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
+from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.bellman import BELLMAN_Q
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work

@@ -9,10 +9,10 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_iteration import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.evaluation import ONE_SWEEP, evaluated
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,

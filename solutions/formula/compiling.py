@@ -258,7 +258,7 @@ def compiled(expression: Expr) -> Callable[..., Value]:
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))
 
 
-def evaluate(expression: Expr, known: Mapping[str, Any]) -> Value:
+def value_of(expression: Expr, known: Mapping[str, Any]) -> Value:
     """The exact value of an expression.
 
     Raises:

@@ -9,7 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.solutions.exact import Value
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.typesetting import typeset
 
 
@@ -71,7 +71,7 @@ class Formula:
 
     def value(self, known: Mapping[str, Any]) -> Value:
         """The exact value for known quantities."""
-        return evaluate(self.right, known)
+        return value_of(self.right, known)
 
 
 @dataclass(frozen=True, eq=False)

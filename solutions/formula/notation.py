@@ -37,13 +37,13 @@ def letter(code: str, glyph: str | Math | None = None, *, matrix: bool = False) 
     return symbol
 
 
-class Label(sympy.Symbol):
+class PutInName(sympy.Symbol):
     """The name of a state, action or hypothesis standing where an index stood."""
 
 
-def label(text: object) -> Expr:
+def put_in_name(text: object) -> Expr:
     """A put-in index as a leaf: a whole number, or a name."""
-    return sympy.Integer(text) if isinstance(text, int) else Label(str(text))
+    return sympy.Integer(text) if isinstance(text, int) else PutInName(str(text))
 
 
 class Quantity(sympy.Function):

@@ -7,7 +7,7 @@ import sympy
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.exact import ordered, to_sympy
-from rldrill.solutions.formula.compiling import evaluate, needs
+from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
     Blocks,
@@ -29,7 +29,7 @@ from rldrill.solutions.formula.notation import (
     SumOver,
     Transposed,
     VectorLeaf,
-    label,
+    put_in_name,
 )
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
@@ -50,10 +50,10 @@ def put_in(expression: Expr, known: Known) -> Expr:
     if isinstance(expression, Expected):
         return put_in(expression.args[0], known)
     if isinstance(expression, Indicator | Size):
-        return sympy.Integer(evaluate(expression, known))
+        return sympy.Integer(value_of(expression, known))
     if isinstance(expression, Cases):
         condition, then, otherwise = expression.args
-        return put_in(then if evaluate(condition, known) else otherwise, known)
+        return put_in(then if value_of(condition, known) else otherwise, known)
     if expression.is_Symbol:
         return leaf(known[expression.name]) if expression.name in known else expression
     if not expression.args:
@@ -83,7 +83,7 @@ def indexed(expression: Expr, known: Known) -> Expr:
 def leaf(value: Any) -> Expr:
     """An exact value, a matrix or a name as a leaf of an expression."""
     if isinstance(value, str):
-        return label(value)
+        return put_in_name(value)
     if is_matrix(value):
         return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
     if isinstance(value, Vector):
@@ -102,7 +102,7 @@ def computed(value: Any) -> Expr:
 def _index(expression: Expr, known: Known) -> Expr:
     if all(name in known for name in needs(expression)):
         try:
-            return label(evaluate(expression, known))
+            return put_in_name(value_of(expression, known))
         except (KeyError, IndexError):
             return expression
     return expression
@@ -111,14 +111,14 @@ def _index(expression: Expr, known: Known) -> Expr:
 def _quantity(expression: Quantity, known: Known) -> Expr:
     if expression.code in known:
         try:
-            return leaf(evaluate(expression, known))
+            return leaf(value_of(expression, known))
         except KeyError:  # an unknown of a system, among values that are fixed
             pass
     return indexed(expression, known)
 
 
 def _over(expression: Over, known: Known) -> Expr:
-    items = list(evaluate(expression.domain, known))
+    items = list(value_of(expression.domain, known))
     terms = [put_in(expression.body, {**known, expression.index.name: item}) for item in items]
     if isinstance(expression, SumOver):
         return _sum(terms)

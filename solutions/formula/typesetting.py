@@ -13,11 +13,11 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
-    Grid,
     Math,
     Root,
     Row,
     Script,
+    Tabular,
     listed,
     name,
     number,
@@ -41,7 +41,6 @@ from rldrill.solutions.formula.notation import (
     Greatest,
     Indicator,
     IntegralOver,
-    Label,
     Least,
     MatrixLeaf,
     MaxOf,
@@ -51,6 +50,7 @@ from rldrill.solutions.formula.notation import (
     Negative,
     Over,
     ProductOver,
+    PutInName,
     Quantity,
     SampleMean,
     Size,
@@ -69,7 +69,7 @@ def typeset(expression: Expr) -> Math:
     """An expression as mathematics."""
     if isinstance(expression, Quantity):
         return expression.layout(*map(typeset, expression.args))
-    if isinstance(expression, Label):
+    if isinstance(expression, PutInName):
         return name(expression.name)
     if expression.is_Symbol:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
@@ -326,7 +326,7 @@ def _condition(expression: Expr) -> Math:
 def _cases(expression: Cases) -> Math:
     condition, then, otherwise = expression.args
     lines = (typeset(then), row(word("if"), _condition(condition))), (typeset(otherwise), word("otherwise"))
-    return Grid(lines, "{", "")
+    return Tabular(lines, "{", "")
 
 
 def _size(expression: Size) -> Math:
@@ -347,7 +347,7 @@ def _matrix(expression: MatrixLeaf) -> Math:
     if expression.scalar:
         entry = matrix[0]
         return Fence(typeset_value(entry)) if entry.is_negative or entry.is_Add else typeset_value(entry)
-    return grid([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
+    return tabular([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
 
 
 def _blocks(expression: Blocks) -> Math:
@@ -357,7 +357,7 @@ def _blocks(expression: Blocks) -> Math:
         typeset_value(block.args[0][0]) if isinstance(block, MatrixLeaf) and block.scalar else typeset(_bare(block))
         for block in blocks
     ]
-    return Grid(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
+    return Tabular(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
 
 
 def vector(entries: Iterable[Value]) -> Math:
@@ -365,9 +365,9 @@ def vector(entries: Iterable[Value]) -> Math:
     return Fence(listed(map(typeset_value, entries)))
 
 
-def grid(lines: Sequence[Sequence[Value]]) -> Grid:
+def tabular(lines: Sequence[Sequence[Value]]) -> Tabular:
     """A matrix of values as mathematics."""
-    return Grid(tuple(tuple(typeset_value(value) for value in line) for line in lines))
+    return Tabular(tuple(tuple(typeset_value(value) for value in line) for line in lines))
 
 
 def _exponential(expression: Any) -> Math:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
-from rldrill.solutions import linear
+from rldrill.solutions import linear_quadratic
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
@@ -34,7 +34,7 @@ _LABELS = "abcdefghijklmnopqrstuvwxyz"
 
 def solve(given: Given, work: Work) -> None:
     """Two parts for every time; the last is the action."""
-    known = linear.known(given)
+    known = linear_quadratic.known(given)
     last = given.horizon
     work.say(IN_COSTS)
     P = {last: work.step(LQR_TERMINAL, T=last, **known)}
@@ -49,7 +49,7 @@ def solve(given: Given, work: Work) -> None:
         value = work.step(LQR_RICCATI, t=time, Pt=P, Lt={time: right} if work.makes(SAME_TIME) else L, **known)
         given_ = work.answer(next(labels), -value if work.makes(COST_TO_GO) else value)
         P = P | {time: value if work.makes(COST_TO_GO) else given_}
-    work.answer(next(labels), work.step(LQR_ACTION, t=0, Lt=L, St={0: linear.start(given)}))
+    work.answer(next(labels), work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
 
 
 def oracle(given: Given) -> Answers:
@@ -75,7 +75,7 @@ def _best(given: Given, first: int) -> tuple[Array, Array]:
     steer: Array = np.zeros((n, m * count))
     H, F, W = np.zeros((m * count, m * count)), np.zeros((m * count, n)), np.zeros((n, n))
     for step in range(count):
-        now = linear.arrays(given, first + step)
+        now = linear_quadratic.arrays(given, first + step)
         here = slice(m * step, m * (step + 1))
         H += steer.T @ now["Q"] @ steer
         F += steer.T @ now["Q"] @ reach

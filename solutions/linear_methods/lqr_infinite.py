@@ -4,9 +4,9 @@ import numpy as np
 from flint import fmpq
 
 from rldrill.problems.linear_methods.lqr_infinite import Given
-from rldrill.solutions import linear, matrices
+from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, Value, decimal
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.riccati import stationary
@@ -44,7 +44,7 @@ def solve(given: Given, work: Work) -> None:
     by_time = {"At": {0: known["A"]}, "Bt": {0: known["B"]}, "Rt": {0: known["R"]}, "Pt": {1: P}}
     if all(isinstance(entry, fmpq) and entry.q > _LONG for entry in P.entries()):
         work.say("The gain follows from this $P$, and is rounded likewise.")
-        L = work.answer("b", _rounded(evaluate(work.reading(LQR_GAIN), {"t": 0, **by_time})))
+        L = work.answer("b", _rounded(value_of(work.reading(LQR_GAIN), {"t": 0, **by_time})))
     else:
         L = work.answer("b", work.step(LQR_GAIN, into=L_always, t=0, **by_time))
     closed = work.step(LQR_CLOSED_LOOP, Ai=known["A"], Bi=known["B"], Li=L)
@@ -133,7 +133,7 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
 
 def oracle(given: Given) -> Answers:
     """Value iteration on the quadratic, until nothing changes."""
-    A, B, Q, R = (linear.array(getattr(given, name)) for name in "ABQR")
+    A, B, Q, R = (linear_quadratic.array(getattr(given, name)) for name in "ABQR")
     S = Q + np.eye(len(Q))  # from any positive matrix it comes to the solution that is stable
     for _ in range(100_000):
         L = np.linalg.solve(R + B.T @ S @ B, B.T @ S @ A)

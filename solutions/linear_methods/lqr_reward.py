@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from rldrill.problems.linear import by_time
 from rldrill.problems.linear_methods.lqr_reward import Given
-from rldrill.solutions import linear, matrices
+from rldrill.problems.linear_quadratic import by_time
+from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,
@@ -22,13 +22,13 @@ MISCONCEPTIONS = (COST_FOR_REWARD, REWARD_WITHOUT_R, ACTION_FIRST)
 
 def solve(given: Given, work: Work) -> None:
     """The first reward is asked for on the way."""
-    known = linear.known(given)
+    known = linear_quadratic.known(given)
     known["Lt"] = {time: matrices.given(by_time(given.L, time)) for time in range(given.horizon + 1)}
-    known["St"] = {0: linear.start(given)}
+    known["St"] = {0: linear_quadratic.start(given)}
     known["Ut"], rewards = {}, {}
     for time in range(given.horizon + 1):
         known["Ut"] = known["Ut"] | {time: work.step(LQR_ACTION, t=time, **known)}
-        reward = linear.number(work.step(LQR_REWARD, t=time, **known))
+        reward = linear_quadratic.number(work.step(LQR_REWARD, t=time, **known))
         rewards[time] = work.answer("a", reward) if time == 0 else reward
         if time < given.horizon:
             known["St"] = known["St"] | {time + 1: work.step(DYNAMICS, t=time, **known)}
@@ -40,8 +40,8 @@ def oracle(given: Given) -> Answers:
     state = np.array([at(entry) for entry in given.start])
     rewards = []
     for time in range(given.horizon + 1):
-        now = linear.arrays(given, time)
-        feedback = -linear.array(by_time(given.L, time))
+        now = linear_quadratic.arrays(given, time)
+        feedback = -linear_quadratic.array(by_time(given.L, time))
         both = np.concatenate([state, feedback @ state])
         weights = np.zeros((len(both), len(both)))
         n = len(state)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
-from rldrill.problems.parts import Policy, Table, Vector
+from rldrill.problems.parts import Numbers, Policy, Values
 from rldrill.render.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
@@ -113,7 +113,7 @@ def test_answers_are_read_as_they_are_printed(name: str) -> None:
     for level in family(name).levels:
         solution = draw(name, level, 11)
         for part in solution.problem.parts:
-            if isinstance(part.kind, Table | Vector | Policy):
+            if isinstance(part.kind, Values | Numbers | Policy):
                 lines = answer_kind(part.kind).lines(solution.answers[part.label])
                 printed = "; ".join(f"{unicode(left)} = {unicode(right)}" for left, right in lines if left)
                 assert judge(solution, part.label, printed).outcome is Outcome.RIGHT, printed

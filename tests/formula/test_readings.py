@@ -12,7 +12,7 @@ from sympy import Expr
 
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.exact import NoSolution, to_sympy
-from rldrill.solutions.formula.compiling import evaluate, needs
+from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.notation import ArgMaxOver, Quantity
 from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
 from rldrill.solutions.matrices import is_matrix
@@ -113,7 +113,7 @@ def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObj
     expression = READINGS[name]
     values = known(data, expression)
     try:
-        value = evaluate(expression, values)
+        value = value_of(expression, values)
     except NoSolution:  # a singular matrix, or a sum that is zero: nothing to compare
         return
     step = put_in(expression, values)

@@ -9,7 +9,7 @@ import rldrill
 from rldrill.problems.mathematics import mathematics
 from rldrill.render.unicode import unicode
 from rldrill.solutions.exact import in_one_quotient, monomial
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.notation import Clipped, Greatest, Least
 from rldrill.solutions.formula.putting_in import put_in, reduced
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
@@ -53,7 +53,7 @@ def test_a_step_of_the_score_function() -> None:
     ],
 )
 def test_greatest_least_and_clipped(expression: sympy.Expr, value: fmpq, written: str) -> None:
-    assert evaluate(expression, {"n": fmpq(2)}) == value
+    assert value_of(expression, {"n": fmpq(2)}) == value
     assert unicode(typeset(expression)) == written
 
 

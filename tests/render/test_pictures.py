@@ -31,7 +31,7 @@ from rldrill.problems.pictures import (
     Timeline,
 )
 from rldrill.problems.settings import Shape, draw_model, draw_setting
-from rldrill.render.pictures.scene import Ellipse, Label, Scene, box_of, text_width
+from rldrill.render.pictures.scene import Caption, Ellipse, Scene, bounds_of, text_width
 from rldrill.render.pictures.scene import Path as Lines
 from rldrill.render.pictures.scenes import scene_of
 from rldrill.render.terminal import render
@@ -83,8 +83,8 @@ OTHERS: list[Picture] = [
 ]
 
 
-def labels(scene: Scene) -> list[Label]:
-    return [shape for shape in scene.shapes if isinstance(shape, Label)]
+def labels(scene: Scene) -> list[Caption]:
+    return [shape for shape in scene.shapes if isinstance(shape, Caption)]
 
 
 def nodes(scene: Scene) -> list[Ellipse | Lines]:
@@ -93,12 +93,12 @@ def nodes(scene: Scene) -> list[Ellipse | Lines]:
     return [shape for shape in shapes if shape.fill != 0.0 or isinstance(shape, Ellipse)]
 
 
-def assert_apart(scene: Scene, texts: list[Label]) -> None:
+def assert_apart(scene: Scene, texts: list[Caption]) -> None:
     for one, two in combinations(texts, 2):
-        assert not box_of(one).overlaps(box_of(two)), (one, two)
+        assert not bounds_of(one).overlaps(bounds_of(two)), (one, two)
     for label in texts:
         for node in nodes(scene):
-            assert not box_of(label).overlaps(box_of(node)), (label, node)
+            assert not bounds_of(label).overlaps(bounds_of(node)), (label, node)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -127,7 +127,7 @@ def test_labels_of_arms_cover_no_other_label() -> None:
     for arm in arms:
         scene = scene_of(arm)
         assert scene is not None
-        boxes = [box_of(label) for label in labels(scene)]
+        boxes = [bounds_of(label) for label in labels(scene)]
         assert len(boxes) == 2 * len(arm.lengths)
         assert not [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])], arm
 

@@ -18,11 +18,11 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
-    Grid,
     Math,
     Root,
     Row,
     Script,
+    Tabular,
     mathematics,
     number,
     operator,
@@ -118,7 +118,7 @@ def test_every_sign_of_every_style_compiles(style: str) -> None:
     ]
     glyphs: list[Math] = [Glyph(sign, style) for sign in signs]  # type: ignore[arg-type]
     inside = [*glyphs, *(Script(glyph, glyph, glyph) for glyph in glyphs), *(Fraction(g, g) for g in glyphs)]
-    pdf(SETUP + "".join(f"${typst(item)}$ " for item in inside) + f"$ {typst(Grid((tuple(glyphs),)))} $")
+    pdf(SETUP + "".join(f"${typst(item)}$ " for item in inside) + f"$ {typst(Tabular((tuple(glyphs),)))} $")
 
 
 def test_every_kind_of_mathematics_compiles() -> None:
@@ -127,7 +127,7 @@ def test_every_kind_of_mathematics_compiles() -> None:
         EMPTY, Fraction(EMPTY, EMPTY), Root(x), Accent(x, "hat"), Accent(x, "bar"), Accent(x, "tilde"),
         Big("∫", x, x), Big("𝔼", x), Big("arg max", x), Big("Σ"),
         Fence(x, "|", "|"), Fence(x, "⟨", "⟩"), Fence(x, "{", ""), Fence(EMPTY),
-        Grid(((x, x), (x, EMPTY))), Grid(((x,),), "{", ""), Script(EMPTY, x), Row((x, Glyph("′", "word"))),
+        Tabular(((x, x), (x, EMPTY))), Tabular(((x,),), "{", ""), Script(EMPTY, x), Row((x, Glyph("′", "word"))),
     ]  # fmt: skip
     pdf(SETUP + "".join(f"${typst(item)}$ $ {typst(item)} $" for item in kinds))
 
@@ -161,7 +161,7 @@ def long_sum(terms: int) -> Math:
         lambda: long_sum(60),
         lambda: row(word("max"), Fence(long_sum(60), "{", "}")),
         lambda: row(Fence(long_sum(20)), Fence(row(long_sum(9), operator("−"), Fence(long_sum(30))))),
-        lambda: row(*[Grid(((number("1/3"),) * 4,) * 4)] * 9),
+        lambda: row(*[Tabular(((number("1/3"),) * 4,) * 4)] * 9),
         lambda: Fraction(long_sum(60), number(2)),
         lambda: row(variable("x"), Script(Fence(long_sum(60)), above=number(2))),
         lambda: word("w" * 300),

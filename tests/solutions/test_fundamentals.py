@@ -13,7 +13,7 @@ from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.parts import YesNo
 from rldrill.solutions.drawing import draw
-from rldrill.solutions.formula.compiling import evaluate
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.notation import Counting, ProductOver, i
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset
@@ -114,7 +114,7 @@ def test_a_product_over_a_finite_set() -> None:
     from rldrill.render.latex import latex
 
     product = ProductOver(i + 1, i, Counting(1, 3))
-    assert evaluate(product, {}) == 2 * 3 * 4
-    assert evaluate(ProductOver(i, i, Counting(1, 0)), {}) == 1
+    assert value_of(product, {}) == 2 * 3 * 4
+    assert value_of(ProductOver(i, i, Counting(1, 0)), {}) == 1
     assert latex(typeset(product)).startswith(r"\prod_{i = 1}^{3}")
     assert put_in(product, {}).args == tuple(put_in(i + 1, {"i": number}) for number in (1, 2, 3))

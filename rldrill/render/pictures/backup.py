@@ -3,10 +3,10 @@
 from rldrill.problems.pictures import Branch, Node
 from rldrill.render.pictures.scene import (
     SIZE,
-    Box,
+    Bounds,
+    Caption,
     Curve,
     Ellipse,
-    Label,
     Path,
     Point,
     Scene,
@@ -32,7 +32,7 @@ def scene(root: Node, title: str = "") -> Scene:
     if not title:
         return drawn
     box = drawn.box
-    return Scene((*drawn.shapes, Label(((box.left + box.right) / 2, box.top - 7), title, "above")))
+    return Scene((*drawn.shapes, Caption(((box.left + box.right) / 2, box.top - 7), title, "above")))
 
 
 def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root: bool = False) -> None:
@@ -51,27 +51,27 @@ def _draw(node: Node, at: Point, lines: list[Shape], nodes: list[Shape], *, root
     if node.label:
         radius = _RADII[node.kind]
         if node.branches:
-            nodes.append(Label((x + radius + 3, y - (2 if root else 0)), node.label, "left"))
+            nodes.append(Caption((x + radius + 3, y - (2 if root else 0)), node.label, "left"))
         else:
-            nodes.append(Label((x, y + radius + 3), node.label, "below"))
+            nodes.append(Caption((x, y + radius + 3), node.label, "below"))
 
 
 def _mark(node: Node, at: Point) -> Shape:
     (x, y), radius = at, _RADII[node.kind]
     if node.kind == "end":
-        return rectangle(Box(x - radius, y - radius, x + radius, y + radius), 0.85)
+        return rectangle(Bounds(x - radius, y - radius, x + radius, y + radius), 0.85)
     return Ellipse(at, (radius, radius), 1.0 if node.kind == "state" else 0.0)
 
 
-def _beside(branch: Branch, start: Point, end: Point) -> Label:
+def _beside(branch: Branch, start: Point, end: Point) -> Caption:
     """What stands beside a branch: outside of it, so that neighbours' labels lie apart."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = start[0] + _SHARE * dx, start[1] + _SHARE * dy
     # A slanting line comes closer to one corner of the label than to its middle.
     clear = 3 + abs(dx / dy) * SIZE * 0.5
     if dx >= 0:
-        return Label((x + clear, y), branch.label, "left", plate=True)
-    return Label((x - clear, y), branch.label, "right", plate=True)
+        return Caption((x + clear, y), branch.label, "left", plate=True)
+    return Caption((x - clear, y), branch.label, "right", plate=True)
 
 
 def _arc(top: Point, left: Point, right: Point) -> Curve:

@@ -15,10 +15,10 @@ from rldrill.render.pictures.graph_labels import placed
 from rldrill.render.pictures.graph_search import HARD, Action, Drawing, States, search
 from rldrill.render.pictures.scene import (
     SIZE,
-    Box,
+    Bounds,
+    Caption,
     Curve,
     Ellipse,
-    Label,
     Path,
     Point,
     Scene,
@@ -97,11 +97,11 @@ def _scene(diagram: StateDiagram, drawing: Drawing) -> Scene:
         (x, y), (across, down) = _point(drawing.states.centres[index]), drawing.states.axes[index]
         a, b = across / UNIT, down / UNIT
         if name in diagram.terminal:
-            marks.append(rectangle(Box(x - a, y - b + 1, x + a, y + b - 1), 0.88))
+            marks.append(rectangle(Bounds(x - a, y - b + 1, x + a, y + b - 1), 0.88))
         else:
             marks.append(Ellipse((x, y), (a, b)))
-        marks.append(Label((x, y), name))
-    texts = [Label(_point(at), text, plate=True, size=SIZE) for at, text in drawing.labels]
+        marks.append(Caption((x, y), name))
+    texts = [Caption(_point(at), text, plate=True, size=SIZE) for at, text in drawing.labels]
     return Scene((*lines, *texts, *marks))
 
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 from math import cos, radians, sin
 
 from rldrill.problems.pictures import Arm, Pendulum
-from rldrill.render.pictures.scene import Box, Ellipse, Label, Path, Point, Scene, Shape, label_box, rectangle
+from rldrill.render.pictures.scene import Bounds, Caption, Ellipse, Path, Point, Scene, Shape, caption_bounds, rectangle
 
 _REACH = 120.0
 _ROD = 44.0
@@ -48,19 +48,19 @@ def _beside_link(joint: Point, heading: float, length: float) -> Iterable[Point]
     return (_towards(middle, heading + side, 8) for middle in middles for side in (90, -90))
 
 
-def _placed(wanted: list[tuple[str, list[Point]]], lines: list[Path]) -> list[Label]:
+def _placed(wanted: list[tuple[str, list[Point]]], lines: list[Path]) -> list[Caption]:
     """The labels, one after the other where they cover least; the first place wins if that is no worse."""
     taken = [point for line in lines for ends in pairwise(line.points) for point in _along(*ends)]
-    labels: list[Label] = []
+    labels: list[Caption] = []
     for words, places in wanted:
-        boxes = [label_box(label) for label in labels]
+        boxes = [caption_bounds(label) for label in labels]
 
-        def covered(at: Point, words: str = words, boxes: list[Box] = boxes) -> int:
-            box = label_box(Label(at, words))
+        def covered(at: Point, words: str = words, boxes: list[Bounds] = boxes) -> int:
+            box = caption_bounds(Caption(at, words))
             hidden = sum(box.left < x < box.right and box.top < y < box.bottom for x, y in taken)
             return hidden + _SAMPLES * sum(map(box.overlaps, boxes))
 
-        labels.append(Label(min(places, key=covered), words, plate=True))
+        labels.append(Caption(min(places, key=covered), words, plate=True))
     return labels
 
 
@@ -76,7 +76,7 @@ def pendulum(picture: Pendulum) -> Scene:
     shapes: list[Shape] = []
     if picture.cart:
         shapes += [
-            rectangle(Box(-22, -7, 22, 7), 0.9),
+            rectangle(Bounds(-22, -7, 22, 7), 0.9),
             Ellipse((-13, 11), (4, 4)),
             Ellipse((13, 11), (4, 4)),
             Path(((-60, 15), (60, 15))),
@@ -88,7 +88,7 @@ def pendulum(picture: Pendulum) -> Scene:
     arc = tuple(_swung(pivot, picture.angle * step / 24, 22) for step in range(25))
     shapes.append(Path(arc, width=0.4))
     shapes += [Ellipse(pivot, (2.4, 2.4)), Ellipse(weight, (6, 6), 0.5)]
-    shapes.append(Label(_swung(pivot, picture.angle / 2, 30), "$θ$", plate=True))
+    shapes.append(Caption(_swung(pivot, picture.angle / 2, 30), "$θ$", plate=True))
     return Scene(tuple(shapes))
 
 

@@ -3,7 +3,7 @@
 from math import exp
 
 from rldrill.problems.pictures import Bars, Bumps, GridPicture
-from rldrill.render.pictures.scene import SIZE, Box, Ellipse, Label, Path, Scene, Shape, rectangle, text_width
+from rldrill.render.pictures.scene import SIZE, Bounds, Caption, Ellipse, Path, Scene, Shape, rectangle, text_width
 
 _GREYS = (0.82, 0.35, 0.6, 0.1)
 _CELL = 22.0
@@ -19,9 +19,9 @@ def grid(picture: GridPicture) -> Scene:
     for down, row in enumerate(picture.rows):
         for across, cell in enumerate(row):
             x, y = across * side, down * _CELL
-            shapes.append(rectangle(Box(x, y, x + side, y + _CELL), 0.35 if cell == "#" else 1.0))
+            shapes.append(rectangle(Bounds(x, y, x + side, y + _CELL), 0.35 if cell == "#" else 1.0))
             if cell not in ("", "#"):
-                shapes.append(Label((x + side / 2, y + _CELL / 2), cell))
+                shapes.append(Caption((x + side / 2, y + _CELL / 2), cell))
     return Scene(tuple(shapes))
 
 
@@ -36,17 +36,17 @@ def bars(picture: Bars) -> Scene:
         for row in range(count):
             left = middle + (row - count / 2) * wide
             share = picture.shares[row][index]
-            shapes.append(rectangle(Box(left + 2, -_TALL * share, left + wide - 2, 0), _GREYS[row % len(_GREYS)]))
-            shapes.append(Label((left + wide / 2, -_TALL * share - 2), picture.labels[row][index], "above"))
-        shapes.append(Label((middle, 4), name, "below"))
+            shapes.append(rectangle(Bounds(left + 2, -_TALL * share, left + wide - 2, 0), _GREYS[row % len(_GREYS)]))
+            shapes.append(Caption((left + wide / 2, -_TALL * share - 2), picture.labels[row][index], "above"))
+        shapes.append(Caption((middle, 4), name, "below"))
     shapes.append(Path(((0, 0), (len(picture.names) * group, 0))))
     at = 0.0
     highest = max(share for row in picture.shares for share in row)
     for row, series in enumerate(picture.series):
         if series:
             top = -_TALL * highest - 22
-            shapes.append(rectangle(Box(at, top, at + 8, top + 8), _GREYS[row % len(_GREYS)]))
-            shapes.append(Label((at + 11, top + 4), series, "left"))
+            shapes.append(rectangle(Bounds(at, top, at + 8, top + 8), _GREYS[row % len(_GREYS)]))
+            shapes.append(Caption((at + 11, top + 4), series, "left"))
             at += 11 + text_width(series) + 12
     return Scene(tuple(shapes))
 
@@ -66,7 +66,7 @@ def bumps(picture: Bumps) -> Scene:
         near = [centre + reach * step / 24 for step in range(-24, 25)]
         shapes.append(Path(tuple((across(x), -_TALL * bump(picture, centre, x)) for x in near), width=0.8))
         shapes.append(Path(((across(centre), 0), (across(centre), 3))))
-        shapes.append(Label((across(centre), -_TALL - 2), f"$φ_{{{index}}}$", "above"))
+        shapes.append(Caption((across(centre), -_TALL - 2), f"$φ_{{{index}}}$", "above"))
     at = across(picture.state)
     shapes.append(Path(((at, 0), (at, -_TALL)), dashed=True))
     shapes.append(Ellipse((at, 0), (2.2, 2.2), 0.0))
@@ -74,9 +74,9 @@ def bumps(picture: Bumps) -> Scene:
     for centre in sorted(picture.centres):
         label = f"${_plain(centre)}$"
         if (left := across(centre) - text_width(label) / 2) >= edge:  # else there is no room for it
-            shapes.append(Label((across(centre), 5), label, "below"))
+            shapes.append(Caption((across(centre), 5), label, "below"))
             edge = left + text_width(label) + 2
-    shapes.append(Label((at, 6 + SIZE), f"$s = {_plain(picture.state)}$", "below"))
+    shapes.append(Caption((at, 6 + SIZE), f"$s = {_plain(picture.state)}$", "below"))
     return Scene(tuple(shapes))
 
 

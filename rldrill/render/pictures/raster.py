@@ -4,7 +4,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from math import ceil, hypot
 
-from rldrill.render.pictures.scene import SHARES, Curve, Ellipse, Label, Path, Point, Scene
+from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene
 from rldrill.render.unicode import inline
 
 #: Points of the scene to a dot.
@@ -38,7 +38,7 @@ def raster(scene: Scene) -> list[str]:
                     for half in range(-4, 5):
                         if step * step + half * half <= 16 and (fill != 1.0 or step * step + half * half >= 9):
                             mark((x + across * step / 4, y + down * half / 4))
-            case Label((x, y), words, anchor):
+            case Caption((x, y), words, anchor):
                 text = inline(words)
                 row = min(high - 1, max(0, int((y - box.top) / _DOT / 4 - (SHARES[anchor][1] - 0.5))))
                 column = round((x - box.left) / _DOT / 2 - SHARES[anchor][0] * len(text))

@@ -47,7 +47,7 @@ class Ellipse:
 
 
 @dataclass(frozen=True, slots=True)
-class Label:
+class Caption:
     """A text: ``at`` is where its anchor lies; ``plate`` puts it on a white ground."""
 
     at: Point
@@ -57,11 +57,11 @@ class Label:
     size: float = SIZE
 
 
-Shape: TypeAlias = Path | Curve | Ellipse | Label
+Shape: TypeAlias = Path | Curve | Ellipse | Caption
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class Bounds:
     """A rectangle with its sides parallel to the axes."""
 
     left: float
@@ -69,7 +69,7 @@ class Box:
     right: float
     bottom: float
 
-    def overlaps(self, other: "Box") -> bool:
+    def overlaps(self, other: "Bounds") -> bool:
         """Whether the two have points inside in common."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
@@ -83,10 +83,10 @@ class Scene:
     shapes: tuple[Shape, ...]
 
     @property
-    def box(self) -> Box:
+    def box(self) -> Bounds:
         """The smallest rectangle around everything."""
-        boxes = [box_of(shape) for shape in self.shapes]
-        return Box(
+        boxes = [bounds_of(shape) for shape in self.shapes]
+        return Bounds(
             min(box.left for box in boxes),
             min(box.top for box in boxes),
             max(box.right for box in boxes),
@@ -105,7 +105,7 @@ def _sign_width(sign: str) -> float:
     return _WIDE if sign in _WIDE_SIGNS or sign.isupper() else _NORMAL
 
 
-def box_of(shape: Shape) -> Box:
+def bounds_of(shape: Shape) -> Bounds:
     """The rectangle that a shape fills; of curves the one around their control points."""
     match shape:
         case Path(points):
@@ -114,28 +114,28 @@ def box_of(shape: Shape) -> Box:
             return _around((start, ((start[0] + 2 * control[0] + end[0]) / 4, (start[1] + 2 * control[1] + end[1]) / 4),
                             end))  # fmt: skip
         case Ellipse((x, y), (across, down)):
-            return Box(x - across, y - down, x + across, y + down)
-        case Label():
-            return label_box(shape)
+            return Bounds(x - across, y - down, x + across, y + down)
+        case Caption():
+            return caption_bounds(shape)
 
 
-def label_box(label: Label) -> Box:
+def caption_bounds(label: Caption) -> Bounds:
     """The room that a label takes, with the air around it."""
     (x, y), wide, high = label.at, text_width(label.text, label.size) + 2, label.size * 1.15
     across, down = SHARES[label.anchor]
-    return Box(x - across * wide, y - down * high, x + (1 - across) * wide, y + (1 - down) * high)
+    return Bounds(x - across * wide, y - down * high, x + (1 - across) * wide, y + (1 - down) * high)
 
 
 #: How much of a label lies left of its anchor, and above it.
 SHARES = {"centre": (0.5, 0.5), "left": (0.0, 0.5), "right": (1.0, 0.5), "below": (0.5, 0.0), "above": (0.5, 1.0)}
 
 
-def _around(points: tuple[Point, ...]) -> Box:
+def _around(points: tuple[Point, ...]) -> Bounds:
     across, down = [x for x, _ in points], [y for _, y in points]
-    return Box(min(across), min(down), max(across), max(down))
+    return Bounds(min(across), min(down), max(across), max(down))
 
 
-def rectangle(box: Box, fill: float) -> Path:
+def rectangle(box: Bounds, fill: float) -> Path:
     """A rectangle of a grey."""
     corners = ((box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom))
     return Path(corners, closed=True, fill=fill)

@@ -5,7 +5,7 @@ from functools import cache
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.pictures import Picture, Timeline
-from rldrill.render.pictures.scene import SHARES, Curve, Ellipse, Label, Path, Point, Scene, Shape
+from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 from rldrill.render.typst import quoted, typst
 
@@ -43,7 +43,7 @@ def _shape(shape: Shape, origin: Point) -> str:
             size = f"width: {_pt(2 * across)}, height: {_pt(2 * down)}"
             where = f"dx: {_pt(x - across)}, dy: {_pt(y - down)}"
             return f"place({where}, ellipse({size}, {_fill(fill)}stroke: {_stroke(width)}))"
-        case Label(at, words, anchor, plate, size):
+        case Caption(at, words, anchor, plate, size):
             x, y = _moved(at, origin)
             across, down = SHARES[anchor]
             ground = "white" if plate else "none"

@@ -15,7 +15,7 @@ from rldrill.problems.matrices import (
     Rows,
     check_shape,
     check_weights,
-    grid,
+    tabular,
 )
 
 #: What every such problem says of itself.
@@ -72,7 +72,7 @@ def situation(given: LinearQuadratic) -> tuple[Paragraph | Equation, ...]:
         series = getattr(given, name)
         for time, matrix in enumerate(series):
             index = "t" if len(series) == 1 else str(time)
-            lines.append(Equation(mathematics(f"{name}_{index}"), (grid(matrix),), ("=",)))
+            lines.append(Equation(mathematics(f"{name}_{index}"), (tabular(matrix),), ("=",)))
     constant = all(len(getattr(given, name)) == 1 for name in ("A", "B", "Q", "R"))
     left_open = any(isinstance(entry, Parameter) for matrix in given.R for line in matrix for entry in line)
     return (
@@ -86,7 +86,7 @@ def situation(given: LinearQuadratic) -> tuple[Paragraph | Equation, ...]:
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
         *lines,
-        Equation(mathematics("s_0"), (grid(tuple((entry,) for entry in given.start)),), ("=",)),
+        Equation(mathematics("s_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",)),
     )
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from rldrill.problems.linear import LinearQuadratic, by_time
+from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import ZERO, Value, exact
