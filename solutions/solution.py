@@ -1,7 +1,7 @@
 """A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
 import importlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from types import ModuleType
@@ -24,7 +24,7 @@ class Solver:
     family: Family
     solve: Callable[[Any, Work], None]
     misconceptions: tuple[Misconception, ...]
-    oracle: Callable[[Any], Mapping[str, Any]]
+    oracle: Callable[[Any], Sequence[Any]]
 
 
 @cache

@@ -9,6 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
+from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
@@ -222,12 +223,13 @@ class Work:
         """Write a sentence between the steps; mathematics stands between ``$`` signs."""
         self.lines.append(Note(text))
 
-    def answer(self, label: str, value: Any) -> Any:
-        """Give the answer of a part, and get back what to go on with.
+    def answer(self, value: Any) -> Any:
+        """Give the answer of the next part, and get back what to go on with.
 
         That is the value itself, or in follow-through the answer that the person gave to this part.
         """
         value = _simplest(value)
+        label = part_label(len(self.answers))
         self.answers[label] = value
         self.ends[label] = len(self.lines)
         return self.carried.get(label, value)

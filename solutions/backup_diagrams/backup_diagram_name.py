@@ -46,19 +46,19 @@ MISCONCEPTIONS = tuple(_CHOSEN.values())
 
 def solve(given: Given, work: Work) -> None:
     """One letter for every diagram."""
-    for part, item in zip("abcdef", given.diagrams, strict=False):
+    for item in given.diagrams:
         mistaken = [option for option in item.options if work.makes(_CHOSEN[option])]
         letter = item.letters[mistaken[0] if mistaken else item.shows]
         work.say(f"{_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
-        work.answer(part, letter)
+        work.answer(letter)
 
 
 def oracle(given: Given) -> Answers:
     """Named by what is drawn, not by what was to be drawn."""
-    answers = {}
-    for part, item in zip("abcdef", given.diagrams, strict=False):
+    answers = []
+    for item in given.diagrams:
         root = backup_diagram(item.shows, item.branches, item.steps).root
-        answers[part] = item.letters[_named(root)]
+        answers.append(item.letters[_named(root)])
     return answers
 
 

@@ -81,7 +81,7 @@ def solve(given: Given, work: Work) -> None:
         best = not best
     root, _ = given.root
     if given.action_values:
-        work.answer("a", _action_value(given, work, known, best=best))
+        work.answer(_action_value(given, work, known, best=best))
         return
     formula = BELLMAN_OPTIMALITY_V if best else BELLMAN_V
     values = knowns.values(given.values)
@@ -89,7 +89,7 @@ def solve(given: Given, work: Work) -> None:
         values = values | {state: work.step(formula, s=state, V=values, **known)}
     if work.makes(ONE_LEVEL_ONLY):
         known["gamma"] = ONE
-    work.answer("a", work.step(formula, s=root, V=values, **known))
+    work.answer(work.step(formula, s=root, V=values, **known))
 
 
 def _action_value(given: Given, work: Work, known: dict[str, Any], *, best: bool) -> Value:
@@ -132,7 +132,7 @@ def oracle(given: Given) -> Answers:
         return float(np.array([at(row.probability) for row in rows]) @ worth)
 
     root, action = given.root
-    return {"a": of_action(root, action) if given.action_values else of_state(root)}
+    return (of_action(root, action) if given.action_values else of_state(root),)
 
 
 def _over(given: Given) -> Callable[[str, dict[str, float]], float]:

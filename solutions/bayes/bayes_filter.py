@@ -1,6 +1,5 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
-from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
         "hypotheses": states,
     }
     belief = start
-    for part, event in zip(ascii_lowercase, given.run, strict=False):
+    for event in given.run:
         if work.makes(PRIOR_AGAIN):
             belief = start
         before = belief
@@ -45,7 +44,7 @@ def solve(given: Given, work: Work) -> None:
         for move in moves:
             belief = move(work, event, belief, known)
         work.picture(*before_and_after(before, belief))
-        belief = work.answer(part, belief)
+        belief = work.answer(belief)
 
 
 def _moved(work: Work, event: Event, belief: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
@@ -64,12 +63,12 @@ def oracle(given: Given) -> Answers:
     """The joint distribution of all states ever, conditioned on all readings, summed to the last state."""
     states = tuple(given.belief)
     joint = np.array([at(chance) for chance in given.belief.values()])
-    answers = {}
-    for part, event in zip(ascii_lowercase, given.run, strict=False):
+    answers = []
+    for event in given.run:
         if event.action is not None:
             joint = joint[..., None] * motion_array(given.motion, event.action, states)
         if event.measurement is not None:
             joint = joint * np.array([at(given.likelihood[event.measurement][state]) for state in states])
         last = joint.reshape(-1, len(states)).sum(axis=0)
-        answers[part] = last / last.sum()
+        answers.append(last / last.sum())
     return answers

@@ -23,20 +23,18 @@ def solve(given: Given, work: Work) -> None:
     """The log-likelihoods, unless they are given; the criteria; the winner."""
     names = given.names
     if given.fitted is not None:
-        labels = iter("ab")
         n = exact(given.n or 0)
         free = {name: exact(model.k) for name, model in given.fitted.items()}
         fit = {name: sympy.log(to_sympy(exact(model.likelihood))) for name, model in given.fitted.items()}
     else:
         assert given.data is not None
-        labels = iter("abc")
         n = exact(sum(map(sum, given.data.tosses.values())))
         free = {name: exact(free_parameters(given.data, name)) for name in names}
-        fit = work.answer(next(labels), {name: _fit(work, given.data, name) for name in names})
+        fit = work.answer({name: _fit(work, given.data, name) for name in names})
     criteria = work.answer(
-        next(labels), {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
+        {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
     )
-    work.answer(next(labels), _winner(work, criteria, names))
+    work.answer(_winner(work, criteria, names))
 
 
 def free_parameters(data: Data, model: str) -> int:
@@ -95,7 +93,7 @@ def oracle(given: Given) -> Answers:
         n = int(pooled.sum())
     criteria = np.log(float(n)) * np.array(free) - 2 * fit
     winner = "ab"[int(criteria.argmin())]
-    return {"a": criteria, "b": winner} if given.fitted is not None else {"a": fit, "b": criteria, "c": winner}
+    return (criteria, winner) if given.fitted is not None else (fit, criteria, winner)
 
 
 def _best(heads: float, tails: float) -> float:

@@ -67,13 +67,13 @@ def solve(given: Given, work: Work) -> None:
     """One backup of every state, compared with what the values say."""
     formula = BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL
     known = _known(given)
-    residuals = work.answer("a", {state: work.step(formula, s=state, **known) for state in given.mdp.states})
+    residuals = work.answer({state: work.step(formula, s=state, **known) for state in given.mdp.states})
     wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
     if wrong:
         work.say(f"The equation does not hold in {joined(wrong)}, so these are not the values.")
     else:
         work.say("The equations hold in every state. With γ below 1 they have one solution only, so it is this one.")
-    work.answer("b", len(wrong) < len(residuals) if work.makes(ONE_STATE) else not wrong)
+    work.answer(len(wrong) < len(residuals) if work.makes(ONE_STATE) else not wrong)
 
 
 def _known(given: Given) -> dict[str, Value]:
@@ -101,4 +101,4 @@ def oracle(given: Given) -> Answers:
     else:
         true = optimal_values(P, R, at(given.gamma), n)
         after = lookahead(P, R, V, at(given.gamma))[:n].max(axis=1)
-    return {"a": after - V[:n], "b": bool(np.allclose(V[:n], true[:n], atol=1e-9))}
+    return (after - V[:n], bool(np.allclose(V[:n], true[:n], atol=1e-9)))

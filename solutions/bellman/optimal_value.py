@@ -49,14 +49,14 @@ def solve(given: Given, work: Work) -> None:
         work.say("Put into the optimality equation, no other action is better, so these are the optimal values:")
         for state in mdp.states:
             work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
-    values = values | work.answer("a", of_states(mdp, values))
+    values = values | work.answer(of_states(mdp, values))
     if work.makes(TERMINAL_VALUE):
         values |= knowns.last_rewards(mdp)
     best = {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
     if work.makes(GREEDY_ON_REWARD) or work.makes(FIRST_ACTIONS):
         best = {state: tuple(chances) for state, chances in policy.items()}
-    work.answer("b", best)
-    work.answer("c", {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+    work.answer(best)
+    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
 def _policy(given: Given, work: Work) -> Policy:
@@ -95,8 +95,8 @@ def oracle(given: Given) -> Answers:
     V = optimal_values(P, R, at(given.gamma), n)
     Q = lookahead(P, R, V, at(given.gamma))
     names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
-    return {
-        "a": V[:n],
-        "b": best_actions(mdp, Q[:n]),
-        "c": [Q[states.index(state), names.index(action)] for state, action in mdp.pairs],
-    }
+    return (
+        V[:n],
+        best_actions(mdp, Q[:n]),
+        [Q[states.index(state), names.index(action)] for state, action in mdp.pairs],
+    )

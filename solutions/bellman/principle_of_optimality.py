@@ -34,14 +34,14 @@ def solve(given: Given, work: Work) -> None:
     """The best totals, then where they lead, then two best parts put together."""
     R = {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
     values = _totals(given, R, work)
-    values = {given.goal: ZERO} | work.answer("a", {state: values[state] for state in given.onward})
+    values = {given.goal: ZERO} | work.answer({state: values[state] for state in given.onward})
     best = {state: _best(state, after, R, values, work) for state, after in given.onward.items()}
     work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
     work.say("Each part of it is a best path from where that part begins: this is the principle of optimality.")
     if given.forks:
-        work.answer("b", {state: best[state] for state in given.forks})
+        work.answer({state: best[state] for state in given.forks})
     if given.through is not None:
-        work.answer("c" if given.forks else "b", _through(given, given.through, R, values, work))
+        work.answer(_through(given, given.through, R, values, work))
 
 
 def _totals(given: Given, R: Rewards, work: Work) -> dict[str, Value]:
@@ -108,14 +108,15 @@ def oracle(given: Given) -> Answers:
 
     every = {state: paths(state) for state in given.onward}
     best = {state: max(total for total, _ in found) for state, found in every.items()}
-    answers: dict[str, Any] = {
-        "a": list(best.values()),
-        "b": {
-            state: {path[1] for total, path in found if abs(total - best[state]) < 1e-9}
-            for state, found in every.items()
-            if state in given.forks
-        },
-    }
+    answers: list[Any] = [list(best.values())]
+    if given.forks:
+        answers.append(
+            {
+                state: {path[1] for total, path in found if abs(total - best[state]) < 1e-9}
+                for state, found in every.items()
+                if state in given.forks
+            }
+        )
     if given.through is not None:
-        answers["c" if given.forks else "b"] = max(total for total, path in every[given.start] if given.through in path)
+        answers.append(max(total for total, path in every[given.start] if given.through in path))
     return answers

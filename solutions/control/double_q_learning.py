@@ -38,8 +38,7 @@ def solve(given: Given, work: Work) -> None:
         turns = (3 - turn, turn) if work.makes(BOTH_UPDATED) else (turn,)
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in turns}
         if turn not in given.updates[time + 1 :]:
-            part = "ab"[given.asked.index(turn)]
-            answer = work.answer(part, {pair: tables[turn, *pair] for pair in given.updated_in(turn)})
+            answer = work.answer({pair: tables[turn, *pair] for pair in given.updated_in(turn)})
             tables = tables | {(turn, *pair): value for pair, value in answer.items()}
 
 
@@ -70,7 +69,7 @@ def oracle(given: Given) -> Answers:
             target += at(given.gamma) * Q[other, there, np.round(Q[mine, there], 10).argmax()]
         column = actions[row].index(run.actions[time])
         Q[mine, row, column] = np.interp(at(given.alpha), [0, 1], [Q[mine, row, column], target])
-    return {
-        part: [Q[table - 1, states.index(s), actions[states.index(s)].index(a)] for s, a in given.updated_in(table)]
-        for part, table in zip("ab", given.asked, strict=False)
-    }
+    return [
+        [Q[table - 1, states.index(s), actions[states.index(s)].index(a)] for s, a in given.updated_in(table)]
+        for table in given.asked
+    ]

@@ -47,18 +47,18 @@ def solve(given: Given, work: Work) -> None:
     seen = values
     if work.makes(FIRST_OF_TIED):  # as if the others that are tied were worth less
         seen = values | {action: values[action] - 1 for action in given.best[1:]}
-    chances = work.answer("a", epsilon_greedy(work, given.state, seen, exact(given.epsilon)))
+    chances = work.answer(epsilon_greedy(work, given.state, seen, exact(given.epsilon)))
     if not given.valued:
         return
     if work.makes(VALUE_OF_BEST):
-        work.answer("b", values[given.best[0]])
+        work.answer(values[given.best[0]])
         return
     known: dict[str, Any] = {
         "pi": {(action, given.state): chance for action, chance in chances.items()},
         "Q": {(given.state, action): value for action, value in values.items()},
         "actions": {given.state: tuple(values)},
     }
-    work.answer("b", work.step(V_FROM_Q, s=given.state, **known))
+    work.answer(work.step(V_FROM_Q, s=given.state, **known))
 
 
 def oracle(given: Given) -> Answers:
@@ -66,4 +66,4 @@ def oracle(given: Given) -> Answers:
     Q = np.array([at(value) for value in given.values.values()])
     greedy = (max(Q) == Q) / np.count_nonzero(max(Q) == Q)
     chances = at(given.epsilon) * np.full(len(Q), 1 / len(Q)) + (1 - at(given.epsilon)) * greedy
-    return {"a": chances, "b": chances @ Q}
+    return (chances, chances @ Q)

@@ -14,7 +14,7 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.action_run(given)
     for time, pair in enumerate(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False)):
         known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, t=time, **known)}
-    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
+    work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def oracle(given: Given) -> Answers:
@@ -25,4 +25,4 @@ def oracle(given: Given) -> Answers:
         best = 0.0 if after in run.terminal else sorted(table[after].values())[-1]
         target = at(reward) + at(given.gamma) * best
         table[state][action] += at(given.alpha) * (target - table[state][action])
-    return {"a": [table[state][action] for state, action in given.updated]}
+    return ([table[state][action] for state, action in given.updated],)

@@ -25,13 +25,12 @@ def solve(given: Given, work: Work) -> None:
     actions = given.actions | dict.fromkeys(given.terminal, (knowns.NO_ACTION,))
     Q = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
     Q |= {(state, knowns.NO_ACTION): ZERO for state in given.terminal}
-    labels = iter("ab")
     if given.missing and given.gamma is not None:
         known = knowns.model(given.missing) | {"actions": actions, "gamma": exact(given.gamma), "Q": Q}
         found = {(state, a): work.step(BELLMAN_OPTIMALITY_Q, s=state, a=a, **known) for state, a in given.gaps}
-        Q = Q | work.answer(next(labels), found)
+        Q = Q | work.answer(found)
     best = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in given.values}
-    work.answer(next(labels), best)
+    work.answer(best)
 
 
 def oracle(given: Given) -> Answers:
@@ -48,4 +47,4 @@ def oracle(given: Given) -> Answers:
             table[state][action] = value
         answers.append(list(found.values()))
     answers.append({s: {a for a, q in row.items() if q > max(row.values()) - 1e-9} for s, row in table.items()})
-    return dict(zip("ab", answers, strict=False))
+    return answers

@@ -42,7 +42,7 @@ def solve(given: Given, work: Work) -> None:
             current = values if newest else old
             value = work.step(POLICY_EVALUATION, s=state, V=current, into=numbered(V, sweep), **known)
             values = values | {state: value}
-    work.answer("a", {state: values[state] for state in mdp.states})
+    work.answer({state: values[state] for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:
@@ -59,4 +59,4 @@ def oracle(given: Given) -> Answers:
         source = values if given.in_place else values.copy()
         for line in range(n):
             values[line] = pay[line] + at(given.gamma) * chain[line] @ source
-    return {"a": values[:n]}
+    return (values[:n],)

@@ -44,8 +44,8 @@ def solve(given: Given, work: Work) -> None:
         for state in mdp.states:
             current = old | values if work.makes(IN_PLACE) else old
             values[state] = work.step(VALUE_ITERATION, s=state, V=current, into=numbered(V, sweep), **known)
-    values = ends | work.answer("a", {state: values[state] for state in mdp.states})
-    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
+    values = ends | work.answer({state: values[state] for state in mdp.states})
+    work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:
@@ -57,4 +57,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(given.sweeps):
         V = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:] * 0])
     worth = lookahead(P, R, V, at(given.gamma))[:n]
-    return {"a": V[:n], "b": best_actions(given.mdp, worth)}
+    return (V[:n], best_actions(given.mdp, worth))

@@ -29,7 +29,7 @@ def solve(given: Given, work: Work) -> None:
         "features": tuple(range(1, len(given.w) + 1)),
         "mu_policy": knowns.features(mus),
     }
-    worth = work.answer("a", {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
+    worth = work.answer({name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
     side = -1 if work.makes(MARGIN_ON_THE_WRONG_SIDE) else 1
     sides: dict[str, Any] = {
         "worth": worth,
@@ -38,8 +38,8 @@ def solve(given: Given, work: Work) -> None:
     }
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
-    work.answer("b", fmpq(len(given.policies) - len(violated)))
-    work.answer("c", work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+    work.answer(fmpq(len(given.policies) - len(violated)))
+    work.answer(work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
 
 
 def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
@@ -64,4 +64,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(200):
         middle = (low + high) / 2
         low, high = (low, middle) if (values[0] + middle >= needed).all() else (middle, high)
-    return {"a": values, "b": (values[0] >= needed - 1e-12).sum(), "c": high}
+    return (values, (values[0] >= needed - 1e-12).sum(), high)

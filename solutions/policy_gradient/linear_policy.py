@@ -31,14 +31,12 @@ def solve(given: Given, work: Work) -> None:
         for state, row in given.features.items()
         for action in row
     }
-    values = work.answer(
-        "a", {(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=row, **known) for (s, a), row in read.items()}
-    )
+    values = work.answer({(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=row, **known) for (s, a), row in read.items()})
     if work.makes(SMALLEST):
         values = {pair: -value for pair, value in values.items()}
     actions = {state: tuple(row) for state, row in given.features.items()}
     policy = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
-    work.answer("b", policy)
+    work.answer(policy)
 
 
 def _next(action: str, actions: tuple[str, ...]) -> str:
@@ -55,4 +53,4 @@ def oracle(given: Given) -> Answers:
                 if value > values.max() - 1e-9}
         for state, values in worth.items()
     }  # fmt: skip
-    return {"a": np.concatenate(list(worth.values())), "b": best}
+    return (np.concatenate(list(worth.values())), best)

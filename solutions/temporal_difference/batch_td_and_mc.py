@@ -37,8 +37,8 @@ END = "–"
 def solve(given: Given, work: Work) -> None:
     """Both answers; who takes one method for the other gives its answer twice."""
     known = _known(given)
-    work.answer("a", _td(given, work, known) if work.makes(TD_FOR_MC) else _monte_carlo(given, work, known))
-    work.answer("b", _monte_carlo(given, work, known) if work.makes(MC_FOR_TD) else _td(given, work, known))
+    work.answer(_td(given, work, known) if work.makes(TD_FOR_MC) else _monte_carlo(given, work, known))
+    work.answer(_monte_carlo(given, work, known) if work.makes(MC_FOR_TD) else _td(given, work, known))
 
 
 def _known(given: Given) -> dict[str, Any]:
@@ -102,4 +102,4 @@ def oracle(given: Given) -> Answers:
         returns.append([discounts[: len(earned) - t] @ earned[t:] for t in range(len(earned))])
     X, following = np.vstack(rows), np.vstack(after)
     fit = np.linalg.lstsq(X, np.concatenate(returns), rcond=None)[0]
-    return {"a": fit, "b": np.linalg.solve(X.T @ (X - gamma * following), X.T @ np.concatenate(rewards))}
+    return (fit, np.linalg.solve(X.T @ (X - gamma * following), X.T @ np.concatenate(rewards)))

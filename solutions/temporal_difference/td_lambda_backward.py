@@ -36,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
         used = before if work.makes(TRACE_LATE) else traces
         updated = (state,) if work.makes(VISITED_ONLY) else reached
         values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=used, **known) for s in updated}
-    work.answer("a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def oracle(given: Given) -> Answers:
@@ -49,4 +49,4 @@ def oracle(given: Given) -> Answers:
         error = at(reward) + at(given.gamma) * V[run.states[time + 1]] - V[run.states[time]]
         change = at(given.alpha) * error * (visits[:, : time + 1] @ decay ** np.arange(time, -1, -1))
         V |= {state: V[state] + step for state, step in zip(states, change, strict=True)}
-    return {"a": [V[state] for state in states]}
+    return ([V[state] for state in states],)

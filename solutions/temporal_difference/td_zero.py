@@ -24,7 +24,7 @@ def solve(given: Given, work: Work) -> None:
     for time, state in enumerate(given.trajectory.states[:-1]):
         current = before if work.makes(STALE) else values
         values = values | {state: work.step(TD_ZERO, t=time, V=current, **known)}
-    work.answer("a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def oracle(given: Given) -> Answers:
@@ -34,4 +34,4 @@ def oracle(given: Given) -> Answers:
     for state, after, reward in zip(run.states, run.states[1:], run.rewards, strict=False):
         target = at(reward) + at(given.gamma) * values[after]
         values[state] = (1 - at(given.alpha)) * values[state] + at(given.alpha) * target
-    return {"a": [values[state] for state in given.visited]}
+    return ([values[state] for state in given.visited],)
