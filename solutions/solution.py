@@ -9,7 +9,7 @@ from typing import Any
 
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.exact import NoSolution
-from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.formula.formula import Formula, Misconception, _forked
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
 
@@ -90,9 +90,13 @@ class Solution:
 
     @property
     def applicable(self) -> tuple[Misconception, ...]:
-        """The misconceptions of the family that can be made in this problem."""
+        """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
         every = solver(self.problem.family).misconceptions
-        return tuple(misconception for misconception in every if misconception.applies(self.problem.given))
+        return tuple(mistake for mistake in every if self._has_room_for(mistake))
+
+    def _has_room_for(self, mistake: Misconception) -> bool:
+        read_here = any(mistake in formula.misread for formula in self.work.read)
+        return (read_here or mistake.is_slip) and mistake.applies(self.problem.given)
 
     def answers_with(
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None
@@ -118,7 +122,8 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
         NoSolution: the problem has no answer.
     """
     work = Work(misconception, carried or {})
-    solver(problem.family).solve(problem.given, work)
+    own = None if misconception is None or misconception.solve is _forked else misconception.solve
+    (own or solver(problem.family).solve)(problem.given, work)
     return work
 
 

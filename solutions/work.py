@@ -128,21 +128,21 @@ class Work:
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
+    read: dict[Formula, None] = field(default_factory=dict)
 
     def makes(self, slip: Misconception) -> bool:
         """Whether this working is to make the given slip: solvers ask it where the procedure forks."""
-        return self.misconception is slip
+        return self.misconception == slip
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
-        return self.misconception is not None and self.misconception.formula is formula
+        return self.misconception in formula.misread
 
     def reading(self, formula: Formula) -> Expr:
         """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
+        self.read[formula] = None
         mistake = self.misconception
-        if mistake is not None and mistake.formula is formula and mistake.reads is not None:
-            return mistake.reads
-        return formula.right
+        return formula.right if mistake is None else formula.misread.get(mistake, formula.right)
 
     def step(
         self,

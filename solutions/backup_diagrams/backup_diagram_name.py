@@ -5,7 +5,7 @@ from typing import Any
 from rldrill.problems.backup_diagrams.backup_diagram_name import Given
 from rldrill.problems.backups import BACKUPS, TITLES, Backup, backup_diagram
 from rldrill.problems.pictures import Node
-from rldrill.solutions.formula.formula import Misconception, slip
+from rldrill.solutions.formula.formula import Misconception, fork
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.work import Work
 
@@ -39,7 +39,7 @@ def _offered(wrong: Backup) -> Any:
 
 
 _CHOSEN: dict[Backup, Misconception] = {
-    backup: slip(f"took-it-for-{backup}", _LOOKS[backup], when=_offered(backup)) for backup in BACKUPS
+    backup: fork(f"took-it-for-{backup}", _LOOKS[backup], when=_offered(backup)) for backup in BACKUPS
 }
 MISCONCEPTIONS = tuple(_CHOSEN.values())
 

@@ -7,17 +7,17 @@ import numpy as np
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, motion_array
 from rldrill.solutions.sheet.bayes import BAYES, PREDICT
 from rldrill.solutions.work import Work
 
-ORDER_SWAPPED = slip(
+ORDER_SWAPPED = fork(
     "order-swapped",
     "The measurement comes after the action: predict first, then weigh the predicted belief with the likelihood.",
     when=lambda given: any(event.action and event.measurement for event in given.run),
 )
-PRIOR_AGAIN = slip(
+PRIOR_AGAIN = fork(
     "prior-again",
     "Every step goes on from the belief of the step before it, not from the first belief.",
     when=lambda given: len(given.run) > 1,

@@ -7,12 +7,12 @@ import sympy
 
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, to_sympy
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
 from rldrill.solutions.work import Work
 
-LARGEST_WINS = slip(
+LARGEST_WINS = fork(
     "largest-wins",
     "The smallest BIC wins: it is large where the fit is poor or there are many parameters.",
 )

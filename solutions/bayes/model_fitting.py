@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.bayes import (
     COIN_MAP,
@@ -25,7 +25,7 @@ from rldrill.solutions.sheet.bayes import (
 )
 from rldrill.solutions.work import Work
 
-PRIOR_IGNORED = slip(
+PRIOR_IGNORED = fork(
     "prior-ignored",
     "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
     when=lambda given: given.has_prior,

@@ -4,10 +4,10 @@ from rldrill.problems.bellman.action_value import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import BELLMAN_Q, Q_FORGOT_GAMMA, Q_OWN_VALUE, Q_REWARD_UNWEIGHTED
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, OWN_VALUE, Q_FORGOT_GAMMA, Q_REWARD_UNWEIGHTED
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (Q_REWARD_UNWEIGHTED, Q_FORGOT_GAMMA, Q_OWN_VALUE)
+MISCONCEPTIONS = (Q_REWARD_UNWEIGHTED, Q_FORGOT_GAMMA, OWN_VALUE)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -8,15 +8,13 @@ from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, is_zero
-from rldrill.solutions.formula.formula import Misconception, slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
-    OPTIMALITY_RESIDUAL_FORGOT_GAMMA,
-    OPTIMALITY_RESIDUAL_SIGN,
-    RESIDUAL_FORGOT_GAMMA,
-    RESIDUAL_MAX,
+    FORGOT_GAMMA,
+    MAX_FOR_MEAN,
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
 )
@@ -29,6 +27,10 @@ def _residuals(given: Given) -> list[Value]:
     return [formula.value({"s": state, **known}) for state in given.mdp.states]
 
 
+def _policy_mixes(given: Given) -> bool:
+    return any(chance not in (0, 1) for row in given.chances.values() for chance in row.values())
+
+
 def _wrong(given: Given) -> bool:
     return any(_residuals(given))
 
@@ -37,28 +39,16 @@ def _wrong_in_part(given: Given) -> bool:
     return _wrong(given) and not all(_residuals(given))
 
 
-def _of_a_policy(mistake: Misconception) -> Misconception:
-    """The mistake, where the values are claimed for a policy."""
-    return replace(mistake, when=lambda given: not given.optimal and mistake.applies(given))
-
-
-def _of_the_optimum(mistake: Misconception) -> Misconception:
-    """The mistake, where the values are claimed to be optimal."""
-    return replace(mistake, when=lambda given: given.optimal and mistake.applies(given))
-
-
-ONE_STATE = slip(
+ONE_STATE = fork(
     "one-state-enough",
     "The values are right only if the residual is 0 in every state.",
     when=_wrong_in_part,
 )
 MISCONCEPTIONS = (
-    _of_a_policy(replace(RESIDUAL_SIGN, when=_wrong)),
-    _of_a_policy(RESIDUAL_MAX),
-    _of_a_policy(RESIDUAL_FORGOT_GAMMA),
-    _of_the_optimum(replace(OPTIMALITY_RESIDUAL_SIGN, when=_wrong)),
-    _of_the_optimum(RESIDUAL_MEAN),
-    _of_the_optimum(OPTIMALITY_RESIDUAL_FORGOT_GAMMA),
+    replace(RESIDUAL_SIGN, when=_wrong),
+    replace(MAX_FOR_MEAN, when=_policy_mixes),
+    RESIDUAL_MEAN,
+    FORGOT_GAMMA,
     ONE_STATE,
 )
 

@@ -7,34 +7,34 @@ from rldrill.problems.document import joined
 from rldrill.problems.models import Policy, equiprobable
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
 from rldrill.solutions.policy_values import TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
-    Q_STAR_FORGOT_GAMMA,
+    OWN_VALUE,
+    Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
-    Q_STAR_OWN_VALUE,
 )
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V
 from rldrill.solutions.work import Work
 
-GREEDY_ON_REWARD = slip(
+GREEDY_ON_REWARD = fork(
     "greedy-on-reward",
     "The action with the greatest immediate reward need not be best: what can be earned after it counts too.",
     when=lambda given: given.gamma != 0,
 )
-FIRST_ACTIONS = slip(
+FIRST_ACTIONS = fork(
     "wrong-fixed-policy",
     "These are the values of the policy that always takes the first action; in some state another one is better.",
 )
-RANDOM_POLICY = slip(
+RANDOM_POLICY = fork(
     "mean-for-max",
     "These are the values of choosing at random; the optimal value takes the best action in every state.",
 )
 MISCONCEPTIONS = (
-    GREEDY_ON_REWARD, FIRST_ACTIONS, RANDOM_POLICY, TERMINAL_VALUE, Q_STAR_FORGOT_GAMMA, Q_STAR_OWN_VALUE
+    GREEDY_ON_REWARD, FIRST_ACTIONS, RANDOM_POLICY, TERMINAL_VALUE, Q_FORGOT_GAMMA, OWN_VALUE
 )  # fmt: skip
 
 

@@ -7,14 +7,14 @@ from rldrill.solutions.oracle import Answers, swept
 from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
+    OWN_VALUE,
     Q_FORGOT_GAMMA,
-    Q_OWN_VALUE,
     Q_REWARD_UNWEIGHTED,
     TRANSPOSED,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED, Q_FORGOT_GAMMA, Q_OWN_VALUE, Q_REWARD_UNWEIGHTED)
+MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED, Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -6,21 +6,21 @@ from typing import Any
 from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
 from rldrill.solutions.work import Work
 
-GREEDY_PATH = slip(
+GREEDY_PATH = fork(
     "greedy-path",
     "The way that earns most at once need not begin the best path: what can be earned after it counts too.",
 )
-THROUGH_IGNORED = slip(
+THROUGH_IGNORED = fork(
     "through-ignored",
     "That is the best path of all; the path that is asked for must go through the state that is named.",
     when=lambda given: given.through not in (None, given.start),
 )
-HEAD_LEFT_OUT = slip(
+HEAD_LEFT_OUT = fork(
     "head-left-out",
     "That is the best way on from the state that is named; the best way there earns something too.",
     when=lambda given: given.through not in (None, given.start),

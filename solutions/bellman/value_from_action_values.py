@@ -9,7 +9,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
-    MAX_OF_Q,
+    MAX_FOR_MEAN,
     MEAN_OF_Q_STAR,
     PLAIN_MEAN_OF_Q,
     POLICY_FOR_MAX,
@@ -18,7 +18,7 @@ from rldrill.solutions.sheet.bellman import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (MAX_OF_Q, PLAIN_MEAN_OF_Q, MEAN_OF_Q_STAR, POLICY_FOR_MAX)
+MISCONCEPTIONS = (MAX_FOR_MEAN, PLAIN_MEAN_OF_Q, MEAN_OF_Q_STAR, POLICY_FOR_MAX)
 
 
 def solve(given: Given, work: Work) -> None:

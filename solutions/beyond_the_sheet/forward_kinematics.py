@@ -2,12 +2,12 @@
 
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
 from rldrill.solutions import arms
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y
 from rldrill.solutions.work import Work
 
-EXCHANGED = slip(
+EXCHANGED = fork(
     "sine-for-cosine",
     "With angles from the x axis, the cosines give x and the sines give y: they were exchanged.",
 )

@@ -7,7 +7,7 @@ import numpy as np
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
 from rldrill.solutions.exact import ONE, exact, is_zero
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,
@@ -18,7 +18,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
 )
 from rldrill.solutions.work import Work
 
-TRANSPOSED = slip(
+TRANSPOSED = fork(
     "transposed-jacobian",
     "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
     when=lambda given: given.square,

@@ -7,11 +7,11 @@ import numpy as np
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
-    DOUBLE_FORGOT_GAMMA,
     DOUBLE_Q_ACTION,
     DOUBLE_Q_LEARNING,
     OTHER_TABLE_SELECTS,
@@ -19,12 +19,12 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-BOTH_UPDATED = slip(
+BOTH_UPDATED = fork(
     "both-tables-updated",
     "Each transition updates one table only, the one that the coin says; the other stays as it is.",
     when=lambda given: len(set(given.updates)) > 1 and bool(set(given.updated_in(1)) & set(given.updated_in(2))),
 )
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, DOUBLE_FORGOT_GAMMA, BOTH_UPDATED)
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, BOTH_UPDATED)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from rldrill.problems.control.epsilon_greedy import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import V_FROM_Q
@@ -20,12 +20,12 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-FIRST_OF_TIED = slip(
+FIRST_OF_TIED = fork(
     "first-of-the-tied",
     "All actions that are tied for the best are greedy; the probability 1 − ε is shared among them.",
     when=lambda given: len(given.best) > 1,
 )
-VALUE_OF_BEST = slip(
+VALUE_OF_BEST = fork(
     "value-of-the-best-action",
     "The policy explores, so its value averages over all actions; the greatest action value alone is too much.",
     when=lambda given: given.valued,

@@ -3,7 +3,8 @@
 from rldrill.problems.control.q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.control import FORGOT_GAMMA, MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.control import MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)

@@ -7,7 +7,7 @@ import numpy as np
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     ACTION_TRACE,
@@ -39,17 +39,17 @@ def _comes_back(given: Given) -> bool:
     return len({*visits, *traced}) < len(visits) + len(traced)
 
 
-TRACES_CUT = slip(
+TRACES_CUT = fork(
     "traces-cut",
     "Sarsa(λ) keeps its traces when an exploratory action is taken; it is Watkins's Q(λ) that cuts them there.",
     when=lambda given: any(_explores(given, time) for time in range(len(given.trajectory.rewards))),
 )
-REPLACING = slip(
+REPLACING = fork(
     "replacing-traces",
     "Accumulating traces add 1 to what is left of the trace; replacing traces would set it to 1.",
     when=_comes_back,
 )
-ONLY_VISITED = slip(
+ONLY_VISITED = fork(
     "only-the-visited-pair",
     "Every pair with a trace is moved by the TD error, not only the pair that was just left.",
     when=lambda given: len(given.eligible) > 1,

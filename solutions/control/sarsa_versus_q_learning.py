@@ -5,7 +5,7 @@ import numpy as np
 from rldrill.problems.control.sarsa_versus_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value
-from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.formula import Formula, fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     Q_LEARNING_TARGET,
@@ -16,24 +16,24 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-TARGETS_SWAPPED = slip(
+TARGETS_SWAPPED = fork(
     "targets-swapped",
     "It is the other way round: Sarsa's target has the value of the action taken, Q-learning's the greatest value.",
 )
-UPDATE_FOR_TARGET = slip(
+UPDATE_FOR_TARGET = fork(
     "update-for-target",
     "The target is what the old value is moved towards; α and the old value come in only when it is moved.",
 )
-POLICY_SWAPPED = slip(
+POLICY_SWAPPED = fork(
     "on-and-off-policy-swapped",
     "Sarsa's target uses the action that its own policy takes (on-policy); Q-learning's uses the best action, "
     "whatever its policy does (off-policy).",
 )
-SAID_BOTH = slip(
+SAID_BOTH = fork(
     "both-alike",
     "They differ: Sarsa learns the values of the policy that acts, Q-learning those of the greedy policy.",
 )
-SAID_NEITHER = slip(
+SAID_NEITHER = fork(
     "neither",
     "Every method is the one or the other: Sarsa learns about the policy that acts, Q-learning about the greedy one.",
 )

@@ -7,7 +7,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
     CHANGE_FOR_ERROR,
@@ -25,7 +25,7 @@ from rldrill.solutions.work import Work
 MOST_SWEEPS = 4096
 #: Up to so many sweeps the bound is written out as a fraction.
 WRITTEN_OUT = 8
-STOPS_SHORT = slip(
+STOPS_SHORT = fork(
     "one-sweep-too-few",
     "After that many sweeps the bound is still above the accuracy; round up to the next whole number of sweeps.",
     when=lambda given: given.accuracy is not None,

@@ -6,12 +6,14 @@ from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q
-from rldrill.solutions.sheet.dynamic_programming import (
-    GREEDY_FROM_Q,
+from rldrill.solutions.sheet.bellman import (
+    BELLMAN_OPTIMALITY_Q,
     OPTIMAL_Q_BY_REWARD,
     OPTIMAL_Q_BY_VALUE,
     OPTIMAL_Q_MEAN_FOR_MAX,
+)
+from rldrill.solutions.sheet.dynamic_programming import (
+    GREEDY_FROM_Q,
     SMALLEST_Q,
 )
 from rldrill.solutions.work import Work

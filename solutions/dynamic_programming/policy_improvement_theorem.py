@@ -9,7 +9,7 @@ from rldrill.problems.dynamic_programming.policy_improvement_theorem import Give
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.bellman import BELLMAN_Q
@@ -25,12 +25,12 @@ def _better_here_worse_there(given: Given) -> bool:
     return any(gap > 0 for gap in gaps) and any(gap < 0 for gap in gaps)
 
 
-NEW_VALUES = slip(
+NEW_VALUES = fork(
     "values-of-the-new-policy",
     "Q^π(s, π′(s)) takes π′ for one step only and goes on with π; the theorem does not need the values of π′.",
     when=lambda given: given.policy != given.other,
 )
-ONE_STATE = slip(
+ONE_STATE = fork(
     "one-state-enough",
     "The inequality must hold in every state; where it fails in one, the theorem says nothing.",
     when=_better_here_worse_there,

@@ -9,7 +9,7 @@ from rldrill.problems.dynamic_programming.policy_iteration import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -20,7 +20,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-STOPS = slip(
+STOPS = fork(
     "stops-after-one-round",
     "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
     when=lambda given: given.rounds > 1,

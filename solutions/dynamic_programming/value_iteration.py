@@ -5,22 +5,22 @@ import numpy as np
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
-    FORGOT_GAMMA,
     GREEDY_FROM_V,
     MEAN_FOR_MAX,
     VALUE_ITERATION,
 )
 from rldrill.solutions.work import Work
 
-IN_PLACE = slip(
+IN_PLACE = fork(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
 )
-TERMINAL_TWICE = slip(
+TERMINAL_TWICE = fork(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
     when=lambda given: knowns.pays_at_the_end(given.mdp),

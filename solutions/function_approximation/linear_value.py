@@ -7,16 +7,16 @@ import numpy as np
 from rldrill.problems.function_approximation.linear_value import Given
 from rldrill.solutions.centres import distances, measured
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import GREEDY_LINEAR, LINEAR_VALUE, PIECEWISE_LINEAR_RBF
 from rldrill.solutions.work import Work
 
-WRONG_BLOCK = slip(
+WRONG_BLOCK = fork(
     "block-of-the-wrong-action",
     "Every action has its own block of weights, in the order in which the actions are named; another one was used.",
 )
-INTERLEAVED = slip(
+INTERLEAVED = fork(
     "weights-interleaved",
     "The first block holds all weights of the first action; the weights were read feature by feature instead.",
     when=lambda given: given.size > 1,

@@ -9,7 +9,7 @@ import numpy as np
 from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, where
 from rldrill.solutions.exact import ZERO, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
     HISTORY_LEFT_OUT,
@@ -62,12 +62,12 @@ def _uneven(given: Given) -> bool:
     return _verdict(given, _matters(given, _totals(given))) != _verdict(given, _matters(given, _right(given)))
 
 
-ONE_NEXT_STATE = slip(
+ONE_NEXT_STATE = fork(
     "one-next-state",
     "The probabilities of all next states must be independent of the history, not only that of the one asked for.",
     when=_hidden,
 )
-TOTALS_COMPARED = slip(
+TOTALS_COMPARED = fork(
     "totals-compared",
     "Histories need not be equally frequent: compare what follows them, each by its own total.",
     when=_uneven,

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.inverse_rl.apprenticeship import Given
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
@@ -18,7 +18,7 @@ from rldrill.solutions.sheet.inverse_rl import (
 )
 from rldrill.solutions.work import Work
 
-NOT_PROJECTED = slip(
+NOT_PROJECTED = fork(
     "not-from-the-projected-point",
     "The weights point to the expert from the projected point, not from the new policy's feature expectations.",
 )

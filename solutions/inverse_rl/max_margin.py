@@ -8,12 +8,12 @@ from flint import fmpq
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
 from rldrill.solutions.work import Work
 
-MARGIN_ON_THE_WRONG_SIDE = slip(
+MARGIN_ON_THE_WRONG_SIDE = fork(
     "margin-on-the-wrong-side",
     "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
     when=lambda given: any(rival.margin for rival in given.policies.values()),

@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
@@ -31,12 +31,12 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-ILQR_FOR_DDP = slip(
+ILQR_FOR_DDP = fork(
     "ilqr-for-ddp",
     "DDP keeps the second derivatives of the dynamics: V′ₛ · f_{ss} and the like belong to Q's; only iLQR drops them.",
     when=lambda given: given.second_order,
 )
-DDP_FOR_ILQR = slip(
+DDP_FOR_ILQR = fork(
     "ddp-for-ilqr",
     "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
     when=lambda given: not given.second_order,

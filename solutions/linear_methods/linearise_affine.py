@@ -5,7 +5,7 @@ import numpy as np
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.linearisation import (
     AT_ZERO,
     SINE_FOR_COSINE,
@@ -31,7 +31,7 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-C_IS_RATES = slip(
+C_IS_RATES = fork(
     "c-is-the-rates",
     "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     COST_TO_GO,
@@ -22,7 +22,7 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-SAME_TIME = slip(
+SAME_TIME = fork(
     "gain-from-same-time",
     "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
 )

@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.policy_gradient.actor_critic import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
@@ -20,7 +20,7 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
 from rldrill.solutions.work import Work
 
-STEP_SIZES_SWAPPED = slip(
+STEP_SIZES_SWAPPED = fork(
     "step-sizes-swapped",
     "α belongs to the critic, β to the actor; they were exchanged.",
     when=lambda given: given.alpha != given.beta,

@@ -4,18 +4,18 @@ import numpy as np
 
 from rldrill.problems.policy_gradient.linear_policy import Given
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
 from rldrill.solutions.softmax import action_features, by_number
 from rldrill.solutions.work import Work
 
-WRONG_ACTION = slip(
+WRONG_ACTION = fork(
     "features-of-the-wrong-action",
     "Every action is valued with its own features f(s, a); those of another action were used.",
     when=lambda given: any(len(row) > 1 for row in given.features.values()),
 )
-SMALLEST = slip(
+SMALLEST = fork(
     "smallest-for-greatest",
     "The greedy policy takes the action with the greatest value, not with the smallest.",
     when=WRONG_ACTION.when,

@@ -7,7 +7,7 @@ import numpy as np
 
 from rldrill.problems.policy_gradient.ppo_clip import Given
 from rldrill.solutions.exact import Value, exact, largest, sign, simplest
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.ratios import new_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
@@ -22,7 +22,7 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.work import Work
 
-WRONG_SIDE = slip(
+WRONG_SIDE = fork(
     "wrong-side-for-negative-advantage",
     "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
     when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),

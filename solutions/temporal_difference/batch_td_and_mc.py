@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.temporal_difference.batch_td_and_mc import Given, Observed, run_text
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
@@ -18,12 +18,12 @@ def _leads_on(given: Given) -> bool:
     return any(len(episode.states) > 1 for episode in given.episodes)
 
 
-TD_FOR_MC = slip(
+TD_FOR_MC = fork(
     "td-for-monte-carlo",
     "Batch Monte Carlo averages the whole returns that were seen after a state; it builds on no other state's value.",
     when=_leads_on,
 )
-MC_FOR_TD = slip(
+MC_FOR_TD = fork(
     "monte-carlo-for-td",
     "Batch TD(0) builds on the value of the next state, so what other episodes say about that state counts too.",
     when=_leads_on,

@@ -5,18 +5,18 @@ import numpy as np
 from rldrill.problems.temporal_difference.monte_carlo import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
 from rldrill.solutions.work import Work
 
-OTHER_VISITS = slip(
+OTHER_VISITS = fork(
     "other-visits",
     "First-visit Monte Carlo updates a state once in an episode, every-visit Monte Carlo once for each of its visits.",
     when=lambda given: given.revisits,
 )
-REWARD_BEFORE = slip(
+REWARD_BEFORE = fork(
     "reward-before-the-state",
     "The reward that comes with the arrival in a state was earned before it; the return begins with the next reward.",
     when=lambda given: len(given.trajectory.rewards) > 1,

@@ -5,17 +5,17 @@ import numpy as np
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.temporal_difference import ELIGIBILITY_TRACE, LITERAL_VALUE, TD_LAMBDA_BACKWARD
 from rldrill.solutions.work import Work
 
-VISITED_ONLY = slip(
+VISITED_ONLY = fork(
     "only-visited-state-updated",
     "Every state with a trace learns from the TD error, not only the one that was just left.",
     when=lambda given: len(given.visited) > 1,
 )
-TRACE_LATE = slip(
+TRACE_LATE = fork(
     "trace-updated-after-value",
     "The traces are updated before the values: the state that was just left must be counted in its own trace.",
 )

@@ -3,12 +3,13 @@
 from rldrill.problems.temporal_difference.td_zero import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.temporal_difference import FORGOT_GAMMA, TARGET_ONLY, TD_ZERO, WRONG_SIGN
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
-STALE = slip(
+STALE = fork(
     "stale-values",
     "Each update uses the values that are current then, changed ones included; the old ones were kept.",
     when=lambda given: len(given.trajectory.rewards) > len(given.visited),
