@@ -7,20 +7,19 @@ import sympy
 
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, to_sympy
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
 from rldrill.solutions.work import Work
 
-LARGEST_WINS = fork(
-    "largest-wins",
-    "The smallest BIC wins: it is large where the fit is poor or there are many parameters.",
-)
-MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, LARGEST_WINS, BIC_LOG_10)
-
 
 def solve(given: Given, work: Work) -> None:
     """The log-likelihoods, unless they are given; the criteria; the winner."""
+    _compare(given, work, better=-1)
+
+
+def _compare(given: Given, work: Work, better: int) -> None:
+    """The first model wins where the sign of its BIC minus the other's is ``better``."""
     names = given.names
     if given.fitted is not None:
         n = exact(given.n or 0)
@@ -34,7 +33,7 @@ def solve(given: Given, work: Work) -> None:
     criteria = work.answer(
         {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
     )
-    work.answer(_winner(work, criteria, names))
+    work.answer(_winner(work, criteria, names, better))
 
 
 def free_parameters(data: Data, model: str) -> int:
@@ -64,13 +63,22 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     return shorter
 
 
-def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...]) -> str:
+def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...], better: int) -> str:
     numbers = " and ".join(f"BIC({name}) ≈ {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
     work.say(f"In numbers, {numbers}; the smaller one wins.")
     difference = sign(criteria[names[0]] - criteria[names[1]])
     if difference == 0:
         raise NoSolution("both models have the same BIC")
-    return "a" if (difference < 0) is not work.makes(LARGEST_WINS) else "b"
+    return "a" if difference == better else "b"
+
+
+@slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
+def largest_wins(given: Given, work: Work) -> None:
+    """The model with the larger BIC."""
+    _compare(given, work, better=1)
+
+
+MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 
 
 def oracle(given: Given) -> Answers:

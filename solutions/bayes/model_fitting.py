@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.bayes import (
     COIN_MAP,
@@ -25,34 +25,32 @@ from rldrill.solutions.sheet.bayes import (
 )
 from rldrill.solutions.work import Work
 
-PRIOR_IGNORED = fork(
-    "prior-ignored",
-    "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
-    when=lambda given: given.has_prior,
-)
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, PRIOR_IGNORED)
-
 
 def solve(given: Given, work: Work) -> None:
     """What the data alone say; then with the prior."""
+    _fit(given, work, COIN_MAP, GAUSSIAN_MAP, LINE_SLOPE_MAP)
+
+
+def _fit(given: Given, work: Work, of_coin: Formula, of_sample: Formula, of_line: Formula) -> None:
+    """The estimates, those with the prior by these formulas."""
     if given.coin is not None:
-        _coin(given.coin, work)
+        _coin(given.coin, work, of_coin)
     elif given.sample is not None:
-        _sample(given.sample, work)
+        _sample(given.sample, work, of_sample)
     elif given.line is not None:
-        _line(given.line, work)
+        _line(given.line, work, of_line)
 
 
-def _coin(coin: Coin, work: Work) -> None:
+def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
     known = {
         "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
     }  # fmt: skip
     work.answer(work.step(COIN_ML, **known))
     work.recall(MODEL_FITTING)
-    work.answer(work.step(COIN_ML if work.makes(PRIOR_IGNORED) else COIN_MAP, **known))
+    work.answer(work.step(with_prior, **known))
 
 
-def _sample(sample: Sample, work: Work) -> None:
+def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     known: dict[str, Any] = {"x": dict(enumerate(map(exact, sample.values), 1)), "n": len(sample.values)}
     known["mu_hat"] = work.answer(work.step(GAUSSIAN_MEAN, **known))
     work.answer(work.step(GAUSSIAN_VARIANCE, **known))
@@ -65,11 +63,10 @@ def _sample(sample: Sample, work: Work) -> None:
         "prior_variance": exact(sample.prior.variance),
     }
     work.recall(MODEL_FITTING)
-    ignored = work.makes(PRIOR_IGNORED)
-    work.answer(work.step(GAUSSIAN_MEAN, **known) if ignored else work.step(GAUSSIAN_MAP, **known, **prior))
+    work.answer(work.step(with_prior, **known, **prior))
 
 
-def _line(line: Line, work: Work) -> None:
+def _line(line: Line, work: Work, with_prior: Formula) -> None:
     values = {
         (axis, index): exact(number)
         for index, point in enumerate(line.points, 1)
@@ -82,12 +79,22 @@ def _line(line: Line, work: Work) -> None:
     if line.prior is None:
         return
     work.recall(MODEL_FITTING)
-    if work.makes(PRIOR_IGNORED):
-        slope = work.step(LINE_SLOPE, **known)
-    else:
-        noise, variance = exact(line.prior.noise), exact(line.prior.variance)
-        slope = work.step(LINE_SLOPE_MAP, sigma2=noise, prior_variance=variance, **known)
+    noise, variance = exact(line.prior.noise), exact(line.prior.variance)
+    slope = work.step(with_prior, sigma2=noise, prior_variance=variance, **known)
     work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+
+
+@slip(
+    "prior-ignored",
+    "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
+    when=lambda given: given.has_prior,
+)
+def prior_ignored(given: Given, work: Work) -> None:
+    """Maximum likelihood once more, where the prior is asked for."""
+    _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
+
+
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, prior_ignored)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,12 +1,13 @@
 """The projection method, one policy after the other; the weights point from the projected point to the expert."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from rldrill.problems.inverse_rl.apprenticeship import Given
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
@@ -18,15 +19,17 @@ from rldrill.solutions.sheet.inverse_rl import (
 )
 from rldrill.solutions.work import Work
 
-NOT_PROJECTED = fork(
-    "not-from-the-projected-point",
-    "The weights point to the expert from the projected point, not from the new policy's feature expectations.",
-)
-MISCONCEPTIONS = (NOT_PROJECTED,)
+#: Feature expectations, or weights, by the number of the feature.
+Point: TypeAlias = dict[int, Any]
 
 
 def solve(given: Given, work: Work) -> None:
     """A distance; for every policy the projected point and the weights; the distance that is left."""
+    _project(given, work, lambda projected, _: projected)
+
+
+def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Point]) -> None:
+    """The projection method; the weights point from ``weighed_from(projected point, policy)`` to the expert."""
     features = tuple(range(1, len(given.expert) + 1))
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
@@ -40,13 +43,25 @@ def solve(given: Given, work: Work) -> None:
             tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features),
         )
         point = dict(zip(features, moved, strict=True))
-        known["mu_bar"] = mu if work.makes(NOT_PROJECTED) else point
+        known["mu_bar"] = weighed_from(point, mu)
         pointing = work.answer(tuple(work.step(WEIGHTS, component=index, **known) for index in features))
         weights = dict(zip(features, pointing, strict=True))
     work.answer(work.step(REMAINING, w=weights, features=features))
 
 
-def _vector(values: tuple[Any, ...]) -> dict[int, Any]:
+@slip(
+    "not-from-the-projected-point",
+    "The weights point to the expert from the projected point, not from the new policy's feature expectations.",
+)
+def not_projected(given: Given, work: Work) -> None:
+    """Weights from the policy itself."""
+    _project(given, work, lambda _, policy: policy)
+
+
+MISCONCEPTIONS = (not_projected,)
+
+
+def _vector(values: tuple[Any, ...]) -> Point:
     return dict(enumerate(map(exact, values), 1))
 
 

@@ -8,17 +8,10 @@ from flint import fmpq
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact, sign
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
 from rldrill.solutions.work import Work
-
-MARGIN_ON_THE_WRONG_SIDE = fork(
-    "margin-on-the-wrong-side",
-    "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
-    when=lambda given: any(rival.margin for rival in given.policies.values()),
-)
-MISCONCEPTIONS = (MARGIN_ON_THE_WRONG_SIDE, SUM_FOR_MAXIMUM)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -30,11 +23,10 @@ def solve(given: Given, work: Work) -> None:
         "mu_policy": knowns.features(mus),
     }
     worth = work.answer({name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
-    side = -1 if work.makes(MARGIN_ON_THE_WRONG_SIDE) else 1
     sides: dict[str, Any] = {
         "worth": worth,
         "worth_expert": worth[EXPERT],
-        "margin": {EXPERT: ZERO} | {name: side * exact(rival.margin) for name, rival in given.policies.items()},
+        "margin": {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()},
     }
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
@@ -51,6 +43,20 @@ def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
 
 def _told(violated: tuple[str, ...]) -> str:
     return f"the left side is too small for {', '.join(violated)}" if violated else "all constraints hold"
+
+
+@slip(
+    "margin-on-the-wrong-side",
+    "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
+    when=lambda given: any(rival.margin for rival in given.policies.values()),
+)
+def margin_on_the_wrong_side(given: Given, work: Work) -> None:
+    """The same constraints with every margin taken away instead of added."""
+    rivals = {name: rival.model_copy(update={"margin": -rival.margin}) for name, rival in given.policies.items()}
+    solve(given.model_copy(update={"policies": rivals}), work)
+
+
+MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM)
 
 
 def oracle(given: Given) -> Answers:

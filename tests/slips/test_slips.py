@@ -14,13 +14,14 @@ from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.exact import is_zero
 from rldrill.solutions.solution import Solution, solve, solver
 
-TABLES = {
-    (entry["family"], entry["name"]): entry
+TABLE = [
+    entry
     for file in sorted(Path(__file__).parent.glob("*.toml"))
     for entry in tomllib.loads(file.read_text("utf-8"))["slip"]
-}
+]
 SLIPS = {
     (name, mistake.name): mistake for name in families() for mistake in solver(family(name)).misconceptions
     if mistake.is_slip
@@ -33,9 +34,15 @@ def cells(solution: Solution, label: str, answer: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("place", SLIPS, ids=" / ".join)
-def test_a_slip_gives_the_answer_worked_by_hand(place: tuple[str, str]) -> None:
-    assert place in TABLES, f"work out by hand what this slip gives, in tests/slips/{family(place[0]).topic}.toml"
-    entry = TABLES[place]
+def test_every_slip_is_in_the_table(place: tuple[str, str]) -> None:
+    worked = {(entry["family"], entry["name"]) for entry in TABLE}
+    assert place in worked, f"work out by hand what this slip gives, in tests/slips/{family(place[0]).topic}.toml"
+
+
+@pytest.mark.parametrize("entry", TABLE, ids=lambda entry: f"{entry['family']} / {entry['name']}")
+def test_a_slip_gives_the_answer_worked_by_hand(entry: dict[str, Any]) -> None:
+    place = entry["family"], entry["name"]
+    assert place in SLIPS, "there is no such slip"
     assert len(entry["worked"]) > 20, "say how the wrong answer was worked"
     found = family(entry["family"])
     solution = solve(Problem(found, found.read(entry["given"])))
@@ -48,14 +55,10 @@ def test_a_slip_gives_the_answer_worked_by_hand(place: tuple[str, str]) -> None:
         for name, content in cells(solution, label, made[label]).items():
             typed = read[name]
             if isinstance(typed, Reading):
-                assert typed.value - content == 0, f"({label}) {name}: the slip gives {content}"
+                assert is_zero(typed.value - content), f"({label}) {name}: the slip gives {content}"
             else:
                 assert {typed} == set(content), f"({label}) {name}: the slip gives {content}"
     assert any(
         cells(solution, label, made[label]) != cells(solution, label, solution.answers[label])
         for label in entry["answers"]
     ), "the right answer is no wrong one"
-
-
-def test_no_table_is_left_over() -> None:
-    assert set(TABLES) <= set(SLIPS)
