@@ -436,7 +436,6 @@ with evaluate(False):
     ALL_PULLS_COUNTED = Misconception(
         "all-pulls-counted",
         "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
-        when=lambda given: given.kind != "gradient",
     )
     ARM_ESTIMATE = Formula(
         "arm-estimate",
@@ -462,12 +461,10 @@ with evaluate(False):
     TIME_FOR_LOG = Misconception(
         "t-for-ln-t",
         "Under the root stands the logarithm ln t, not the time t itself.",
-        when=lambda given: given.kind == "ucb",
     )
     OWN_COUNT_FORGOTTEN = Misconception(
         "own-count-forgotten",
         "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
-        when=lambda given: given.kind == "ucb",
     )
     UCB = Formula(
         "ucb",
@@ -495,7 +492,7 @@ with evaluate(False):
     BANDIT_WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: given.kind == "gradient" and sum(given.preferences.values()) != 0,
+        when=lambda given: sum(given.preferences.values()) != 0,
     )
     GRADIENT_BANDIT_POLICY = Formula(
         "gradient-bandit-policy",
@@ -521,12 +518,10 @@ with evaluate(False):
     BASELINE_FORGOTTEN = Misconception(
         "baseline-forgotten",
         "What counts is how far the reward is above or below the baseline, not the reward itself.",
-        when=lambda given: given.kind == "gradient",
     )
     OTHERS_UNCHANGED = Misconception(
         "others-unchanged",
         "The preferences of the arms that were not pulled move too, the other way.",
-        when=lambda given: given.kind == "gradient",
     )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",
