@@ -84,14 +84,6 @@ def _last_action_is_known(given: Any) -> bool:
     return bool(given.last_action_known)
 
 
-def _tied(given: Any) -> bool:
-    return len(given.best) > 1
-
-
-def _not_tied(given: Any) -> bool:
-    return not _tied(given)
-
-
 def _moved(target: Expr) -> Expr:
     """The value of the pair just left, moved a step α towards a target."""
     return Q(S(t), A(t)) + alpha * (target - Q(S(t), A(t)))
@@ -235,12 +227,10 @@ with evaluate(False):
     SHARE_FORGOTTEN = Misconception(
         "share-of-epsilon-forgotten",
         "Exploring picks among all actions, so the greedy action gets its share ε/|A| too, on top of 1 − ε.",
-        when=_not_tied,
     )
     SHARED_AMONG_OTHERS = Misconception(
         "shared-among-the-others",
         "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
-        when=_not_tied,
     )
     EPSILON_GREEDY = Formula(
         "epsilon-greedy",
@@ -258,17 +248,15 @@ with evaluate(False):
     TIED_SHARE_FORGOTTEN = Misconception(
         "share-of-epsilon-forgotten-in-a-tie",
         "Exploring picks among all actions, so the tied best actions get their shares ε/|A| too.",
-        when=_tied,
     )
     TIED_SHARED_AMONG_OTHERS = Misconception(
         "shared-among-those-not-best",
         "Exploring picks among all |A| actions, the tied best ones too, not among the others only.",
-        when=lambda given: _tied(given) and len(given.best) < len(given.values),
+        when=lambda given: len(given.best) < len(given.values),
     )
     NOT_SPLIT = Misconception(
         "not-split-in-a-tie",
         "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
-        when=_tied,
     )
     EPSILON_GREEDY_TIED = Formula(
         "epsilon-greedy-tied",
