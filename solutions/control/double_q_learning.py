@@ -48,9 +48,11 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
-        if turn not in given.updates[time + 1 :]:
-            answer = work.answer({pair: tables[turn, *pair] for pair in given.updated_in(turn)})
-            tables = tables | {(turn, *pair): value for pair, value in answer.items()}
+        later = {table for turn in given.updates[time + 1 :] for table in updated(turn)}
+        for table in updated(turn):
+            if table not in later:
+                answer = work.answer({pair: tables[table, *pair] for pair in given.updated_in(table)})
+                tables = tables | {(table, *pair): value for pair, value in answer.items()}
 
 
 def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: dict[str, Any]) -> Any:
