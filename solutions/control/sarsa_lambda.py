@@ -38,12 +38,9 @@ def _before(given: Given) -> Traces:
 
 
 def _traces(given: Given, work: Work, left: Callable[[Traces, int], Traces] = lambda trace, _: trace) -> list[Traces]:
-    """The traces after every visit, of which the last are an answer; those that are 0 and stay so are not written down.
+    """The traces after every visit, the last of them as answered; those that are 0 and stay so are not written down.
 
-    Args:
-        given: what is given.
-        work: the working.
-        left: what is left of the traces for a visit at some time to decay: all of them.
+    All that is ``left`` of the traces decays: everything, unless a slip says otherwise.
     """
     known = knowns.action_run(given) | {"lam": exact(given.lam)}
     trace = dict.fromkeys(given.eligible, ZERO) | _before(given)
@@ -100,11 +97,11 @@ def _comes_back(given: Given) -> bool:
 )
 def traces_cut(given: Given, work: Work) -> None:
     """No traces are left where an exploratory action is taken."""
-    _move(
-        given,
-        work,
-        _traces(given, work, lambda trace, time: dict.fromkeys(trace, ZERO) if _explores(given, time) else trace),
-    )
+
+    def left(trace: Traces, time: int) -> Traces:
+        return dict.fromkeys(trace, ZERO) if _explores(given, time) else trace
+
+    _move(given, work, _traces(given, work, left))
 
 
 @slip(

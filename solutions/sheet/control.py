@@ -255,8 +255,7 @@ with evaluate(False):
         when=lambda given: len(given.best) < len(given.values),
     )
     NOT_SPLIT = Misconception(
-        "not-split-in-a-tie",
-        "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
+        "not-split-in-a-tie", "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it."
     )
     EPSILON_GREEDY_TIED = Formula(
         "epsilon-greedy-tied",
@@ -422,8 +421,7 @@ with evaluate(False):
     _EARNED = SumOver(r(i) * Indicator(A(i), a), i, Counting(1, n))
 
     ALL_PULLS_COUNTED = Misconception(
-        "all-pulls-counted",
-        "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
+        "all-pulls-counted", "Each arm's rewards are divided by the number of its own pulls, not of all pulls."
     )
     ARM_ESTIMATE = Formula(
         "arm-estimate",
@@ -446,10 +444,7 @@ with evaluate(False):
         hint="Take the arm whose estimate is greatest.",
         place=Place.WORKING,
     )
-    TIME_FOR_LOG = Misconception(
-        "t-for-ln-t",
-        "Under the root stands the logarithm ln t, not the time t itself.",
-    )
+    TIME_FOR_LOG = Misconception("t-for-ln-t", "Under the root stands the logarithm ln t, not the time t itself.")
     OWN_COUNT_FORGOTTEN = Misconception(
         "own-count-forgotten",
         "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
@@ -504,12 +499,10 @@ with evaluate(False):
         place=Place.WORKING,
     )
     BASELINE_FORGOTTEN = Misconception(
-        "baseline-forgotten",
-        "What counts is how far the reward is above or below the baseline, not the reward itself.",
+        "baseline-forgotten", "What counts is how far the reward is above or below the baseline, not the reward itself."
     )
     OTHERS_UNCHANGED = Misconception(
-        "others-unchanged",
-        "The preferences of the arms that were not pulled move too, the other way.",
+        "others-unchanged", "The preferences of the arms that were not pulled move too, the other way."
     )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",

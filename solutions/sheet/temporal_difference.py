@@ -215,10 +215,7 @@ with evaluate(False):
         "The visit that is being averaged in counts too: divide by n(s) after it.",
         when=lambda given: given.visited_before,
     )
-    COUNTED_TWICE = Misconception(
-        "one-over-n-plus-1",
-        "n(s) counts this visit already, so nothing is added to it.",
-    )
+    COUNTED_TWICE = Misconception("one-over-n-plus-1", "n(s) counts this visit already, so nothing is added to it.")
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -240,12 +237,10 @@ with evaluate(False):
         when=lambda given: len(given.visits) > 1,
     )
     ONE_POWER_MORE = Misconception(
-        "weakened-once-too-often",
-        "The newest return has not been weakened yet: its weight is α.",
+        "weakened-once-too-often", "The newest return has not been weakened yet: its weight is α."
     )
     EQUAL_WEIGHTS = Misconception(
-        "equal-weights",
-        "Only the sample average weights all returns alike; a constant step size favours the newest.",
+        "equal-weights", "Only the sample average weights all returns alike; a constant step size favours the newest."
     )
     RECENCY_WEIGHT = Formula(
         "recency-weight",
