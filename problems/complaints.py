@@ -38,10 +38,15 @@ _SAYS = {
 }
 
 
-def sentence(error: ValidationError) -> str:
-    """The first fault, and how many more there are."""
+def sentence(error: ValidationError, *, tagged: bool) -> str:
+    """The first fault, and how many more there are.
+
+    Args:
+        error: what pydantic says.
+        tagged: whether the givens are a union; then its places begin with a tag, which nobody has written.
+    """
     first, *rest = error.errors()
-    place = list(first["loc"])
+    place = list(first["loc"][tagged:])
     if place[-1:] == ["[key]"]:  # the fault is the name itself
         del place[-2:]
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
 from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
@@ -57,7 +57,11 @@ class Question:
 
 @dataclass(frozen=True)
 class Family:
-    """One family: the module ``problems/<topic>/<name>.py`` as an object."""
+    """One family: the module ``problems/<topic>/<name>.py`` as an object.
+
+    ``given`` is a model; or, where the family has several kinds of problems, ``Annotated`` with the ``Discriminator``
+    that tells them apart, the union of their models, each with its ``Tag``.
+    """
 
     name: str
     topic: str
@@ -65,7 +69,7 @@ class Family:
     summary: str
     source: str
     revision: int
-    given: type[Givens]
+    given: Any
     draw: Callable[[int, Draws], Givens]
     question: Callable[[Any], Question]
     levels: tuple[int, ...] = LEVELS
@@ -91,6 +95,12 @@ class Family:
             levels=getattr(module, "LEVELS", LEVELS),
         )
 
+    @cached_property
+    def kinds(self) -> tuple[type[Givens], ...]:
+        """The models of its givens, one for each kind of problem; most families have one."""
+        union, *_ = get_args(self.given) or (None,)
+        return tuple(get_args(tagged)[0] for tagged in get_args(union)) or (self.given,)
+
     def read(self, given: object) -> Givens:
         """Read givens from what a file holds.
 
@@ -98,9 +108,13 @@ class Family:
             FileError: they do not fit; the sentence names the field.
         """
         try:
-            return self.given.model_validate(given)
+            return self._reader.validate_python(given)
         except ValidationError as error:
-            raise FileError(sentence(error)) from None
+            raise FileError(sentence(error, tagged=len(self.kinds) > 1)) from None
+
+    @cached_property
+    def _reader(self) -> TypeAdapter[Givens]:
+        return TypeAdapter(self.given)
 
 
 def _demanded(module: ModuleType, name: str) -> Any:

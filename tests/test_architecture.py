@@ -74,7 +74,7 @@ def test_a_family_is_complete(name: str) -> None:
     assert found.source
     assert found.revision >= 1
     assert found.summary.endswith("."), "the module's docstring opens with one sentence: what is asked"
-    assert found.given.__doc__
+    assert all(kind.__doc__ for kind in found.kinds)
     twin = solver(found)
     assert twin.misconceptions, "a family recognises at least one typical mistake"
     assert len({m.name for m in twin.misconceptions}) == len(twin.misconceptions)

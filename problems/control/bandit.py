@@ -1,10 +1,9 @@
 """A bandit: sample averages and the greedy arm, upper confidence bounds, or a step on its preferences."""
 
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import NamedTuple, Self
+from typing import Annotated, NamedTuple, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.document import Table as Cells
@@ -29,43 +28,84 @@ class Pull(NamedTuple):
     reward: Exact
 
 
-class Given(Givens):
-    """The pulls so far; with ``c`` bounds are asked for, with preferences, α and one more pull a gradient step."""
+Story = Annotated[str, Field(max_length=200, pattern=r"^[^$\\]*$")]
+
+
+class Bandit(Givens):
+    """The pulls so far."""
 
     pulls: tuple[Pull, ...] = Field(min_length=1, max_length=100)
-    c: Exact | None = Field(default=None, gt=0)
-    preferences: dict[Name, Exact] | None = Field(default=None, min_length=2)
-    alpha: Exact | None = Field(default=None, gt=0)
-    pulled: Pull | None = None
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
 
     @model_validator(mode="after")
-    def _one_kind(self) -> Self:
-        gradient = (self.preferences, self.alpha, self.pulled)
-        if any(part is not None for part in gradient):
-            if any(part is None for part in gradient):
-                raise ValueError("a gradient step needs all of preferences, alpha and pulled")
-            if self.c is not None:
-                raise ValueError("c belongs to UCB, preferences to a gradient step; give one of them")
-            check_keys(dict.fromkeys(pull.arm for pull in self.every_pull), self.arms, "a pull", needed=())
+    def _choice(self) -> Self:
         if len(self.arms) < 2:
             raise ValueError("there must be at least two arms")
         return self
 
     @property
-    def kind(self) -> str:
-        """What is asked for: ``estimates``, ``ucb`` or ``gradient``."""
-        return "gradient" if self.preferences is not None else "estimates" if self.c is None else "ucb"
+    def arms(self) -> tuple[str, ...]:
+        """The arms, in the order of their first pulls."""
+        return tuple(dict.fromkeys(pull.arm for pull in self.pulls))
+
+
+class Estimates(Bandit):
+    """The pulls so far, which are averaged."""
+
+    story: Story = ""
+
+
+class Bounds(Bandit):
+    """The pulls so far, and the weight of the exploration in upper confidence bounds."""
+
+    c: Exact = Field(gt=0)
+    story: Story = ""
+
+
+class Preferences(Bandit):
+    """The pulls so far, the preferences after them, and one more pull, from which they learn with step size α."""
+
+    preferences: dict[Name, Exact] = Field(min_length=2)
+    alpha: Exact = Field(gt=0)
+    pulled: Pull
+    story: Story = ""
+
+    @model_validator(mode="after")
+    def _known_arms(self) -> Self:
+        check_keys(dict.fromkeys(pull.arm for pull in self.every_pull), self.arms, "a pull", needed=())
+        return self
 
     @property
     def arms(self) -> tuple[str, ...]:
-        """The arms, in the order of the preferences or else of their first pulls."""
-        return tuple(self.preferences or dict.fromkeys(pull.arm for pull in self.pulls))
+        """The arms, in the order of their preferences."""
+        return tuple(self.preferences)
 
     @property
     def every_pull(self) -> tuple[Pull, ...]:
         """The pulls so far, and the one more."""
-        return (*self.pulls, self.pulled) if self.pulled else self.pulls
+        return (*self.pulls, self.pulled)
+
+
+def _kind(given: object) -> str | None:
+    match given:
+        case {"c": _, "preferences": _} | {"c": _, "alpha": _} | {"c": _, "pulled": _}:
+            return None
+        case {"c": _}:
+            return "bounds"
+        case {"preferences": _} | {"alpha": _} | {"pulled": _}:
+            return "preferences"
+    return "estimates"
+
+
+Given = Annotated[
+    Annotated[Estimates, Tag("estimates")]
+    | Annotated[Bounds, Tag("bounds")]
+    | Annotated[Preferences, Tag("preferences")],
+    Discriminator(
+        _kind,
+        custom_error_type="kind",
+        custom_error_message="c belongs to UCB, preferences to a gradient step; give one of them",
+    ),
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +130,7 @@ def draw(level: int, rng: Draws) -> Given:
         pulls = tuple(Pull(rng.choice(arms), rng.whole(0, 8)) for _ in range(rng.choice((5, 6))))
         low = rng.nonzero(-2, 2)
         preferences = dict.fromkeys(arms, low) | {rng.choice(arms): low + rng.fraction("1/2", "1", "2")}
-        return Given(
+        return Preferences(
             pulls=pulls,
             preferences=preferences,
             alpha=rng.fraction("1/2", "1/4", "1/10", "1/5"),
@@ -100,7 +140,9 @@ def draw(level: int, rng: Draws) -> Given:
     extra = tuple(rng.choice(arms) for _ in range(2 if level == 1 else rng.choice((2, 3))))
     order = (*arms, *rng.shuffled(extra))
     pulls = tuple(Pull(arm, rng.whole(0, 9)) for arm in order)
-    return Given(pulls=pulls, c=None if level == 1 else rng.fraction("1", "2", "1/2"), story=story.told)
+    if level == 1:
+        return Estimates(pulls=pulls, story=story.told)
+    return Bounds(pulls=pulls, c=rng.fraction("1", "2", "1/2"), story=story.told)
 
 
 def question(given: Given) -> Question:
@@ -117,29 +159,35 @@ def question(given: Given) -> Question:
             ),
         ),
     )
-    if given.kind == "gradient":
-        return Question((*blocks, *_preferences(given)), _gradient_parts(given))
-    estimates = Part("What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
-    choice = Policy({NEXT: given.arms})
-    if given.kind == "estimates":
-        return Question(blocks, (estimates, Part("Which arm is pulled next, if the choice is greedy?", choice)))
-    explained = Paragraph(
-        f"The next arm is chosen at time $t = {pulls + 1}$ by its upper confidence bound $U(a)$ (UCB), in which the "
-        f"exploration is weighted with $c = {shown(given.c or Fraction(0))}$."
-    )
-    return Question(
-        (*blocks, explained),
-        (
-            estimates,
-            Part("What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
-            Part("Which arm does UCB pull next?", choice),
-        ),
+    match given:
+        case Estimates():
+            greedy = Part("Which arm is pulled next, if the choice is greedy?", Policy({NEXT: given.arms}))
+            return Question(blocks, (_averages(given), greedy))
+        case Bounds():
+            return Question((*blocks, _exploration(given)), (_averages(given), *_bounds(given)))
+        case Preferences():
+            return Question((*blocks, *_preferences(given)), _gradient_step(given))
+
+
+def _averages(given: Bandit) -> Part:
+    return Part("What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
+
+
+def _exploration(given: Bounds) -> Block:
+    return Paragraph(
+        f"The next arm is chosen at time $t = {len(given.pulls) + 1}$ by its upper confidence bound $U(a)$ (UCB), in "
+        f"which the exploration is weighted with $c = {shown(given.c)}$."
     )
 
 
-def _preferences(given: Given) -> tuple[Block, ...]:
-    if given.preferences is None or given.alpha is None or given.pulled is None:
-        return ()
+def _bounds(given: Bounds) -> tuple[Part, ...]:
+    return (
+        Part("What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
+        Part("Which arm does UCB pull next?", Policy({NEXT: given.arms})),
+    )
+
+
+def _preferences(given: Preferences) -> tuple[Block, ...]:
     pulls = len(given.pulls)
     return (
         Paragraph("A gradient bandit now has these preferences:"),
@@ -155,7 +203,7 @@ def _preferences(given: Given) -> tuple[Block, ...]:
     )
 
 
-def _gradient_parts(given: Given) -> tuple[Part, ...]:
+def _gradient_step(given: Preferences) -> tuple[Part, ...]:
     last = len(given.every_pull)
     return (
         Part(f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", given.arms)),

@@ -1,9 +1,9 @@
 """The action values after Expected Sarsa updates along a run, for a given or an ε-greedy policy."""
 
 from fractions import Fraction
-from typing import Self
+from typing import Annotated, Self
 
-from pydantic import model_validator
+from pydantic import Discriminator, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
@@ -19,20 +19,16 @@ SOURCE = "Sutton & Barto 2018, section 6.6"
 REVISION = 1
 
 
-class Given(ActionRun):
-    """A run, the action values before it, α and γ; and the policy, or the ε with which it is ε-greedy."""
+class FixedPolicy(ActionRun):
+    """A run, the action values before it, α and γ; and the policy, which stays as it is."""
 
-    policy: PolicyField | None = None
-    epsilon: OpenProbability | None = None
+    policy: PolicyField
 
     @model_validator(mode="after")
-    def _one_policy(self) -> Self:
-        if (self.policy is None) == (self.epsilon is None):
-            raise ValueError("give either policy or epsilon")
-        if self.policy is not None:
-            check_keys(self.policy, tuple(self.values), "the policy", needed=self.entered)
-            for state, chances in self.policy.items():
-                check_chances(chances, state, tuple(self.values[state]))
+    def _chances(self) -> Self:
+        check_keys(self.policy, tuple(self.values), "the policy", needed=self.entered)
+        for state, chances in self.policy.items():
+            check_chances(chances, state, tuple(self.values[state]))
         return self
 
     @property
@@ -42,43 +38,69 @@ class Given(ActionRun):
         return tuple(dict.fromkeys(state for state in run.states[1:] if state not in run.terminal))
 
 
+class EpsilonGreedy(ActionRun):
+    """A run, the action values before it, α and γ; and the ε with which the policy chooses ε-greedily."""
+
+    epsilon: OpenProbability
+
+
+def _kind(given: object) -> str | None:
+    match given:
+        case {"policy": _, "epsilon": _}:
+            return None
+        case {"policy": _}:
+            return "policy"
+        case {"epsilon": _}:
+            return "epsilon"
+        case {}:
+            return None
+    return "policy"  # no table at all, as its model will say
+
+
+Given = Annotated[
+    Annotated[FixedPolicy, Tag("policy")] | Annotated[EpsilonGreedy, Tag("epsilon")],
+    Discriminator(_kind, custom_error_type="kind", custom_error_message="give either policy or epsilon"),
+]
+
+
 def draw(level: int, rng: Draws) -> Given:
     """One transition and a given policy; then two that are ε-greedy; then three to the end, with ε left open."""
     visits = {1: "ab", 2: "aba", 3: "abc."}[level]
     trajectory, values = draw_action_run(rng, visits, 2 if level == 1 else 3)
-    policy = epsilon = None
+    half = Fraction(1, 2)
     if level == 1:
         after = trajectory.states[1]
         chance = rng.fraction("1/4", "3/4", "2/5", "3/5")
         policy = {after: dict(zip(values[after], (chance, 1 - chance), strict=True))}
-    else:
-        epsilon = rng.fraction("3/10", "3/5") if level == 2 else Parameter("epsilon")
-    return Given(
+        return FixedPolicy(trajectory=trajectory, values=values, alpha=half, gamma=half, policy=policy)
+    return EpsilonGreedy(
         trajectory=trajectory,
         values=values,
-        alpha=rng.fraction("1/2", "1/4") if level == 3 else Fraction(1, 2),
-        gamma={1: Fraction(1, 2), 2: rng.fraction("1/2", "4/5"), 3: rng.fraction("1/2", "9/10")}[level],
-        policy=policy,
-        epsilon=epsilon,
+        epsilon=rng.fraction("3/10", "3/5") if level == 2 else Parameter("epsilon"),
+        alpha=rng.fraction("1/2", "1/4") if level == 3 else half,
+        gamma={2: rng.fraction("1/2", "4/5"), 3: rng.fraction("1/2", "9/10")}[level],
     )
 
 
 def question(given: Given) -> Question:
     """The run, the table before it and the policy; all updated pairs are asked for."""
-    chosen: tuple[Block, ...]
-    if given.policy is not None:
-        chosen = (Paragraph("The policy is the same all the time:"), policy_table(given.policy))
-    else:
-        chosen = (
-            Paragraph(
-                f"The policy is ε-greedy for the values that are current at each update. {exploration(given.epsilon)} "
-                "Exploring picks any of all actions with the same probability; tied best actions share the greedy "
-                "probability evenly."
-            ),
-        )
     pairs = given.updated
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
-        (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *chosen),
+        (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *_policy(given)),
         (Part(f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
     )
+
+
+def _policy(given: Given) -> tuple[Block, ...]:
+    match given:
+        case FixedPolicy():
+            return (Paragraph("The policy is the same all the time:"), policy_table(given.policy))
+        case EpsilonGreedy():
+            return (
+                Paragraph(
+                    "The policy is ε-greedy for the values that are current at each update. "
+                    f"{exploration(given.epsilon)} Exploring picks any of all actions with the same probability; tied "
+                    "best actions share the greedy probability evenly."
+                ),
+            )

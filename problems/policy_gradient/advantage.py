@@ -1,9 +1,9 @@
 """The advantage of every action in a state; or generalised advantage estimates along a run."""
 
 from fractions import Fraction
-from typing import Self
+from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
@@ -30,34 +30,50 @@ REVISION = 2
 
 
 class Lookahead(Givens):
-    """What the actions of one state do, the values of states, and the policy there.
-
-    Without a policy the value of the state itself must be among the values.
-    """
+    """What the actions of one state do, and the values of states."""
 
     dynamics: Dynamics
     values: dict[Name, Exact] = Field(min_length=1)
-    policy: PolicyField | None = None
 
     @model_validator(mode="after")
-    def _fits(self) -> Self:
+    def _one_state(self) -> Self:
         if len(self.dynamics.states) != 1:
             raise ValueError("dynamics must hold the actions of one state only")
-        reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
-        if self.policy is None:
-            needed = (*reached, *self.dynamics.states)
-            check_keys(self.values, needed, "the value", needed=needed)
-            return self
-        if self.state in (*reached, *self.values):
-            raise ValueError(f"policy: the value of {self.state!r} follows from it, so it must not be given or reached")
-        check_keys(self.values, reached, "the value", needed=reached)
-        check_policy(self.policy, self.dynamics)
         return self
 
     @property
     def state(self) -> str:
         """The state whose actions are compared."""
         return self.dynamics.states[0]
+
+    @property
+    def reached(self) -> tuple[str, ...]:
+        """The states that come next."""
+        return tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
+
+
+class ValueLookahead(Lookahead):
+    """What the actions of one state do, its value and those of the next states."""
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        needed = (*self.reached, self.state)
+        check_keys(self.values, needed, "the value", needed=needed)
+        return self
+
+
+class PolicyLookahead(Lookahead):
+    """What the actions of one state do, the values of the next states, and the policy, which says what it is worth."""
+
+    policy: PolicyField
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        if self.state in (*self.reached, *self.values):
+            raise ValueError(f"policy: the value of {self.state!r} follows from it, so it must not be given or reached")
+        check_keys(self.values, self.reached, "the value", needed=self.reached)
+        check_policy(self.policy, self.dynamics)
+        return self
 
 
 class Run(Givens):
@@ -73,18 +89,46 @@ class Run(Givens):
         return self
 
 
-class Given(Givens):
-    """One state to look ahead from, or a run to estimate along; and the discount."""
+class OfValue(Givens):
+    """One state of known value to look ahead from, and the discount."""
 
-    lookahead: Lookahead | None = None
-    run: Run | None = None
+    lookahead: ValueLookahead
     gamma: Probability
 
-    @model_validator(mode="after")
-    def _one_of_them(self) -> Self:
-        if (self.lookahead is None) == (self.run is None):
-            raise ValueError("give either lookahead or run")
-        return self
+
+class OfPolicy(Givens):
+    """One state with a policy to look ahead from, and the discount."""
+
+    lookahead: PolicyLookahead
+    gamma: Probability
+
+
+class AlongRun(Givens):
+    """A run to estimate along, and the discount."""
+
+    run: Run
+    gamma: Probability
+
+
+def _kind(given: object) -> str | None:
+    match given:
+        case {"lookahead": _, "run": _}:
+            return None
+        case {"lookahead": {"policy": _}}:
+            return "policy"
+        case {"lookahead": _}:
+            return "value"
+        case {"run": _}:
+            return "run"
+        case {}:
+            return None
+    return "run"  # no table at all, as its model will say
+
+
+Given = Annotated[
+    Annotated[OfValue, Tag("value")] | Annotated[OfPolicy, Tag("policy")] | Annotated[AlongRun, Tag("run")],
+    Discriminator(_kind, custom_error_type="kind", custom_error_message="give either lookahead or run"),
+]
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -99,7 +143,7 @@ def draw(level: int, rng: Draws) -> Given:
             terminal=tuple(state for state in states if state == setting.terminal),
         )
         values = {state: rng.nonzero(-3, 8) for state in setting.states if state in states}
-        return Given(
+        return AlongRun(
             run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=rng.fraction("1/2", "2/3", "1")
         )
     state, *others = rng.shuffled(setting.states)[:3]
@@ -120,34 +164,32 @@ def draw(level: int, rng: Draws) -> Given:
         if not between:
             return draw(level, rng)
         values[state] = rng.choice(between)
-    lookahead = Lookahead(
-        dynamics=Dynamics(transitions=tuple(rows)),
-        values=values,
-        policy=None if level == 1 else {state: dict(zip(actions, rng.split(3, (4, 5)), strict=True))},
+        return OfValue(lookahead=ValueLookahead(dynamics=Dynamics(transitions=tuple(rows)), values=values), gamma=gamma)
+    policy = {state: dict(zip(actions, rng.split(3, (4, 5)), strict=True))}
+    return OfPolicy(
+        lookahead=PolicyLookahead(dynamics=Dynamics(transitions=tuple(rows)), values=values, policy=policy), gamma=gamma
     )
-    return Given(lookahead=lookahead, gamma=gamma)
 
 
 def question(given: Given) -> Question:
     """Action values first and then advantages; or the estimates along a run."""
-    if given.lookahead is not None:
-        return _of_one_state(given, given.lookahead)
-    if given.run is None:
-        raise ValueError("neither lookahead nor run is given")
-    return _along(given, given.run)
+    match given:
+        case AlongRun():
+            return _along(given)
+        case OfValue() | OfPolicy():
+            return _of_one_state(given)
 
 
-def _of_one_state(given: Given, ahead: Lookahead) -> Question:
-    state = ahead.state
+def _of_one_state(given: OfValue | OfPolicy) -> Question:
+    ahead, state = given.lookahead, given.lookahead.state
     pairs = tuple((state, action) for action in ahead.dynamics.actions[state])
     opening: tuple[Block, ...] = (
         Paragraph(f"In state {state} the actions do this:"),
         transitions_table(ahead.dynamics),
     )
     parts = [Part(f"What are the action values $Q^π(s, a)$ in {state}?", Values("Q^π", pairs), zero=True)]
-    if ahead.policy is None:
-        of_states = "The values of the states under the policy $π$ are estimated as follows."
-    else:
+    of_states = "The values of the states under the policy $π$ are estimated as follows."
+    if isinstance(ahead, PolicyLookahead):
         opening += (Paragraph("The policy $π$ takes them with these probabilities:"), policy_table(ahead.policy))
         of_states = "The values of the next states under it are known."
         parts.append(Part(f'What is the value $V^π("{state}")$?', Number(), zero=True))
@@ -156,7 +198,8 @@ def _of_one_state(given: Given, ahead: Lookahead) -> Question:
     return Question(blocks, tuple(parts))
 
 
-def _along(given: Given, run: Run) -> Question:
+def _along(given: AlongRun) -> Question:
+    run = given.run
     times = range(len(run.trajectory.rewards))
     errors = tuple(f"δ_{{{time}}}" for time in times)
     estimates = tuple(f"Â_{{{time}}}" for time in times)

@@ -33,10 +33,11 @@ class Given(ValueRun):
         """Whether a state is visited more than once."""
         return len(self.visited) < len(self.trajectory.rewards)
 
-    def counted(self, visits: str) -> tuple[int, ...]:
+    @property
+    def counted(self) -> tuple[int, ...]:
         """The times of the visits that count: the first of each state, or all."""
         states = self.trajectory.states[:-1]
-        return tuple(time for time, state in enumerate(states) if visits == "every" or states.index(state) == time)
+        return tuple(time for time, state in enumerate(states) if self.visits == "every" or states.index(state) == time)
 
 
 def draw(level: int, rng: Draws) -> Given:

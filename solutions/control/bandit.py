@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from rldrill.problems.control.bandit import NEXT, Given
+from rldrill.problems.control.bandit import NEXT, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import decimal, exact
+from rldrill.solutions.exact import Value, decimal, exact
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
     ALL_PULLS_COUNTED,
@@ -37,57 +37,75 @@ MISCONCEPTIONS = (
 
 def solve(given: Given, work: Work) -> None:
     """What the kind of bandit asks for."""
-    known: dict[str, Any] = {
-        "A": {number: pull.arm for number, pull in enumerate(given.every_pull, 1)},
-        "r": {number: exact(pull.reward) for number, pull in enumerate(given.every_pull, 1)},
-        "n": len(given.pulls),
-        "choices": given.arms,
+    match given:
+        case Estimates():
+            averages = _averages(given, work)
+            work.answer({NEXT: work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.arms)})
+        case Bounds():
+            _explore(given, work, _averages(given, work))
+        case Preferences():
+            _follow_gradient(given, work)
+
+
+def _pulls(pulls: tuple[Pull, ...]) -> dict[str, Any]:
+    """Arms and rewards by the number of the pull."""
+    return {
+        "A": {number: pull.arm for number, pull in enumerate(pulls, 1)},
+        "r": {number: exact(pull.reward) for number, pull in enumerate(pulls, 1)},
     }
-    if given.kind == "gradient":
-        _gradient(given, work, known)
-        return
-    known["Q"] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.arms})
-    if given.kind == "estimates":
-        work.answer({NEXT: work.step(GREEDY_ARM, n=known["n"], Q=known["Q"], choices=given.arms)})
-        return
-    assert given.c is not None  # or it would be of another kind
-    known |= {
-        "t": known["n"] + 1,
+
+
+def _averages(given: Estimates | Bounds, work: Work) -> dict[str, Value]:
+    """The first answer: what each arm gave on average."""
+    known = _pulls(given.pulls) | {"n": len(given.pulls)}
+    averages: dict[str, Value] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.arms})
+    return averages
+
+
+def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
+    """The bounds, then the arm that has the greatest."""
+    time = len(given.pulls) + 1
+    known = {
+        "Q": averages,
+        "t": time,
         "c": exact(given.c),
         "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.arms},
     }
     bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.arms})
     work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
-    work.answer({NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.arms)})
+    work.answer({NEXT: work.step(UCB_ARM, t=time, U=bounds, choices=given.arms)})
 
 
-def _gradient(given: Given, work: Work, known: dict[str, Any]) -> None:
+def _follow_gradient(given: Preferences, work: Work) -> None:
     """Probabilities, the baseline, then all preferences at once."""
-    known["H"] = knowns.values(given.preferences or {})
+    known = _pulls(given.every_pull) | {
+        "n": len(given.pulls),
+        "choices": given.arms,
+        "H": knowns.values(given.preferences),
+        "alpha": exact(given.alpha),
+    }
     known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.arms})
     known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], n=known["n"])}
-    assert given.alpha is not None  # or it would be of another kind
-    known["alpha"] = exact(given.alpha)
     work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.arms})
 
 
 def oracle(given: Given) -> Answers:
     """Estimates by masks; the gradient step by finite differences of the expected reward's surrogate."""
     rewards = np.array([at(pull.reward) for pull in given.pulls])
-    pulled = np.array([[pull.arm == arm for pull in given.pulls] for arm in given.arms])
-    if given.preferences is not None and given.alpha is not None and given.pulled is not None:
+    if isinstance(given, Preferences):
         H = np.array([at(value) for value in given.preferences.values()])
-        arm = given.arms.index(given.pulled.arm)
         surplus = at(given.pulled.reward) - rewards.mean()
-        return (np.exp(_log_softmax(H)), H + at(given.alpha) * surplus * _slope(H, arm))
+        slope = _slope(H, given.arms.index(given.pulled.arm))
+        return (np.exp(_log_softmax(H)), H + at(given.alpha) * surplus * slope)
+    pulled = np.array([[pull.arm == arm for pull in given.pulls] for arm in given.arms])
     means = np.array([rewards[mask].mean() for mask in pulled])
-    if given.c is None:
+    if isinstance(given, Estimates):
         return (means, {NEXT: _best(given, means)})
     bounds = means + at(given.c) * np.sqrt(np.log(len(rewards) + 1) / pulled.sum(axis=1))
     return (means, bounds, {NEXT: _best(given, bounds)})
 
 
-def _best(given: Given, worth: Array) -> set[str]:
+def _best(given: Estimates | Bounds, worth: Array) -> set[str]:
     return {arm for arm, value in zip(given.arms, worth, strict=True) if np.isclose(value, worth.max(), rtol=1e-12)}
 
 

@@ -1,5 +1,6 @@
 """Double Q-learning along a run: one table selects the next action, the other one says what it is worth."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
@@ -19,27 +20,39 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-BOTH_UPDATED = fork(
+
+def solve(given: Given, work: Work) -> None:
+    """For every transition the action selected, then the update of the one table."""
+    _learn(given, work, lambda turn: (turn,))
+
+
+@slip(
     "both-tables-updated",
     "Each transition updates one table only, the one that the coin says; the other stays as it is.",
     when=lambda given: len(set(given.updates)) > 1 and bool(set(given.updated_in(1)) & set(given.updated_in(2))),
 )
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, BOTH_UPDATED)
+def both_updated(given: Given, work: Work) -> None:
+    """For every transition the update of both tables, from the values before it."""
+    _learn(given, work, lambda turn: (3 - turn, turn))
 
 
-def solve(given: Given, work: Work) -> None:
-    """For every transition the action selected, then the update of the one table."""
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, both_updated)
+
+
+def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) -> None:
+    """Every transition updates the tables that ``updated`` makes of the one that the coin says."""
     run = given.trajectory
     known = knowns.action_run(given)
     tables = {(1, *pair): value for pair, value in known["Q"].items()}
     tables |= {(2, *pair): value for pair, value in known["Q"].items()}  # what nobody gave: nothing after the end
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
-        turns = (3 - turn, turn) if work.makes(BOTH_UPDATED) else (turn,)
-        tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in turns}
-        if turn not in given.updates[time + 1 :]:
-            answer = work.answer({pair: tables[turn, *pair] for pair in given.updated_in(turn)})
-            tables = tables | {(turn, *pair): value for pair, value in answer.items()}
+        tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
+        later = {table for turn in given.updates[time + 1 :] for table in updated(turn)}
+        for table in updated(turn):
+            if table not in later:
+                answer = work.answer({pair: tables[table, *pair] for pair in given.updated_in(table)})
+                tables = tables | {(table, *pair): value for pair, value in answer.items()}
 
 
 def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: dict[str, Any]) -> Any:

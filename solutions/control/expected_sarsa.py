@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from rldrill.problems.control.expected_sarsa import Given
+from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.greedy import epsilon_greedy
-from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
     EXPECTED_FORGOT_GAMMA,
     EXPECTED_SARSA,
@@ -35,10 +35,11 @@ def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> d
     """The probabilities of the actions of a state that is entered."""
     if state in given.trajectory.terminal:
         return dict.fromkeys(values, ONE)
-    if given.policy is not None:
-        return {action: exact(given.policy[state].get(action, 0)) for action in values}
-    assert given.epsilon is not None  # the givens have one or the other
-    return epsilon_greedy(work, state, values, exact(given.epsilon))
+    match given:
+        case FixedPolicy():
+            return {action: exact(given.policy[state].get(action, 0)) for action in values}
+        case EpsilonGreedy():
+            return epsilon_greedy(work, state, values, exact(given.epsilon))
 
 
 def oracle(given: Given) -> Answers:
@@ -47,11 +48,15 @@ def oracle(given: Given) -> Answers:
     Q = {state: np.array([at(value) for value in row.values()]) for state, row in given.values.items()}
     place = {state: list(row).index for state, row in given.values.items()}
     for time, (state, after) in enumerate(zip(run.states, run.states[1:], strict=False)):
-        ahead = 0.0
-        if after not in run.terminal and given.policy is not None:
-            ahead = float(np.dot([at(given.policy[after].get(action, 0)) for action in given.values[after]], Q[after]))
-        elif after not in run.terminal and given.epsilon is not None:
-            ahead = (1 - at(given.epsilon)) * Q[after].max() + at(given.epsilon) * Q[after].mean()
+        ahead = 0.0 if after in run.terminal else _expected(given, after, Q[after])
         cell = place[state](run.actions[time])
         Q[state][cell] += at(given.alpha) * (at(run.rewards[time]) + at(given.gamma) * ahead - Q[state][cell])
     return ([Q[state][place[state](action)] for state, action in given.updated],)
+
+
+def _expected(given: Given, state: str, Q: Array) -> float:
+    match given:
+        case FixedPolicy():
+            return float(np.dot([at(given.policy[state].get(action, 0)) for action in given.values[state]], Q))
+        case EpsilonGreedy():
+            return float((1 - at(given.epsilon)) * Q.max() + at(given.epsilon) * Q.mean())

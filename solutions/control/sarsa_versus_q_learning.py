@@ -1,11 +1,14 @@
 """Both targets along a run, each method with its own copy of the table."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.control.sarsa_versus_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value
-from rldrill.solutions.formula.formula import Formula, fork
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     Q_LEARNING_TARGET,
@@ -16,66 +19,111 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-TARGETS_SWAPPED = fork(
-    "targets-swapped",
-    "It is the other way round: Sarsa's target has the value of the action taken, Q-learning's the greatest value.",
-)
-UPDATE_FOR_TARGET = fork(
-    "update-for-target",
-    "The target is what the old value is moved towards; α and the old value come in only when it is moved.",
-)
-POLICY_SWAPPED = fork(
-    "on-and-off-policy-swapped",
-    "Sarsa's target uses the action that its own policy takes (on-policy); Q-learning's uses the best action, "
-    "whatever its policy does (off-policy).",
-)
-SAID_BOTH = fork(
-    "both-alike",
-    "They differ: Sarsa learns the values of the policy that acts, Q-learning those of the greedy policy.",
-)
-SAID_NEITHER = fork(
-    "neither",
-    "Every method is the one or the other: Sarsa learns about the policy that acts, Q-learning about the greedy one.",
-)
-MISCONCEPTIONS = (
-    TARGETS_SWAPPED,
-    UPDATE_FOR_TARGET,
-    SARSA_TARGET_FORGOT_GAMMA,
-    Q_LEARNING_TARGET_FORGOT_GAMMA,
-    POLICY_SWAPPED,
-    SAID_BOTH,
-    SAID_NEITHER,
-)
+#: The letter of the method that is meant by a word.
+_LETTERS = {"on-policy": "A", "off-policy": "B"}
 
 
 def solve(given: Given, work: Work) -> None:
     """The targets of the one method, then of the other; then the word."""
-    sarsa, q_learning = SARSA_TARGET, Q_LEARNING_TARGET
-    if work.makes(TARGETS_SWAPPED):
-        sarsa, q_learning = q_learning, sarsa
-    for formula in (sarsa, q_learning):
-        targets = _targets(given, work, formula)
-        work.answer(targets[0] if len(targets) == 1 else targets)
-    right, wrong = ("A", "B") if given.word == "on-policy" else ("B", "A")
-    said = {POLICY_SWAPPED: wrong, SAID_BOTH: "C", SAID_NEITHER: "D"}
+    _compare(given, work, _LETTERS[given.word])
+
+
+def _targets(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
+    return tuple(target for _, target in _along(given, work, formula))
+
+
+def _along(given: Given, work: Work, formula: Formula) -> list[tuple[dict[str, Any], Value]]:
+    """What is known at every transition, and the target; the table is moved in between, but not after the last."""
+    known = knowns.action_run(given)
+    run = given.trajectory
+    found = [(known, work.step(formula, t=0, **known))]
+    for time, pair in enumerate(zip(run.states[:-2], run.actions, strict=False)):
+        known = known | {"Q": known["Q"] | {pair: _moved(work, time, *found[-1])}}
+        found.append((known, work.step(formula, t=time + 1, **known)))
+    return found
+
+
+def _moved(work: Work, time: int, known: dict[str, Any], target: Value) -> Value:
+    return work.step(TOWARDS_TARGET, t=time, y={time: target}, **known)
+
+
+def _compare(
+    given: Given,
+    work: Work,
+    letter: str,
+    formulas: tuple[Formula, ...] = (SARSA_TARGET, Q_LEARNING_TARGET),
+    numbers: Callable[[Given, Work, Formula], tuple[Value, ...]] = _targets,
+) -> None:
+    """The numbers that the formula of each method leads to, and the letter of the method that the word means."""
+    for formula in formulas:
+        found = numbers(given, work, formula)
+        work.answer(found[0] if len(found) == 1 else found)
     work.say(
         "Sarsa's targets use the actions that were taken, so it learns about the policy that acts: it is on-policy. "
         "Q-learning's use the best actions, so it learns about the greedy policy: it is off-policy."
     )
-    work.answer(next((letter for mistake, letter in said.items() if work.makes(mistake)), right))
+    work.answer(letter)
 
 
-def _targets(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
-    """The target of every transition; the table is moved in between, but not after the last."""
-    known = knowns.action_run(given)
-    run = given.trajectory
-    found = []
-    for time, pair in enumerate(zip(run.states[:-1], run.actions, strict=False)):
-        target = work.step(formula, t=time, **known)
-        if work.makes(UPDATE_FOR_TARGET) or time + 1 < len(run.rewards):
-            known["Q"] = known["Q"] | {pair: work.step(TOWARDS_TARGET, t=time, y={time: target}, **known)}
-        found.append(known["Q"][pair] if work.makes(UPDATE_FOR_TARGET) else target)
-    return tuple(found)
+@slip(
+    "targets-swapped",
+    "It is the other way round: Sarsa's target has the value of the action taken, Q-learning's the greatest value.",
+)
+def targets_swapped(given: Given, work: Work) -> None:
+    """The targets of the other method."""
+    _compare(given, work, _LETTERS[given.word], formulas=(Q_LEARNING_TARGET, SARSA_TARGET))
+
+
+def _updates(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
+    return tuple(_moved(work, time, *found) for time, found in enumerate(_along(given, work, formula)))
+
+
+@slip(
+    "update-for-target",
+    "The target is what the old value is moved towards; α and the old value come in only when it is moved.",
+)
+def update_for_target(given: Given, work: Work) -> None:
+    """The values that were moved towards the targets."""
+    _compare(given, work, _LETTERS[given.word], numbers=_updates)
+
+
+@slip(
+    "on-and-off-policy-swapped",
+    "Sarsa's target uses the action that its own policy takes (on-policy); Q-learning's uses the best action, "
+    "whatever its policy does (off-policy).",
+)
+def policy_swapped(given: Given, work: Work) -> None:
+    """The letter of the other method."""
+    solve(given.model_copy(update={"word": "off-policy" if given.word == "on-policy" else "on-policy"}), work)
+
+
+@slip(
+    "both-alike",
+    "They differ: Sarsa learns the values of the policy that acts, Q-learning those of the greedy policy.",
+)
+def said_both(given: Given, work: Work) -> None:
+    """The letter that stands for both."""
+    _compare(given, work, "C")
+
+
+@slip(
+    "neither",
+    "Every method is the one or the other: Sarsa learns about the policy that acts, Q-learning about the greedy one.",
+)
+def said_neither(given: Given, work: Work) -> None:
+    """The letter that stands for neither."""
+    _compare(given, work, "D")
+
+
+MISCONCEPTIONS = (
+    targets_swapped,
+    update_for_target,
+    SARSA_TARGET_FORGOT_GAMMA,
+    Q_LEARNING_TARGET_FORGOT_GAMMA,
+    policy_swapped,
+    said_both,
+    said_neither,
+)
 
 
 def oracle(given: Given) -> Answers:

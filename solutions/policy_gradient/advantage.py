@@ -5,7 +5,15 @@ from typing import Any
 import numpy as np
 
 from rldrill.problems.exact import Parameter
-from rldrill.problems.policy_gradient.advantage import Given, Lookahead, Run
+from rldrill.problems.policy_gradient.advantage import (
+    AlongRun,
+    Given,
+    OfPolicy,
+    OfValue,
+    PolicyLookahead,
+    Run,
+    ValueLookahead,
+)
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
@@ -26,14 +34,15 @@ MISCONCEPTIONS = (ADVANTAGE_SIGN, NEXT_STATES_VALUE, GAE_WITHOUT_LAMBDA, GAE_WIT
 
 def solve(given: Given, work: Work) -> None:
     """One state's actions, or a run."""
-    if given.lookahead is not None:
-        _compare(given, given.lookahead, work)
-    elif given.run is not None:
-        _estimate(given, given.run, work)
+    match given:
+        case AlongRun():
+            _estimate(given, work)
+        case OfValue() | OfPolicy():
+            _compare(given, work)
 
 
-def _compare(given: Given, ahead: Lookahead, work: Work) -> None:
-    state = ahead.state
+def _compare(given: OfValue | OfPolicy, work: Work) -> None:
+    ahead, state = given.lookahead, given.lookahead.state
     pairs = tuple((state, action) for action in ahead.dynamics.actions[state])
     known: dict[str, Any] = knowns.model(ahead.dynamics) | {
         "s": state,
@@ -41,13 +50,14 @@ def _compare(given: Given, ahead: Lookahead, work: Work) -> None:
         "V": knowns.values(ahead.values),
     }
     known["Q"] = work.answer({pair: work.step(BELLMAN_Q, a=pair[1], **known) for pair in pairs})
-    if ahead.policy is not None:
+    if isinstance(ahead, PolicyLookahead):
         value = work.answer(work.step(V_FROM_Q, pi=knowns.policy(ahead.policy), **known))
         known["V"] = known["V"] | {state: value}
     work.answer({pair: work.step(ADVANTAGE, a=pair[1], **known) for pair in pairs})
 
 
-def _estimate(given: Given, run: Run, work: Work) -> None:
+def _estimate(given: AlongRun, work: Work) -> None:
+    run = given.run
     times = range(len(run.trajectory.rewards))
     known = knowns.trajectory(run.trajectory) | {
         "gamma": exact(given.gamma),
@@ -64,21 +74,24 @@ def _estimate(given: Given, run: Run, work: Work) -> None:
 
 def oracle(given: Given) -> Answers:
     """One step ahead by a loop over outcomes; estimates as a weighted mean of n-step advantages."""
-    gamma = at(given.gamma)
-    if given.lookahead is not None:
-        ahead = given.lookahead
-        state = ahead.state
-        worth = dict.fromkeys(ahead.dynamics.actions[state], 0.0)
-        for row in ahead.dynamics.transitions:
-            worth[row.action] += at(row.probability) * (at(row.reward) + gamma * at(ahead.values[row.next]))
-        Q = np.array(list(worth.values()))
-        if ahead.policy is None:
-            return (Q, Q - at(ahead.values[state]))
-        V = sum(at(ahead.policy[state].get(action, 0)) * value for action, value in worth.items())
-        return (Q, V, Q - V)
-    if given.run is None:
-        return ()
-    return _estimates(given.run, gamma)
+    match given:
+        case AlongRun():
+            return _estimates(given.run, at(given.gamma))
+        case OfValue() | OfPolicy():
+            return _advantages(given.lookahead, at(given.gamma))
+
+
+def _advantages(ahead: ValueLookahead | PolicyLookahead, gamma: float) -> Answers:
+    worth = dict.fromkeys(ahead.dynamics.actions[ahead.state], 0.0)
+    for row in ahead.dynamics.transitions:
+        worth[row.action] += at(row.probability) * (at(row.reward) + gamma * at(ahead.values[row.next]))
+    Q = np.array(list(worth.values()))
+    match ahead:
+        case ValueLookahead():
+            return (Q, Q - at(ahead.values[ahead.state]))
+        case PolicyLookahead():
+            V = sum(at(ahead.policy[ahead.state].get(action, 0)) * value for action, value in worth.items())
+            return (Q, V, Q - V)
 
 
 def _estimates(run: Run, gamma: float) -> Answers:

@@ -84,14 +84,6 @@ def _last_action_is_known(given: Any) -> bool:
     return bool(given.last_action_known)
 
 
-def _tied(given: Any) -> bool:
-    return len(given.best) > 1
-
-
-def _not_tied(given: Any) -> bool:
-    return not _tied(given)
-
-
 def _moved(target: Expr) -> Expr:
     """The value of the pair just left, moved a step α towards a target."""
     return Q(S(t), A(t)) + alpha * (target - Q(S(t), A(t)))
@@ -235,12 +227,10 @@ with evaluate(False):
     SHARE_FORGOTTEN = Misconception(
         "share-of-epsilon-forgotten",
         "Exploring picks among all actions, so the greedy action gets its share ε/|A| too, on top of 1 − ε.",
-        when=_not_tied,
     )
     SHARED_AMONG_OTHERS = Misconception(
         "shared-among-the-others",
         "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
-        when=_not_tied,
     )
     EPSILON_GREEDY = Formula(
         "epsilon-greedy",
@@ -258,17 +248,14 @@ with evaluate(False):
     TIED_SHARE_FORGOTTEN = Misconception(
         "share-of-epsilon-forgotten-in-a-tie",
         "Exploring picks among all actions, so the tied best actions get their shares ε/|A| too.",
-        when=_tied,
     )
     TIED_SHARED_AMONG_OTHERS = Misconception(
         "shared-among-those-not-best",
         "Exploring picks among all |A| actions, the tied best ones too, not among the others only.",
-        when=lambda given: _tied(given) and len(given.best) < len(given.values),
+        when=lambda given: len(given.best) < len(given.values),
     )
     NOT_SPLIT = Misconception(
-        "not-split-in-a-tie",
-        "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
-        when=_tied,
+        "not-split-in-a-tie", "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it."
     )
     EPSILON_GREEDY_TIED = Formula(
         "epsilon-greedy-tied",
@@ -434,9 +421,7 @@ with evaluate(False):
     _EARNED = SumOver(r(i) * Indicator(A(i), a), i, Counting(1, n))
 
     ALL_PULLS_COUNTED = Misconception(
-        "all-pulls-counted",
-        "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
-        when=lambda given: given.kind != "gradient",
+        "all-pulls-counted", "Each arm's rewards are divided by the number of its own pulls, not of all pulls."
     )
     ARM_ESTIMATE = Formula(
         "arm-estimate",
@@ -459,15 +444,10 @@ with evaluate(False):
         hint="Take the arm whose estimate is greatest.",
         place=Place.WORKING,
     )
-    TIME_FOR_LOG = Misconception(
-        "t-for-ln-t",
-        "Under the root stands the logarithm ln t, not the time t itself.",
-        when=lambda given: given.kind == "ucb",
-    )
+    TIME_FOR_LOG = Misconception("t-for-ln-t", "Under the root stands the logarithm ln t, not the time t itself.")
     OWN_COUNT_FORGOTTEN = Misconception(
         "own-count-forgotten",
         "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
-        when=lambda given: given.kind == "ucb",
     )
     UCB = Formula(
         "ucb",
@@ -495,7 +475,7 @@ with evaluate(False):
     BANDIT_WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: given.kind == "gradient" and sum(given.preferences.values()) != 0,
+        when=lambda given: sum(given.preferences.values()) != 0,
     )
     GRADIENT_BANDIT_POLICY = Formula(
         "gradient-bandit-policy",
@@ -519,14 +499,10 @@ with evaluate(False):
         place=Place.WORKING,
     )
     BASELINE_FORGOTTEN = Misconception(
-        "baseline-forgotten",
-        "What counts is how far the reward is above or below the baseline, not the reward itself.",
-        when=lambda given: given.kind == "gradient",
+        "baseline-forgotten", "What counts is how far the reward is above or below the baseline, not the reward itself."
     )
     OTHERS_UNCHANGED = Misconception(
-        "others-unchanged",
-        "The preferences of the arms that were not pulled move too, the other way.",
-        when=lambda given: given.kind == "gradient",
+        "others-unchanged", "The preferences of the arms that were not pulled move too, the other way."
     )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",

@@ -213,13 +213,9 @@ with evaluate(False):
     NOT_COUNTED = Misconception(
         "one-over-n-minus-1",
         "The visit that is being averaged in counts too: divide by n(s) after it.",
-        when=lambda given: given.alpha is None and given.visited_before,
+        when=lambda given: given.visited_before,
     )
-    COUNTED_TWICE = Misconception(
-        "one-over-n-plus-1",
-        "n(s) counts this visit already, so nothing is added to it.",
-        when=lambda given: given.alpha is None,
-    )
+    COUNTED_TWICE = Misconception("one-over-n-plus-1", "n(s) counts this visit already, so nothing is added to it.")
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -238,17 +234,13 @@ with evaluate(False):
     OLDEST_FIRST = Misconception(
         "weights-reversed",
         "The newest return has the greatest weight, α; the older one is, the more often it was weakened by 1 − α.",
-        when=lambda given: given.alpha is not None and len(given.visits) > 1,
+        when=lambda given: len(given.visits) > 1,
     )
     ONE_POWER_MORE = Misconception(
-        "weakened-once-too-often",
-        "The newest return has not been weakened yet: its weight is α.",
-        when=lambda given: given.alpha is not None,
+        "weakened-once-too-often", "The newest return has not been weakened yet: its weight is α."
     )
     EQUAL_WEIGHTS = Misconception(
-        "equal-weights",
-        "Only the sample average weights all returns alike; a constant step size favours the newest.",
-        when=lambda given: given.alpha is not None,
+        "equal-weights", "Only the sample average weights all returns alike; a constant step size favours the newest."
     )
     RECENCY_WEIGHT = Formula(
         "recency-weight",
@@ -268,7 +260,6 @@ with evaluate(False):
     START_FORGOTTEN = Misconception(
         "first-value-forgotten",
         "With a constant step size the first value never leaves the average: its weight is (1 − α)ⁿ.",
-        when=lambda given: given.alpha is not None,
     )
     CONSTANT_STEP_SIZE = Formula(
         "constant-step-size",

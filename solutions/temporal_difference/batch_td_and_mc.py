@@ -1,44 +1,35 @@
 """Batch Monte Carlo averages returns; batch TD(0) averages one-step targets, for all states at once."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.temporal_difference.batch_td_and_mc import Given, Observed, run_text
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import BATCH_MONTE_CARLO, BATCH_TD
 from rldrill.solutions.work import Work
 
-
-def _leads_on(given: Given) -> bool:
-    return any(len(episode.states) > 1 for episode in given.episodes)
-
-
-TD_FOR_MC = fork(
-    "td-for-monte-carlo",
-    "Batch Monte Carlo averages the whole returns that were seen after a state; it builds on no other state's value.",
-    when=_leads_on,
-)
-MC_FOR_TD = fork(
-    "monte-carlo-for-td",
-    "Batch TD(0) builds on the value of the next state, so what other episodes say about that state counts too.",
-    when=_leads_on,
-)
-MISCONCEPTIONS = (TD_FOR_MC, MC_FOR_TD)
-
 #: The state in which every episode ends; no state of a problem can have this name.
 END = "–"
 
 
+Method = Callable[[Given, Work, dict[str, Any]], dict[str, Value]]
+
+
 def solve(given: Given, work: Work) -> None:
-    """Both answers; who takes one method for the other gives its answer twice."""
+    """Monte Carlo's answer, then that of TD(0)."""
+    _answer(given, work, _monte_carlo, _td)
+
+
+def _answer(given: Given, work: Work, *methods: Method) -> None:
     known = _known(given)
-    work.answer(_td(given, work, known) if work.makes(TD_FOR_MC) else _monte_carlo(given, work, known))
-    work.answer(_monte_carlo(given, work, known) if work.makes(MC_FOR_TD) else _td(given, work, known))
+    for method in methods:
+        work.answer(method(given, work, known))
 
 
 def _known(given: Given) -> dict[str, Any]:
@@ -85,6 +76,33 @@ def _returns(episode: Observed, work: Work, gamma: Value) -> list[Value]:
 def _td(given: Given, work: Work, known: dict[str, Any]) -> dict[str, Value]:
     solution = work.system(BATCH_TD, V, [{"s": state} for state in given.states], V={END: ZERO}, **known)
     return {state: solution[state] for state in given.states}
+
+
+def _leads_on(given: Given) -> bool:
+    return any(len(episode.states) > 1 for episode in given.episodes)
+
+
+@slip(
+    "td-for-monte-carlo",
+    "Batch Monte Carlo averages the whole returns that were seen after a state; it builds on no other state's value.",
+    when=_leads_on,
+)
+def td_for_monte_carlo(given: Given, work: Work) -> None:
+    """The answer of TD(0) twice."""
+    _answer(given, work, _td, _td)
+
+
+@slip(
+    "monte-carlo-for-td",
+    "Batch TD(0) builds on the value of the next state, so what other episodes say about that state counts too.",
+    when=_leads_on,
+)
+def monte_carlo_for_td(given: Given, work: Work) -> None:
+    """Monte Carlo's answer twice."""
+    _answer(given, work, _monte_carlo, _monte_carlo)
+
+
+MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td)
 
 
 def oracle(given: Given) -> Answers:

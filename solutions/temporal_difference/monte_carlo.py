@@ -5,52 +5,63 @@ import numpy as np
 from rldrill.problems.temporal_difference.monte_carlo import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
 from rldrill.solutions.work import Work
 
-OTHER_VISITS = fork(
+
+def solve(given: Given, work: Work) -> None:
+    """All returns first; then one update for every visit that counts, in their order."""
+    _update(given, work, _returns(given, work))
+
+
+def _returns(given: Given, work: Work) -> tuple[Value, ...]:
+    """The returns, which are the first answer where they are asked for."""
+    rewards = knowns.trajectory(given.trajectory)["r"]
+    end = len(rewards)
+    G = {end: ZERO}
+    for time in reversed(range(end)):
+        G = G | {time: work.step(RETURN_RECURSIVE, t=time, G=G, r=rewards, gamma=exact(given.gamma))}
+    returns = tuple(G[time] for time in range(end))
+    if not given.in_parts:
+        return returns
+    carried = work.answer(returns if end > 1 else returns[0])
+    return carried if end > 1 else (carried,)
+
+
+def _update(given: Given, work: Work, returns: tuple[Value, ...]) -> None:
+    run = given.trajectory
+    known = {"S": dict(enumerate(run.states)), "G": dict(enumerate(returns)), "alpha": exact(given.alpha)}
+    values = knowns.state_values(given.values, run.terminal)
+    for time in given.counted:
+        values = values | {run.states[time]: work.step(MONTE_CARLO, t=time, V=values, **known)}
+    work.answer({state: values[state] for state in given.visited})
+
+
+@slip(
     "other-visits",
     "First-visit Monte Carlo updates a state once in an episode, every-visit Monte Carlo once for each of its visits.",
     when=lambda given: given.revisits,
 )
-REWARD_BEFORE = fork(
+def other_visits(given: Given, work: Work) -> None:
+    """First visits for every visit, or the other way round."""
+    solve(given.model_copy(update={"visits": "every" if given.visits == "first" else "first"}), work)
+
+
+@slip(
     "reward-before-the-state",
     "The reward that comes with the arrival in a state was earned before it; the return begins with the next reward.",
     when=lambda given: len(given.trajectory.rewards) > 1,
 )
-MISCONCEPTIONS = (OTHER_VISITS, RECURSION_UNDISCOUNTED, REWARD_BEFORE)
+def reward_before(given: Given, work: Work) -> None:
+    """Every update with the return from one step earlier, of which the first has none: $r_t + γ R_t$ is $R_{t−1}$."""
+    first, *others = _returns(given, work)
+    _update(given, work, (first, first, *others[:-1]))
 
 
-def solve(given: Given, work: Work) -> None:
-    """All returns first; then one update for every visit that counts, in their order."""
-    run = given.trajectory
-    known = knowns.trajectory(run)
-    gamma = exact(given.gamma)
-    returns = _returns(given, work, known["r"], gamma)
-    if given.in_parts:
-        single = len(run.rewards) == 1
-        carried = work.answer(returns[0] if single else returns)
-        returns = (carried,) if single else carried
-    G = dict(enumerate(returns))
-    if work.makes(REWARD_BEFORE):  # r_t + γ R_t is the return from one step earlier
-        G = {time: G[max(time - 1, 0)] for time in G}
-    values = knowns.state_values(given.values, run.terminal)
-    other = {"first": "every", "every": "first"}[given.visits]
-    for time in given.counted(other if work.makes(OTHER_VISITS) else given.visits):
-        value = work.step(MONTE_CARLO, t=time, V=values, G=G, alpha=exact(given.alpha), S=known["S"])
-        values = values | {run.states[time]: value}
-    work.answer({state: values[state] for state in given.visited})
-
-
-def _returns(given: Given, work: Work, rewards: dict[int, Value], gamma: Value) -> tuple[Value, ...]:
-    end = len(given.trajectory.rewards)
-    G = {end: ZERO}
-    for time in reversed(range(end)):
-        G = G | {time: work.step(RETURN_RECURSIVE, t=time, G=G, r=rewards, gamma=gamma)}
-    return tuple(G[time] for time in range(end))
+MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,41 +1,59 @@
 """TD(λ) in the backward view: after every transition all traces, then all values."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.temporal_difference import ELIGIBILITY_TRACE, LITERAL_VALUE, TD_LAMBDA_BACKWARD
 from rldrill.solutions.work import Work
 
-VISITED_ONLY = fork(
-    "only-visited-state-updated",
-    "Every state with a trace learns from the TD error, not only the one that was just left.",
-    when=lambda given: len(given.visited) > 1,
-)
-TRACE_LATE = fork(
-    "trace-updated-after-value",
-    "The traces are updated before the values: the state that was just left must be counted in its own trace.",
-)
-MISCONCEPTIONS = (LITERAL_VALUE, VISITED_ONLY, TRACE_LATE)
+Traces = dict[str, Value]
 
 
 def solve(given: Given, work: Work) -> None:
     """For every transition the traces and values of all states visited by then; the others have trace 0."""
+    _learn(given, work, lambda _state, _before, after: after)
+
+
+@slip(
+    "only-visited-state-updated",
+    "Every state with a trace learns from the TD error, not only the one that was just left.",
+    when=lambda given: len(given.visited) > 1,
+)
+def visited_only(given: Given, work: Work) -> None:
+    """The value of the state just left alone, by its trace."""
+    _learn(given, work, lambda state, _before, after: {state: after[state]})
+
+
+@slip(
+    "trace-updated-after-value",
+    "The traces are updated before the values: the state that was just left must be counted in its own trace.",
+)
+def trace_late(given: Given, work: Work) -> None:
+    """The values by the traces from before the transition."""
+    _learn(given, work, lambda _state, before, _after: before)
+
+
+MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late)
+
+
+def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
+    """Every transition moves the values by the traces that ``moving`` makes of those before it and after it."""
     run = given.trajectory
     known = knowns.trajectory(run) | {name: exact(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
     values = knowns.state_values(given.values, run.terminal)
-    traces = dict.fromkeys(given.visited, ZERO)
+    traces: Traces = {}
     for time, state in enumerate(run.states[:-1]):
         work.say(f"Transition from $t = {time}$ to ${time + 1}$:")
-        reached = tuple(dict.fromkeys(run.states[: time + 1]))
-        before = traces
-        traces = traces | {s: work.step(ELIGIBILITY_TRACE, s=s, t=time, e=before, **known) for s in reached}
-        used = before if work.makes(TRACE_LATE) else traces
-        updated = (state,) if work.makes(VISITED_ONLY) else reached
-        values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=used, **known) for s in updated}
+        before = traces | {state: traces.get(state, ZERO)}
+        traces = {s: work.step(ELIGIBILITY_TRACE, s=s, t=time, e=before, **known) for s in before}
+        e = moving(state, before, traces)
+        values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=e, **known) for s in e}
     work.answer({state: values[state] for state in given.visited})
 
 

@@ -2,30 +2,39 @@
 
 from rldrill.problems.temporal_difference.td_zero import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
-STALE = fork(
+
+def solve(given: Given, work: Work) -> None:
+    """One update for every transition."""
+    values = knowns.state_values(given.values, given.trajectory.terminal)
+    for time, state in enumerate(given.trajectory.states[:-1]):
+        values = values | {state: _update(given, work, time, values)}
+    work.answer({state: values[state] for state in given.visited})
+
+
+def _update(given: Given, work: Work, time: int, values: dict[str, Value]) -> Value:
+    known = knowns.trajectory(given.trajectory) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+    return work.step(TD_ZERO, t=time, V=values, **known)
+
+
+@slip(
     "stale-values",
     "Each update uses the values that are current then, changed ones included; the old ones were kept.",
     when=lambda given: len(given.trajectory.rewards) > len(given.visited),
 )
-MISCONCEPTIONS = (FORGOT_GAMMA, STALE, TARGET_ONLY, WRONG_SIGN)
-
-
-def solve(given: Given, work: Work) -> None:
-    """One update for every transition."""
-    known = knowns.trajectory(given.trajectory) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+def stale(given: Given, work: Work) -> None:
+    """Every update from the values before the run; of a state's updates the last one stands."""
     before = knowns.state_values(given.values, given.trajectory.terminal)
-    values = before
-    for time, state in enumerate(given.trajectory.states[:-1]):
-        current = before if work.makes(STALE) else values
-        values = values | {state: work.step(TD_ZERO, t=time, V=current, **known)}
-    work.answer({state: values[state] for state in given.visited})
+    work.answer({state: _update(given, work, t, before) for t, state in enumerate(given.trajectory.states[:-1])})
+
+
+MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN)
 
 
 def oracle(given: Given) -> Answers:

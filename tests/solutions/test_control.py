@@ -175,7 +175,7 @@ PULLS: dict[str, Any] = {"pulls": [["x", 1], ["y", 2]]}
         ("importance-sampling", SAMPLING | {"target": {"s": "y"}, "episodes": [EPISODE] * 2}, "no answer"),
         ("bandit", {"pulls": [["x", 1]]}, "at least two arms"),
         ("bandit", PULLS | {"c": 0}, "given.c"),
-        ("bandit", PULLS | {"alpha": 1}, "needs all of preferences, alpha and pulled"),
+        ("bandit", PULLS | {"alpha": 1}, "given.preferences: is missing; add it"),
         ("bandit", PULLS | {"c": 1, "alpha": 1, "preferences": {"x": 0, "y": 0}, "pulled": ["x", 1]}, "give one of"),
         ("bandit", PULLS | {"alpha": 1, "preferences": {"x": 0, "z": 0}, "pulled": ["x", 1]}, "given for 'y'"),
     ],
