@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.formula import Formula, Misconception, Place, fork
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -52,11 +52,6 @@ St = _matrix("St", "s")
 Ut = _matrix("Ut", "a")
 rt = quantity("rt", _reward_layout)
 J = letter("J")
-
-COST_TO_GO = fork(
-    "cost-to-go-given",
-    "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
-)
 
 #: How a working in values of P reads for somebody who learnt it in costs.
 IN_COSTS = (
@@ -316,9 +311,7 @@ with evaluate(False):
         hint="Row i belongs to the component of f, column j to the action.",
     )
     FORGOT_IDENTITY = Misconception(
-        "forgot-identity",
-        "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
-        when=lambda given: given.step is not None,
+        "forgot-identity", "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A."
     )
     EULER_A = Formula(
         "linearise-euler-a",
