@@ -123,8 +123,8 @@ with evaluate(False):
         hint="Work out Bᵀ P first; it stands in the bracket and behind it.",
         note="$P$ is the matrix of the value $V(s) = s^⊤ P s$, negative semidefinite. Cost-to-go: $S = −P$.",
         misread={
-            POSITIVE_S: Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
-            * -Transposed(Bt(t))
+            POSITIVE_S: -Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
+            * Transposed(Bt(t))
             * Pt(t + 1)
             * At(t),
             FORGOT_R: Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * At(t),
