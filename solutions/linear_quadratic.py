@@ -1,6 +1,6 @@
 """Linear systems of problems as formulas need them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,10 @@ from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.slips import right_answers
+from rldrill.solutions.work import Work
 
 
 def known(given: LinearQuadratic) -> dict[str, Any]:
@@ -35,6 +38,19 @@ def start(given: LinearQuadratic) -> matrices.AnyMatrix:
 def number(value: Any) -> Value:
     """A 1×1 matrix as a number; 0, where nothing stands in its place."""
     return value[0, 0] if matrices.is_matrix(value) else ZERO + value
+
+
+def cost_to_go(solve: Callable[[Any, Work], None], values: slice) -> Misconception:
+    """The mistake of giving the matrix of the cost-to-go, made in those answers of a solver that are a value's."""
+
+    @slip("cost-to-go-given", "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.")
+    def in_costs(given: Any, work: Work) -> None:
+        answers = right_answers(solve, given, work)
+        answers[values] = [-P for P in answers[values]]
+        for answer in answers:
+            work.answer(answer)
+
+    return in_costs
 
 
 def array(rows: Rows) -> Array:

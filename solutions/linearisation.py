@@ -1,18 +1,24 @@
 """Linearising the dynamics of a problem: derivatives in letters, then exact values at the operating point."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any
 
 from sympy import Expr
 
+from rldrill.problems.angles import Angle
 from rldrill.problems.expressions import letters
 from rldrill.problems.robots import System
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.formula import Formula, Misconception, fork
+from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.sheet.linear_methods import (
+    EULER_A,
+    EULER_B,
     INPUT_JACOBIAN,
+    LINEARISE,
     PART_VALUE,
     STATE_JACOBIAN,
     f_value,
@@ -22,38 +28,59 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
+#: The derivative of an expression by a letter, with the named parts in it that depend on the letter.
+Rule = Callable[[str, str, tuple[str, ...]], Expr]
+#: How somebody gets from a system to its matrices A and B.
+Linearised = Callable[[System, Work], Iterator[AnyMatrix]]
 
-def _changes(given: System, mistake: Misconception) -> bool:
+
+def linearised(given: System, work: Work, rule: Rule = dynamics.chained) -> Iterator[AnyMatrix]:
+    """A and then B, of the Euler step if the system has one."""
+    work.recall(LINEARISE)
+    known = _point(work, given)
+    for formula, euler in ((STATE_JACOBIAN, EULER_A), (INPUT_JACOBIAN, EULER_B)):
+        yield _euler(work, given, euler, _jacobian(work, given, formula, known, rule))
+
+
+def _at_zero(given: System, work: Work) -> Iterator[AnyMatrix]:
+    """The derivatives where every state and every action is zero."""
+    zero = {field: dict.fromkeys(getattr(given, field), Angle(Fraction(0))) for field in ("state", "action")}
+    return linearised(given.model_copy(update=zero), work)
+
+
+def _exchanged(given: System, work: Work) -> Iterator[AnyMatrix]:
+    """Sines for cosines in all derivatives, and the other way round."""
+    return linearised(given, work, lambda *of: dynamics.exchanged(dynamics.chained(*of)))
+
+
+def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception, ...]:
+    """What goes wrong in differentiating, made in a solver."""
+    return (
+        slip(
+            "derivative-at-zero",
+            "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
+            when=lambda given: _changes(given, _at_zero),
+        )(lambda given, work: solve(given, work, _at_zero)),
+        slip(
+            "sine-for-cosine",
+            "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
+            when=lambda given: _changes(given, _exchanged),
+        )(lambda given, work: solve(given, work, _exchanged)),
+    )
+
+
+def _changes(given: System, mistaken: Linearised) -> bool:
     """Whether a mistake can be made at this operating point, and leads to other derivatives."""
     try:
-        return _derivatives(given, Work()) != _derivatives(given, Work(mistake))
+        return list(linearised(given, Work())) != list(mistaken(given, Work()))
     except (NoSolution, ZeroDivisionError):
         return False
 
 
-def _derivatives(given: System, work: Work) -> tuple[AnyMatrix, AnyMatrix]:
-    known = point(work, given)
-    return jacobian(work, given, STATE_JACOBIAN, known), jacobian(work, given, INPUT_JACOBIAN, known)
-
-
-AT_ZERO: Misconception = fork(
-    "derivative-at-zero",
-    "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
-    when=lambda given: _changes(given, AT_ZERO),
-)
-SINE_FOR_COSINE: Misconception = fork(
-    "sine-for-cosine",
-    "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
-    when=lambda given: _changes(given, SINE_FOR_COSINE),
-)
-
-
 @dynamics.at_operating_point()
-def point(work: Work, given: System) -> dict[str, Value]:
+def _point(work: Work, given: System) -> dict[str, Value]:
     """The values of all letters at the operating point, named parts included."""
     known = dynamics.known(given)
-    if work.makes(AT_ZERO):
-        known |= dict.fromkeys(map(dynamics.code, (*given.state, *given.action)), ZERO)
     for name, text in given.where.items():
         known[dynamics.code(name)] = work.step(PART_VALUE, into=part_value, right=_right(text), i=name, **known)
     return known
@@ -77,25 +104,23 @@ def rates(work: Work, given: System) -> AnyMatrix:
 
 
 @dynamics.at_operating_point()
-def jacobian(work: Work, given: System, formula: Formula, known: dict[str, Value]) -> AnyMatrix:
+def _jacobian(work: Work, given: System, formula: Formula, known: dict[str, Value], rule: Rule) -> AnyMatrix:
     """The derivatives of the dynamics by the state or by the action; those that are zero are not written down."""
     by = given.states if formula is STATE_JACOBIAN else tuple(given.action)
-    columns = [_column(work, given, formula, name, known) for name in by]
+    columns = [_column(work, given, formula, name, known, rule) for name in by]
     if any(entry == 0 for column in columns for entry in column):
         work.say("The other derivatives are zero.")
     return matrices.matrix(zip(*columns, strict=True))
 
 
-def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Value]) -> list[Value]:
+def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Value], rule: Rule) -> list[Value]:
     """The derivatives of all components by one letter; those of named parts first."""
     moving: list[str] = []
     known = {**known, "j": by}
 
     def derivative(text: str, index: int | str) -> Value:
         within = letters(text)
-        right = dynamics.chained(text, by, tuple(part for part in moving if part in within))
-        if work.makes(SINE_FOR_COSINE):
-            right = dynamics.exchanged(right)
+        right = rule(text, by, tuple(part for part in moving if part in within))
         if right == 0:
             return ZERO
         if isinstance(index, str) and is_zero(value_of(right, known)):
@@ -112,7 +137,7 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
     return [derivative(text, index) for index, text in enumerate(given.dynamics.values(), 1)]
 
 
-def euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
+def _euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
     """The matrix of the Euler step, if the system has one."""
     if given.step is None:
         return value

@@ -7,7 +7,8 @@ import numpy as np
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
 from rldrill.solutions.exact import ONE, exact, is_zero
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,
@@ -16,14 +17,8 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     JACOBIAN_Y,
     SINGULAR,
 )
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
-
-TRANSPOSED = fork(
-    "transposed-jacobian",
-    "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
-    when=lambda given: given.square,
-)
-MISCONCEPTIONS = (TRANSPOSED, ABSOLUTE_ANGLES)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -35,12 +30,29 @@ def solve(given: Given, work: Work) -> None:
     if given.orientation:
         work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
         rows.append([ONE for _ in joints])
-    J = matrices.matrix(rows)
-    J = work.answer(J.transpose() if work.makes(TRANSPOSED) else J)
-    velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
-    work.answer(tuple(velocity.entries()))
+    _velocity(given, work, work.answer(matrices.matrix(rows)))
     if given.square:
         work.answer(is_zero(work.step(SINGULAR, **arm)))
+
+
+def _velocity(given: Given, work: Work, J: AnyMatrix) -> None:
+    velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
+    work.answer(tuple(velocity.entries()))
+
+
+@slip(
+    "transposed-jacobian",
+    "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
+    when=lambda given: given.square,
+)
+def transposed(given: Given, work: Work) -> None:
+    """Rows for columns."""
+    J, _, singular = right_answers(solve, given, work)
+    _velocity(given, work, work.answer(J.transpose()))
+    work.answer(singular)
+
+
+MISCONCEPTIONS = (transposed, ABSOLUTE_ANGLES)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,30 +1,25 @@
 """The features stacked block by block, their weighted sums, and the action with the greatest."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from rldrill.problems.function_approximation.linear_value import Given
 from rldrill.solutions.centres import distances, measured
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import GREEDY_LINEAR, LINEAR_VALUE, PIECEWISE_LINEAR_RBF
 from rldrill.solutions.work import Work
 
-WRONG_BLOCK = fork(
-    "block-of-the-wrong-action",
-    "Every action has its own block of weights, in the order in which the actions are named; another one was used.",
-)
-INTERLEAVED = fork(
-    "weights-interleaved",
-    "The first block holds all weights of the first action; the weights were read feature by feature instead.",
-    when=lambda given: given.size > 1,
-)
-MISCONCEPTIONS = (WRONG_BLOCK, INTERLEAVED)
+
+def _own_block(given: Given, action: str) -> range:
+    """The places of the weights of an action."""
+    first = given.actions.index(action) * given.size
+    return range(first, first + given.size)
 
 
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, places: Callable[[Given, str], range] = _own_block) -> None:
     """Features, stacked vector, values, greedy action."""
     features = tuple(map(exact, given.features or ()))
     if given.bumps is not None:
@@ -32,11 +27,11 @@ def solve(given: Given, work: Work) -> None:
         numbers = known["distance"]
         features = work.answer(tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in numbers))
     work.say("The features stand in the action's own block, and the other blocks are 0.")
-    work.answer(_stacked(given, features, given.action, work))
+    work.answer(_stacked(given, features, places(given, given.action)))
     stacked = {
         (number, "s", action): value
         for action in given.actions
-        for number, value in enumerate(_stacked(given, features, action, work), 1)
+        for number, value in enumerate(_stacked(given, features, places(given, action)), 1)
     }
     theta = dict(enumerate(map(exact, given.theta), 1))
     values = {
@@ -47,16 +42,33 @@ def solve(given: Given, work: Work) -> None:
     work.answer({"s": work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=given.actions)})
 
 
-def _stacked(given: Given, features: Sequence[Value], action: str, work: Work) -> tuple[Value, ...]:
+def _stacked(given: Given, features: Sequence[Value], places: range) -> tuple[Value, ...]:
     """The features at the places of the action's weights, 0 elsewhere."""
-    size, count = given.size, len(given.actions)
-    block = given.actions.index(action)
-    if work.makes(WRONG_BLOCK):
-        block = (block + 1) % count
-    step = count if work.makes(INTERLEAVED) else 1
-    first = block if work.makes(INTERLEAVED) else block * size
-    places = {first + step * number: value for number, value in enumerate(features)}
-    return tuple(places.get(place, ZERO) for place in range(size * count))
+    standing = dict(zip(places, features, strict=True))
+    return tuple(standing.get(place, ZERO) for place in range(len(given.theta)))
+
+
+@slip(
+    "block-of-the-wrong-action",
+    "Every action has its own block of weights, in the order in which the actions are named; another one was used.",
+)
+def wrong_block(given: Given, work: Work) -> None:
+    """Every action with the next one's block, the last with the first one's."""
+    *others, last = given.actions
+    solve(given.model_copy(update={"actions": (last, *others)}), work)
+
+
+@slip(
+    "weights-interleaved",
+    "The first block holds all weights of the first action; the weights were read feature by feature instead.",
+    when=lambda given: given.size > 1,
+)
+def interleaved(given: Given, work: Work) -> None:
+    """For the first feature a weight of every action, then for the second, and so on."""
+    solve(given, work, lambda given, a: range(given.actions.index(a), len(given.theta), len(given.actions)))
+
+
+MISCONCEPTIONS = (wrong_block, interleaved)
 
 
 def oracle(given: Given) -> Answers:

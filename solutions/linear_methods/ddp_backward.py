@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
@@ -31,21 +31,23 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-ILQR_FOR_DDP = fork(
-    "ilqr-for-ddp",
-    "DDP keeps the second derivatives of the dynamics: V′ₛ · f_{ss} and the like belong to Q's; only iLQR drops them.",
-    when=lambda given: given.second_order,
-)
-DDP_FOR_ILQR = fork(
-    "ddp-for-ilqr",
-    "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
-    when=lambda given: not given.second_order,
-)
-MISCONCEPTIONS = (ILQR_FOR_DDP, DDP_FOR_ILQR, K_WITH_PLUS)
-
 
 def solve(given: Given, work: Work) -> None:
-    """First derivatives, second derivatives, then k and K."""
+    """The quadratic Q, then k and K, if it has a maximum."""
+    Q = _expanded(given, work)
+    if not _is_negative(Q["Q_aa"]):
+        raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
+    _maximum(work, Q)
+
+
+def _maximum(work: Work, Q: Mapping[str, AnyMatrix]) -> None:
+    work.recall(DDP)
+    work.answer(work.step(DDP_k, **Q))
+    work.answer(work.step(DDP_K, **Q))
+
+
+def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
+    """First derivatives, then second derivatives: of the reward, of the dynamics, and from them of Q."""
     names, actions = given.states, tuple(given.action)
     known: dict[str, Any] = {
         "V_s": matrices.column(map(exact, given.gradient)),
@@ -61,9 +63,8 @@ def solve(given: Given, work: Work) -> None:
         )
     Q = {"Q_s": work.answer(work.step(DDP_S, **known))}
     Q["Q_a"] = work.answer(work.step(DDP_A, **known))
-    curved = given.second_order != (work.makes(ILQR_FOR_DDP) or work.makes(DDP_FOR_ILQR))
-    known["components"] = tuple(range(1, len(texts) + 1)) if curved else ()
-    if not curved:
+    known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
+    if not given.second_order:
         work.say("iLQR leaves out the sums with the second derivatives of $f$.")
     for code, formula, rows, columns in (
         ("ss", DDP_SS, names, names),
@@ -74,12 +75,8 @@ def solve(given: Given, work: Work) -> None:
         known[f"fi{code}"] = {
             index: _second(work, values, texts[index - 1], index, rows, columns) for index in known["components"]
         }
-        Q[f"Q_{code}"] = work.answer(work.step(formula, right=None if curved else ilqr(formula), **known))
-    if work.misconception is None and not _is_negative(Q["Q_aa"]):
-        raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
-    work.recall(DDP)
-    work.answer(work.step(DDP_k, **Q))
-    work.answer(work.step(DDP_K, **Q))
+        Q[f"Q_{code}"] = work.answer(work.step(formula, right=None if given.second_order else ilqr(formula), **known))
+    return Q
 
 
 @dynamics.at_operating_point()
@@ -117,6 +114,24 @@ def _is_negative(matrix: AnyMatrix) -> bool:
             factor = line[k] / pivot[k]
             line[k:] = [entry - factor * above for entry, above in zip(line[k:], pivot[k:], strict=True)]
     return True
+
+
+def other_method(given: Given, work: Work) -> None:
+    """DDP for iLQR, iLQR for DDP; whatever Q is then, the formulas give a k and a K."""
+    _maximum(work, _expanded(given.model_copy(update={"second_order": not given.second_order}), work))
+
+
+ILQR_FOR_DDP = slip(
+    "ilqr-for-ddp",
+    "DDP keeps the second derivatives of the dynamics: V′ₛ · f_{ss} and the like belong to Q's; only iLQR drops them.",
+    when=lambda given: given.second_order,
+)(other_method)
+DDP_FOR_ILQR = slip(
+    "ddp-for-ilqr",
+    "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
+    when=lambda given: not given.second_order,
+)(other_method)
+MISCONCEPTIONS = (ILQR_FOR_DDP, DDP_FOR_ILQR, K_WITH_PLUS)
 
 
 def oracle(given: Given) -> Answers:

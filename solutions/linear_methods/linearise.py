@@ -4,27 +4,19 @@ import numpy as np
 
 from rldrill.problems.linear_methods.linearise import Given
 from rldrill.solutions import dynamics
-from rldrill.solutions.linearisation import AT_ZERO, SINE_FOR_COSINE, after, euler, jacobian, point
+from rldrill.solutions.linearisation import Linearised, after, linearised, slips
 from rldrill.solutions.oracle import Answers
-from rldrill.solutions.sheet.linear_methods import (
-    EULER_A,
-    EULER_B,
-    FORGOT_IDENTITY,
-    INPUT_JACOBIAN,
-    LINEARISE,
-    STATE_JACOBIAN,
-)
+from rldrill.solutions.sheet.linear_methods import FORGOT_IDENTITY
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (AT_ZERO, SINE_FOR_COSINE, FORGOT_IDENTITY)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, matrices: Linearised = linearised) -> None:
     """A, then B."""
-    work.recall(LINEARISE)
-    known = point(work, given)
-    work.answer(euler(work, given, EULER_A, jacobian(work, given, STATE_JACOBIAN, known)))
-    work.answer(euler(work, given, EULER_B, jacobian(work, given, INPUT_JACOBIAN, known)))
+    for matrix in matrices(given, work):
+        work.answer(matrix)
+
+
+MISCONCEPTIONS = (*slips(solve), FORGOT_IDENTITY)
 
 
 def oracle(given: Given) -> Answers:

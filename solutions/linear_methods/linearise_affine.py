@@ -5,54 +5,48 @@ import numpy as np
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
-from rldrill.solutions.linearisation import (
-    AT_ZERO,
-    SINE_FOR_COSINE,
-    after,
-    euler,
-    jacobian,
-    point,
-    rates,
-)
+from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.linearisation import Linearised, after, linearised, rates, slips
+from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import (
     AFFINE_TERM,
     AUGMENTED_A,
     AUGMENTED_B,
     C_IS_F,
-    EULER_A,
-    EULER_B,
     EULER_F,
     FORGOT_IDENTITY,
-    INPUT_JACOBIAN,
-    LINEARISE,
-    STATE_JACOBIAN,
 )
 from rldrill.solutions.work import Work
 
-C_IS_RATES = fork(
-    "c-is-the-rates",
-    "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
-)
-MISCONCEPTIONS = (C_IS_F, C_IS_RATES, AT_ZERO, SINE_FOR_COSINE, FORGOT_IDENTITY)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> None:
     """Everything is taken at the operating point."""
-    work.recall(LINEARISE)
-    known = point(work, given)
-    A = euler(work, given, EULER_A, jacobian(work, given, STATE_JACOBIAN, known))
-    B = euler(work, given, EULER_B, jacobian(work, given, INPUT_JACOBIAN, known))
+    A, B = differentiated(given, work)
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     assert given.step is not None, "checked with the givens"
-    f = rates(work, given)
-    f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=f)
-    C = work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar)
-    C = work.answer(f if work.makes(C_IS_RATES) else C)
+    f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=rates(work, given))
+    _augmented(work, A, B, work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
+
+
+def _augmented(work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
+    C = work.answer(C)
     work.answer(work.step(AUGMENTED_A, Ai=A, Cc=C))
     work.answer(work.step(AUGMENTED_B, Bi=B))
+
+
+@slip(
+    "c-is-the-rates",
+    "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
+)
+def rates_for_c(given: Given, work: Work) -> None:
+    """The rates in the place of C."""
+    A, B = linearised(given, work)
+    _augmented(work, A, B, rates(work, given))
+
+
+MISCONCEPTIONS = (C_IS_F, rates_for_c, *slips(solve), FORGOT_IDENTITY)
 
 
 def oracle(given: Given) -> Answers:

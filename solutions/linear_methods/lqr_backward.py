@@ -1,15 +1,15 @@
 """The Riccati recursion backwards from the horizon: at every time first the gain, then the value matrix."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
-    COST_TO_GO,
     FORGOT_R,
     IN_COSTS,
     LQR_ACTION,
@@ -20,34 +20,39 @@ from rldrill.solutions.sheet.linear_methods import (
     POSITIVE_S,
     TRANSPOSED_A,
 )
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
-
-SAME_TIME = fork(
-    "gain-from-same-time",
-    "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
-)
-#: As for a single gain, but here matrices are given by time.
-TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
-MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, SAME_TIME, COST_TO_GO)
 
 
 def solve(given: Given, work: Work) -> None:
     """Two parts for every time; the last is the action."""
-    known = linear_quadratic.known(given)
-    last = given.horizon
     work.say(IN_COSTS)
-    P = {last: work.step(LQR_TERMINAL, T=last, **known)}
-    L = {}
-    for time in range(last - 1, -1, -1):
-        gain = right = work.step(LQR_GAIN, t=time, Pt=P, **known)
-        if work.makes(SAME_TIME):
-            value = LQR_RICCATI.value({"t": time, "Pt": P, "Lt": {time: right}, **known})
-            gain = work.step(LQR_GAIN, t=time, Pt={time + 1: value}, **known)
-        L = {time: work.answer(gain)}
-        value = work.step(LQR_RICCATI, t=time, Pt=P, Lt={time: right} if work.makes(SAME_TIME) else L, **known)
-        given_ = work.answer(-value if work.makes(COST_TO_GO) else value)
-        P = P | {time: value if work.makes(COST_TO_GO) else given_}
+    known = linear_quadratic.known(given)
+    P = {given.horizon: work.step(LQR_TERMINAL, T=given.horizon, **known)}
+    L: dict[int, Any] = {}
+    for time in reversed(range(given.horizon)):
+        L = {time: work.answer(work.step(LQR_GAIN, t=time, Pt=P, **known))}
+        P = P | {time: work.answer(work.step(LQR_RICCATI, t=time, Pt=P, Lt=L, **known))}
     work.answer(work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+
+
+@slip("gain-from-same-time", "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.")
+def same_time(given: Given, work: Work) -> None:
+    """The right value matrices, and every gain from that of its own time."""
+    known = linear_quadratic.known(given)
+    L: dict[int, Any] = {}
+    for time, P in zip(reversed(range(given.horizon)), right_answers(solve, given, work)[VALUES], strict=True):
+        L = {time: work.answer(work.step(LQR_GAIN, t=time, Pt={time + 1: P}, **known))}
+        work.answer(P)
+    work.answer(work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+
+
+#: Which answers are value matrices: every second one.
+VALUES = slice(1, None, 2)
+#: As for a single gain, but here matrices are given by time.
+TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
+COST_TO_GO = linear_quadratic.cost_to_go(solve, VALUES)
+MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, same_time, COST_TO_GO)
 
 
 def oracle(given: Given) -> Answers:

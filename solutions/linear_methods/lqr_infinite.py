@@ -6,12 +6,10 @@ from flint import fmpq
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, Value, decimal
-from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.riccati import stationary
 from rldrill.solutions.sheet.linear_methods import (
-    COST_TO_GO,
     LQR_BETA,
     LQR_CLOSED_LOOP,
     LQR_GAIN,
@@ -24,9 +22,6 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, COST_TO_GO)
-
-
 _QUADRATIC = (
     "Multiplied by $B^2 P − R$, the scalar equation becomes $B^2 P^2 + β P − Q R = 0$; the negative one of its roots "
     "brings the state to $0$."
@@ -36,19 +31,15 @@ _QUADRATIC = (
 def solve(given: Given, work: Work) -> None:
     """P, then the gain from it, then the closed loop, which shows that the root was the right one."""
     known = {name: matrices.given(getattr(given, name)) for name in "ABQR"}
-    P = _value(work, **known)
-    if work.makes(COST_TO_GO):
-        work.answer(-P)
-    else:
-        P = work.answer(P)
+    P = work.answer(_value(work, **known))
     by_time = {"At": {0: known["A"]}, "Bt": {0: known["B"]}, "Rt": {0: known["R"]}, "Pt": {1: P}}
     if all(isinstance(entry, fmpq) and entry.q > _LONG for entry in P.entries()):
         work.say("The gain follows from this $P$, and is rounded likewise.")
-        L = work.answer(_rounded(value_of(work.reading(LQR_GAIN), {"t": 0, **by_time})))
+        L = work.answer(_rounded(work.value(LQR_GAIN, t=0, **by_time)))
     else:
         L = work.answer(work.step(LQR_GAIN, into=L_always, t=0, **by_time))
     closed = work.step(LQR_CLOSED_LOOP, Ai=known["A"], Bi=known["B"], Li=L)
-    if closed.nrows() == 1 and work.misconception is None and not work.carried:
+    if closed.nrows() == 1:
         work.say(f"$A − B L ≈ {decimal(closed[0, 0], 4)}$ is between $−1$ and $1$: stable, as it must be.")
     work.answer(closed)
 
@@ -129,6 +120,9 @@ _LONG = 10**9
 def _rounded(matrix: AnyMatrix) -> AnyMatrix:
     """Rational entries to twelve decimals."""
     return matrices.matrix([fmpq(round(entry * _DECIMALS), _DECIMALS) for entry in line] for line in matrix.tolist())
+
+
+MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, linear_quadratic.cost_to_go(solve, slice(1)))
 
 
 def oracle(given: Given) -> Answers:

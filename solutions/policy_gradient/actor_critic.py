@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.policy_gradient.actor_critic import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
@@ -20,20 +20,11 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
 from rldrill.solutions.work import Work
 
-STEP_SIZES_SWAPPED = fork(
-    "step-sizes-swapped",
-    "α belongs to the critic, β to the actor; they were exchanged.",
-    when=lambda given: given.alpha != given.beta,
-)
-MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, STEP_SIZES_SWAPPED)
-
 
 def solve(given: Given, work: Work) -> None:
     """The critic sees values only, so its whole way comes first; then the actor's, with the errors found."""
     run = given.trajectory
-    sizes = exact(given.alpha), exact(given.beta)
-    alpha, beta = reversed(sizes) if work.makes(STEP_SIZES_SWAPPED) else sizes
-    known = known_run(given) | {"alpha": alpha, "beta": beta}
+    known = known_run(given) | {"alpha": exact(given.alpha), "beta": exact(given.beta)}
     before = knowns.state_values(given.values, run.terminal)
     known["delta"] = dict(enumerate(work.answer(_errors(work, known, before))))
 
@@ -62,6 +53,19 @@ def _errors(work: Work, known: Mapping[str, Any], values: Mapping[str, Value]) -
             values = {**values, known["S"][time - 1]: learnt}
         errors.append(work.step(TD_ERROR, t=time, V=values, **known))
     return tuple(errors)
+
+
+@slip(
+    "step-sizes-swapped",
+    "α belongs to the critic, β to the actor; they were exchanged.",
+    when=lambda given: given.alpha != given.beta,
+)
+def swapped(given: Given, work: Work) -> None:
+    """The critic's step size for the actor, and the actor's for the critic."""
+    solve(given.model_copy(update={"alpha": given.beta, "beta": given.alpha}), work)
+
+
+MISCONCEPTIONS = (NEXT_VALUE_FORGOTTEN, WEIGHTED_BY_REWARD, swapped)
 
 
 def oracle(given: Given) -> Answers:

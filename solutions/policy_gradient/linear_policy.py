@@ -1,47 +1,63 @@
 """The value of every action, then the action with the greatest."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from rldrill.problems.policy_gradient.linear_policy import Given
-from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.softmax import action_features, by_number
 from rldrill.solutions.work import Work
-
-WRONG_ACTION = fork(
-    "features-of-the-wrong-action",
-    "Every action is valued with its own features f(s, a); those of another action were used.",
-    when=lambda given: any(len(row) > 1 for row in given.features.values()),
-)
-SMALLEST = fork(
-    "smallest-for-greatest",
-    "The greedy policy takes the action with the greatest value, not with the smallest.",
-    when=WRONG_ACTION.when,
-)
-MISCONCEPTIONS = (WRONG_ACTION, WEIGHTS_FORGOTTEN, SMALLEST)
 
 
 def solve(given: Given, work: Work) -> None:
     """All values, then the greedy policy for them."""
     known = by_number([exact(weight) for weight in given.theta]) | action_features(given.features)
-    read = {
-        (state, action): _next(action, tuple(row)) if work.makes(WRONG_ACTION) else action
-        for state, row in given.features.items()
-        for action in row
-    }
-    values = work.answer({(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=row, **known) for (s, a), row in read.items()})
-    if work.makes(SMALLEST):
-        values = {pair: -value for pair, value in values.items()}
+    pairs = ((state, action) for state, row in given.features.items() for action in row)
+    values = work.answer({(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=a, **known) for s, a in pairs})
+    _greedy(given, work, values)
+
+
+def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -> None:
     actions = {state: tuple(row) for state, row in given.features.items()}
-    policy = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
-    work.answer(policy)
+    work.answer({state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions})
 
 
-def _next(action: str, actions: tuple[str, ...]) -> str:
-    """The action in the line below, from the last the first."""
-    return actions[(actions.index(action) + 1) % len(actions)]
+def _has_a_choice(given: Given) -> bool:
+    return any(len(row) > 1 for row in given.features.values())
+
+
+@slip(
+    "features-of-the-wrong-action",
+    "Every action is valued with its own features f(s, a); those of another action were used.",
+    when=_has_a_choice,
+)
+def wrong_action(given: Given, work: Work) -> None:
+    """Every action with the features in the line below, the last with those in the first."""
+    below = {
+        state: dict(zip((last, *others), row.values(), strict=True))
+        for state, row in given.features.items()
+        for *others, last in [row]
+    }
+    solve(given.model_copy(update={"features": below}), work)
+
+
+@slip(
+    "smallest-for-greatest",
+    "The greedy policy takes the action with the greatest value, not with the smallest.",
+    when=_has_a_choice,
+)
+def smallest(given: Given, work: Work) -> None:
+    """The right values, and the greedy policy for their negatives."""
+    values = work.answer(right_answers(solve, given, work)[0])
+    _greedy(given, work, {pair: -value for pair, value in values.items()})
+
+
+MISCONCEPTIONS = (wrong_action, WEIGHTS_FORGOTTEN, smallest)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,13 +1,13 @@
 """Ratio, the two terms and their minimum for every sample; then the mean."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.policy_gradient.ppo_clip import Given
 from rldrill.solutions.exact import Value, exact, largest, sign, simplest
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.ratios import new_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
@@ -22,15 +22,12 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.work import Work
 
-WRONG_SIDE = fork(
-    "wrong-side-for-negative-advantage",
-    "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
-    when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
-)
-MISCONCEPTIONS = (CLIP_WITHOUT_MIN, WRONG_SIDE, RATIO_INVERTED)
+
+def _smaller(work: Work, known: Mapping[str, Any], time: int) -> Value:
+    return work.step(PPO, t=time, **known)
 
 
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, Any], int], Value] = _smaller) -> None:
     """All samples through one step after the other."""
     times = range(len(given.samples))
     known: dict[str, Any] = {
@@ -48,7 +45,7 @@ def solve(given: Given, work: Work) -> None:
     known["rho"] = _given(work, ratios)
     known["unclipped"] = _given(work, [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
     known["clipped"] = _given(work, [work.step(PPO_CLIPPED, t=time, **known) for time in times])
-    objective = {time: _objective(work, known, time) for time in times}
+    objective = {time: objective_of(work, known, time) for time in times}
     work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
     for time in times:
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
@@ -84,10 +81,23 @@ def _new(given: Given, time: int, work: Work) -> Value:
     )
 
 
-def _objective(work: Work, known: dict[str, Any], time: int) -> Value:
-    if work.makes(WRONG_SIDE) and sign(known["A_t"][time]) < 0:
-        return largest((known["unclipped"][time], known["clipped"][time]))
-    return work.step(PPO, t=time, **known)
+@slip(
+    "wrong-side-for-negative-advantage",
+    "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
+    when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
+)
+def wrong_side(given: Given, work: Work) -> None:
+    """The greater of the two terms, where the advantage is negative."""
+
+    def other(work: Work, known: Mapping[str, Any], time: int) -> Value:
+        if sign(known["A_t"][time]) < 0:
+            return largest((known["unclipped"][time], known["clipped"][time]))
+        return _smaller(work, known, time)
+
+    solve(given, work, other)
+
+
+MISCONCEPTIONS = (CLIP_WITHOUT_MIN, wrong_side, RATIO_INVERTED)
 
 
 def oracle(given: Given) -> Answers:

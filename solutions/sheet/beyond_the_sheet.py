@@ -143,7 +143,6 @@ with evaluate(False):
     WRONG_ORDER = Misconception(
         "wrong-order",
         "Each link's transform is given in the frame of the link before, so it is multiplied from the right.",
-        when=lambda given: len(given.links) > 1,
     )
     CHAIN = Formula(
         "link-product",

@@ -168,12 +168,11 @@ with evaluate(False):
     THROUGH_THE_TARGET = Misconception(
         "gradient-through-the-target",
         "The target counts as a constant: only the estimate for the state that is left is differentiated.",
-        when=lambda given: not given.actions and _goes_on(given),
+        when=_goes_on,
     )
     FEATURES_OF_NEXT = Misconception(
         "features-of-the-next-state",
         "The weights move along the features of the state that is left, not of the next one.",
-        when=lambda given: not given.actions,
     )
     SEMI_GRADIENT_TD = Formula(
         "semi-gradient-td",
@@ -204,12 +203,11 @@ with evaluate(False):
     SARSA_THROUGH_THE_TARGET = Misconception(
         "sarsa-gradient-through-the-target",
         "The target counts as a constant: only the estimate for the pair that is left is differentiated.",
-        when=lambda given: given.actions and _goes_on(given),
+        when=_goes_on,
     )
     SARSA_FEATURES_OF_NEXT = Misconception(
         "features-of-the-next-pair",
         "The weights move along the features of the pair that is left, not of the next one.",
-        when=lambda given: bool(given.actions),
     )
     SEMI_GRADIENT_SARSA = Formula(
         "semi-gradient-sarsa",

@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.formula import Formula, Misconception, Place, fork
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -52,11 +52,6 @@ St = _matrix("St", "s")
 Ut = _matrix("Ut", "a")
 rt = quantity("rt", _reward_layout)
 J = letter("J")
-
-COST_TO_GO = fork(
-    "cost-to-go-given",
-    "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
-)
 
 #: How a working in values of P reads for somebody who learnt it in costs.
 IN_COSTS = (
@@ -128,8 +123,8 @@ with evaluate(False):
         hint="Work out Bᵀ P first; it stands in the bracket and behind it.",
         note="$P$ is the matrix of the value $V(s) = s^⊤ P s$, negative semidefinite. Cost-to-go: $S = −P$.",
         misread={
-            POSITIVE_S: Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
-            * -Transposed(Bt(t))
+            POSITIVE_S: -Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
+            * Transposed(Bt(t))
             * Pt(t + 1)
             * At(t),
             FORGOT_R: Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * At(t),
@@ -316,9 +311,7 @@ with evaluate(False):
         hint="Row i belongs to the component of f, column j to the action.",
     )
     FORGOT_IDENTITY = Misconception(
-        "forgot-identity",
-        "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
-        when=lambda given: given.step is not None,
+        "forgot-identity", "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A."
     )
     EULER_A = Formula(
         "linearise-euler-a",
