@@ -4,9 +4,10 @@ from pathlib import Path
 
 import typst
 
-from rldrill.formula_sheet import sheet_source
-from rldrill.paper import PAPERS
-from rldrill.worksheet import plan, worksheet_source
+from rldrill.exam.planning import plan
+from rldrill.print.formula_sheet import sheet_source
+from rldrill.print.paper import PAPERS
+from rldrill.print.worksheet import worksheet_source
 
 A4 = PAPERS["a4"]
 FAMILIES = ("return", "policy-evaluation", "forward-kinematics")

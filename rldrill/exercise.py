@@ -5,12 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rldrill.problem_file import FORMAT, read_problem
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Block, Document, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
 from rldrill.problems.parts import Choice, Part
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
@@ -19,9 +22,6 @@ from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
 from rldrill.solutions.work import Drawn, Note, Recalled, Result, Step
-
-#: The version of the JSON that ``data`` gives and that problem files have.
-FORMAT = 1
 
 
 @dataclass(frozen=True)
@@ -107,8 +107,6 @@ class Exercise:
 
     def data(self, *, answers: bool = True) -> dict[str, Any]:
         """The problem as JSON has it; with ``answers`` also the exact answers and the steps."""
-        from rldrill.render.unicode import unicode, unicode_text
-
         result: dict[str, Any] = {"format": FORMAT, "id": self.id, **self.problem.data()}
         result["level"] = self.problem.level
         result["question"] = [unicode_text(block) for block in self.question()]
@@ -159,8 +157,6 @@ def load(id_or_path: str | Path) -> Exercise:
         raise UsageError(
             f"{text[:60]!r} is neither a problem ID (such as value-iteration/2/7) nor a problem file (.toml or .json)."
         )
-    from rldrill.files import read_problem
-
     return read(read_problem(Path(id_or_path)), where=text)
 
 

@@ -7,7 +7,7 @@ from statistics import median
 
 import pytest
 
-from rldrill import expected
+from rldrill.exam import expected
 from rldrill.problems.catalogue import families, family, topics
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import minutes, whole

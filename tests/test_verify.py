@@ -14,10 +14,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from rldrill.answers_file import read_answers
 from rldrill.commands import verify as verify_command
+from rldrill.grading.answers_file import read_answers
+from rldrill.grading.verification import Report, Row, Score, verify
 from rldrill.problems.errors import FileError, NothingToGrade
-from rldrill.verification import Report, Row, Score, verify
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

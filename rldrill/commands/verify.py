@@ -10,7 +10,7 @@ from rldrill.commands.arguments import Json
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from rldrill.verification import Report, Score, StudentReport
+    from rldrill.grading.verification import Report, Score, StudentReport
 
 NAME = "verify"
 _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
@@ -46,7 +46,7 @@ def command(
     """
     import json as json_
 
-    from rldrill.verification import verify
+    from rldrill.grading.verification import verify
 
     report = verify(files)
     for failure in report.failures:

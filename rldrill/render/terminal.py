@@ -15,9 +15,9 @@ from rich.text import Text
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
+from rldrill.render.mathematics.stacked import stacked
+from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.text import lines
-from rldrill.render.stacked import stacked
-from rldrill.render.unicode import inline
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
 PIPED = 140

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from statistics import median
 
-from rldrill.expected import FILE
+from rldrill.exam.expected import FILE
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import minutes, whole

@@ -7,9 +7,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rldrill.answers_file import Entry, read_answers
 from rldrill.exercise import Exercise, load
 from rldrill.files import shown
+from rldrill.grading.answers_file import Entry, read_answers
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id
 from rldrill.solutions.answers.judging import Outcome, judge
