@@ -114,7 +114,7 @@ def _parsed(read: Callable[[str], object], text: str, where: str, line: int | No
             place = f"{where}, at its end"
         else:
             place = f"{where}, line {error.line + (line or 1) - 1}, column {error.column}"
-        raise FileError(f"{place}: the syntax is broken ({error}); mend it there.") from None
+        raise FileError(f"{place}: the syntax is broken ({error}); fix it there.") from None
     except RecursionError:
         raise FileError(f"{here}: {_TOO_DEEP}") from None
     except _RefusedError as error:
@@ -179,7 +179,7 @@ def _check_item(item: object) -> None:
         try:
             item.encode()
         except UnicodeEncodeError:
-            raise _RefusedError(f"{brief(item)} holds half a character; type it anew.") from None
+            raise _RefusedError(f"{brief(item)} holds half a character; retype it.") from None
 
 
 def _children(item: object) -> Iterator[object]:

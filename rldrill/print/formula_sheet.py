@@ -5,9 +5,9 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from rldrill.print.paper import Paper, page_setup
-from rldrill.problems.document import Equation, pieces
+from rldrill.problems.document import Equation
 from rldrill.problems.errors import UsageError
-from rldrill.render.mathematics.latex import latex
+from rldrill.render.markdown import latex_equation, markdown_block, markdown_text
 from rldrill.render.mathematics.typst import text
 from rldrill.render.mathematics.unicode import inline
 from rldrill.render.typst import block, line
@@ -112,23 +112,12 @@ def markdown(names: Sequence[str], *, workings: bool = False) -> str:
             head = f"**{_title(formula)}** ({formula.source})"
             lines += [head, "", f"$${latex_equation(_equation(formula, workings=workings))}$$", ""]
             if formula.note:
-                lines += [_latex_text(formula.note), ""]
+                lines += [markdown_text(formula.note), ""]
         for picture in gallery(name).pictures:
-            lines += ["```text", unicode_text(picture), "```", ""]
+            lines += [markdown_block(picture), ""]
         if gallery(name).note:
-            lines += [_latex_text(gallery(name).note), ""]
+            lines += [markdown_text(gallery(name).note), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
-
-
-def latex_equation(equation: Equation) -> str:
-    """An equation as LaTeX on one line."""
-    signs = {"←": r"\leftarrow", "≈": r"\approx"}
-    links = zip(equation.signs, equation.rights, strict=True)
-    return " ".join([latex(equation.left), *(f"{signs.get(sign, sign)} {latex(right)}" for sign, right in links)])
-
-
-def _latex_text(words: str) -> str:
-    return "".join(piece if isinstance(piece, str) else f"${latex(piece)}$" for piece in pieces(words))
 
 
 def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = False) -> "list[Text]":
@@ -148,7 +137,7 @@ def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = F
             head = Text.assemble("\n  ", (_title(formula), "cyan"), "  ", (formula.source, "dim"))
             lines += [head, Text(f"    {equation}")]
             if formula.note:
-                note = _latex_text(formula.note) if as_latex else inline(formula.note)
+                note = markdown_text(formula.note) if as_latex else inline(formula.note)
                 lines.append(Text(f"    {note}", style="italic"))
         lines += _drawn(gallery(name))
     return lines
