@@ -189,4 +189,4 @@ def test_formulas_are_complete() -> None:
 def test_levels_ask_for_more_and_more_work(name: str) -> None:
     work = [median(minutes(draw(name, level, seed)) for seed in range(15)) for level in family(name).levels]
     assert all(easier < harder for easier, harder in pairwise(work)), [float(m) for m in work]
-    assert expected.minutes().get(name) == [whole(m) for m in work], "run 'python tests/golden/write.py'"
+    assert expected.minutes().get(name) == [whole(m) for m in work], f"run 'python tests/golden/write.py {name}'"
