@@ -1,4 +1,4 @@
-"""Write the README's images anew: pages of a worksheet, and the formula sheet. Run it after a change of layout."""
+"""Write the README's images again: pages of a worksheet, and the formula sheet. Run it after a change of layout."""
 
 from pathlib import Path
 
