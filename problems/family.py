@@ -15,7 +15,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.identity import LEVELS, Identity
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Part, lettered
 
 
 class Givens(BaseModel):
@@ -46,10 +46,13 @@ def _parameters(value: object) -> Iterator[str]:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is printed: the situation, then the parts."""
+    """What is printed: the situation, then the parts, which get their letters here."""
 
     blocks: Document
     parts: tuple[Part, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", lettered(self.parts))
 
 
 @dataclass(frozen=True)

@@ -75,22 +75,33 @@ class Part:
     """One thing asked.
 
     Args:
-        label: the letter of the part, ``a``.
         ask: the sentence that asks, with its mathematics between ``$`` signs.
         kind: what kind of answer is wanted.
         points: what a right answer earns.
         ties: whether several best actions may be right together (only where the question is about ties).
         zero: whether 0 is as good an answer as any other.
+        label: the letter of the part, ``a``; its question gives it.
     """
 
-    label: str
     ask: str
     kind: Kind
     points: int = 1
     ties: bool = False
     zero: bool = False
+    label: str = ""
+
+
+def label(index: int) -> str:
+    """The letter of the part at that place, counted from 0.
+
+    Raises:
+        ValueError: a problem has no more than 26 parts.
+    """
+    if index >= len(ascii_lowercase):
+        raise ValueError(f"a problem has at most {len(ascii_lowercase)} parts")
+    return ascii_lowercase[index]
 
 
 def lettered(parts: Iterable[Part]) -> tuple[Part, ...]:
-    """Parts with the letters a, b, … in their order: for questions in which a part may be missing."""
-    return tuple(replace(part, label=letter) for part, letter in zip(parts, ascii_lowercase, strict=False))
+    """Parts with the letters a, b, … in their order."""
+    return tuple(replace(part, label=label(index)) for index, part in enumerate(parts))

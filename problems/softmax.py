@@ -95,14 +95,13 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
     names = weight_names(given.theta)
     asked = f"What are the {weighted} ${', '.join(entries)}$, in this order{in_open(given)}?"
     return (
-        Part("a", asked, Numbers(entries), zero=True),
+        Part(asked, Numbers(entries), zero=True),
         Part(
-            "b",
             f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
             points=3,
         ),
-        Part("c", f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Numbers(names)),
+        Part(f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Numbers(names)),
     )
 
 

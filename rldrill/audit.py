@@ -93,13 +93,13 @@ def examine(solution: Solution, finding: Finding) -> None:
     finding.drawn += 1
     problem = solution.problem
     expected = solver(problem.family).oracle(problem.given)
-    for part in problem.parts:
+    for part, other in zip(problem.parts, expected, strict=True):
         answer = solution.answers[part.label]
         where = f"{problem.identity} ({part.label})"
-        if not agrees(part, answer, expected[part.label]):
-            finding.disagreements.append(f"{where}: exact {answer}, independent {expected[part.label]}")
+        if not agrees(part, answer, other):
+            finding.disagreements.append(f"{where}: exact {answer}, independent {other}")
         if isinstance(part.kind, Policy) and not part.ties:
-            finding.ties += any(len(best) > 1 for best in expected[part.label].values())
+            finding.ties += any(len(best) > 1 for best in other.values())
         if judge(solution, part.label, answer_kind(part.kind).write(answer)).outcome is not Outcome.RIGHT:
             finding.refused.append(where)
     for misconception, answers in solution.mistakes:

@@ -9,7 +9,7 @@ from rldrill.problems.robots import System
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.formula import Formula, Misconception, slip
+from rldrill.solutions.formula.formula import Formula, Misconception, fork
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.sheet.linear_methods import (
     INPUT_JACOBIAN,
@@ -36,12 +36,12 @@ def _derivatives(given: System, work: Work) -> tuple[AnyMatrix, AnyMatrix]:
     return jacobian(work, given, STATE_JACOBIAN, known), jacobian(work, given, INPUT_JACOBIAN, known)
 
 
-AT_ZERO: Misconception = slip(
+AT_ZERO: Misconception = fork(
     "derivative-at-zero",
     "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
     when=lambda given: _changes(given, AT_ZERO),
 )
-SINE_FOR_COSINE: Misconception = slip(
+SINE_FOR_COSINE: Misconception = fork(
     "sine-for-cosine",
     "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
     when=lambda given: _changes(given, SINE_FOR_COSINE),

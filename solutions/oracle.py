@@ -5,7 +5,7 @@ tries everything. Open parameters are replaced by ``OPEN``; exact answers are ev
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
@@ -16,8 +16,9 @@ from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.problems.models import Dynamics, ModelAndPolicy, Policy
 
-#: Answers in floating point by part; tables and vectors in the order of the part's keys, policies by state.
-Answers: TypeAlias = Mapping[str, Any]
+#: Answers in floating point, in the order of the parts; tables and vectors in the order of the part's keys, policies by
+#: state.
+Answers: TypeAlias = Sequence[Any]
 Array: TypeAlias = NDArray[np.float64]
 
 #: The number at which expressions in an open parameter are compared.

@@ -6,21 +6,21 @@ from typing import Any
 from rldrill.problems.models import Model, Policy
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value
-from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.formula import Formula, fork
 from rldrill.solutions.formula.notation import Vpi
 from rldrill.solutions.sheet.bellman import BELLMAN_V
 from rldrill.solutions.work import Work
 
-ONE_BACKUP = slip(
+ONE_BACKUP = fork(
     "one-backup",
     "One backup from zero is only the expected reward; the values must solve all equations at once.",
 )
-TERMINAL_VALUE = slip(
+TERMINAL_VALUE = fork(
     "terminal-value",
     "A terminal state is worth 0: the reward for reaching it is already earned on the way there.",
     when=lambda given: knowns.pays_at_the_end(given.mdp),
 )
-ONE_SWEEP = slip(
+ONE_SWEEP = fork(
     "one-sweep",
     "One sweep only gives the reward of the next step; the values of a policy must solve all equations at once.",
     when=lambda given: getattr(given, "values", None) is None,  # where they are given, nothing is evaluated

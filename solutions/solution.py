@@ -1,7 +1,7 @@
 """A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
 import importlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from types import ModuleType
@@ -10,7 +10,7 @@ from typing import Any
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.exact import NoSolution
-from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.formula.formula import Formula, Misconception, _forked
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
 
@@ -25,7 +25,7 @@ class Solver:
     family: Family
     solve: Callable[[Any, Work], None]
     misconceptions: tuple[Misconception, ...]
-    oracle: Callable[[Any], Mapping[str, Any]]
+    oracle: Callable[[Any], Sequence[Any]]
 
 
 @cache
@@ -91,9 +91,13 @@ class Solution:
 
     @property
     def applicable(self) -> tuple[Misconception, ...]:
-        """The misconceptions of the family that can be made in this problem."""
+        """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
         every = solver(self.problem.family).misconceptions
-        return tuple(misconception for misconception in every if misconception.applies(self.problem.given))
+        return tuple(mistake for mistake in every if self._has_room_for(mistake))
+
+    def _has_room_for(self, mistake: Misconception) -> bool:
+        read_here = any(mistake in formula.misread for formula in self.work.read)
+        return (read_here or mistake.is_slip) and mistake.applies(self.problem.given)
 
     def answers_with(
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None
@@ -119,7 +123,8 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
         NoSolution: the problem has no answer.
     """
     work = Work(misconception, carried or {})
-    solver(problem.family).solve(problem.given, work)
+    own = None if misconception is None or misconception.solve is _forked else misconception.solve
+    (own or solver(problem.family).solve)(problem.given, work)
     return work
 
 

@@ -9,6 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, name
+from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
@@ -127,21 +128,21 @@ class Work:
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
+    read: dict[Formula, None] = field(default_factory=dict)
 
     def makes(self, slip: Misconception) -> bool:
         """Whether this working is to make the given slip: solvers ask it where the procedure forks."""
-        return self.misconception is slip
+        return self.misconception == slip
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
-        return self.misconception is not None and self.misconception.formula is formula
+        return self.misconception in formula.misread
 
     def reading(self, formula: Formula) -> Expr:
         """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
+        self.read[formula] = None
         mistake = self.misconception
-        if mistake is not None and mistake.formula is formula and mistake.reads is not None:
-            return mistake.reads
-        return formula.right
+        return formula.right if mistake is None else formula.misread.get(mistake, formula.right)
 
     def step(
         self,
@@ -222,12 +223,13 @@ class Work:
         """Write a sentence between the steps; mathematics stands between ``$`` signs."""
         self.lines.append(Note(text))
 
-    def answer(self, label: str, value: Any) -> Any:
-        """Give the answer of a part, and get back what to go on with.
+    def answer(self, value: Any) -> Any:
+        """Give the answer of the next part, and get back what to go on with.
 
         That is the value itself, or in follow-through the answer that the person gave to this part.
         """
         value = _simplest(value)
+        label = part_label(len(self.answers))
         self.answers[label] = value
         self.ends[label] = len(self.lines)
         return self.carried.get(label, value)

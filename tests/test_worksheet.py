@@ -190,7 +190,7 @@ def test_a_title_that_is_too_long_is_refused() -> None:
 
 
 def exact_and_decimal(kind: Number | Matrix, value: object) -> str:
-    return "; ".join(map(unicode, answer_lines(Part("a", "?", kind), value)))
+    return "; ".join(map(unicode, answer_lines(Part("?", kind), value)))
 
 
 def test_keys_give_exact_numbers_and_decimals() -> None:

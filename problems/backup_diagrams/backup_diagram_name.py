@@ -85,7 +85,6 @@ def question(given: Given) -> Question:
     )
     parts = tuple(
         Part(
-            chr(ord("a") + index),
             f"What does {f'diagram {index + 1}' if count > 1 else 'the diagram'} show?",
             Choice({letter: TITLES[option] for option, letter in item.letters.items()}),
         )

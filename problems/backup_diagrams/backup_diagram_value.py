@@ -152,7 +152,7 @@ def question(given: Given) -> Question:
         ),
         diagram(given),
     )
-    return Question(blocks, (Part("a", f"What is ${given.asked}$, the value of the root{in_open(given)}?", Number()),))
+    return Question(blocks, (Part(f"What is ${given.asked}$, the value of the root{in_open(given)}?", Number()),))
 
 
 def diagram(given: Given) -> BackupDiagram:

@@ -1,6 +1,5 @@
 """The belief over the states of a robot after a run of actions and measurements."""
 
-from string import ascii_lowercase
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -111,8 +110,8 @@ def question(given: Given) -> Question:
     )
     numbers = range(1, 1 + len(given.run)) if len(given.run) > 1 else [None]
     parts = [
-        Part(label, f"{_told(event, number)} What is the belief then?", Values("p", states))
-        for label, number, event in zip(ascii_lowercase, numbers, given.run, strict=False)
+        Part(f"{_told(event, number)} What is the belief then?", Values("p", states))
+        for number, event in zip(numbers, given.run, strict=True)
     ]
     return Question(blocks, tuple(parts))
 

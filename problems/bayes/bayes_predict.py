@@ -1,6 +1,5 @@
 """The belief over the states of a robot after one or several actions."""
 
-from string import ascii_lowercase
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -70,7 +69,7 @@ def question(given: Given) -> Question:
         *([Paragraph("The probability $p$ is left open.")] if given.parameters() else []),
     )
     parts: list[Part] = []
-    for label, action in zip(ascii_lowercase, given.actions, strict=False):
+    for action in given.actions:
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
-        parts.append(Part(label, f"{told} What is the belief after it{in_open(given)}?", Values("p", states)))
+        parts.append(Part(f"{told} What is the belief after it{in_open(given)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

@@ -93,5 +93,5 @@ def question(given: Given) -> Question:
     for index, measurement in enumerate(given.measurements):
         first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
         ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
-        parts.append(Part(chr(ord("a") + index), ask, Values("p", hypotheses)))
+        parts.append(Part(ask, Values("p", hypotheses)))
     return Question(blocks, tuple(parts))

@@ -120,7 +120,7 @@ def question(given: Given) -> Question:
     """The models; log-likelihoods unless they are given, both criteria, and the winner."""
     names = given.names
     rule = Paragraph('$"BIC"(M) = −2 log p(D|M, θ) + k log n$, where $log$ is the natural logarithm, $ln$.')
-    criteria = Part("a", "What is the BIC of both models?", Values("BIC", names), 2, zero=True)
+    criteria = Part("What is the BIC of both models?", Values("BIC", names), 2, zero=True)
     if given.fitted is not None:
         rows = tuple((name, f"${model.k}$", f"${shown(model.likelihood)}$") for name, model in given.fitted.items())
         blocks: tuple[Block, ...] = (
@@ -128,7 +128,7 @@ def question(given: Given) -> Question:
             Table(header=("$M$", "parameters $k$", "$p(D|M, θ)$"), rows=rows),
             rule,
         )
-        return Question(blocks, (criteria, _winner("b", names)))
+        return Question(blocks, (criteria, _winner(names)))
     assert given.data is not None
     tosses = given.data.tosses
     told = ONE_COIN if len(tosses) == 1 else COIN_MODELS
@@ -147,15 +147,14 @@ def question(given: Given) -> Question:
         rule,
     )
     fit = Part(
-        "a",
         "What is $ln p(D|M, θ)$ of both models, each at the parameters that fit it best?",
         Values("ln p", names),
         2,
         zero=True,
     )
-    return Question(blocks, (fit, Part("b", criteria.ask, criteria.kind, 2, zero=True), _winner("c", names)))
+    return Question(blocks, (fit, Part(criteria.ask, criteria.kind, 2, zero=True), _winner(names)))
 
 
-def _winner(label: str, names: tuple[str, ...]) -> Part:
+def _winner(names: tuple[str, ...]) -> Part:
     options = dict(zip("ab", names, strict=True))
-    return Part(label, "Which model does the BIC prefer?", Choice(options))
+    return Part("Which model does the BIC prefer?", Choice(options))

@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 from functools import cache
-from string import ascii_lowercase
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -122,7 +121,7 @@ def question(given: Given) -> Question:
     parts: list[Part] = []
     for time, event in enumerate(given.steps, 1):
         for ask, kind, points in _wanted(given, time, event):
-            parts.append(Part(ascii_lowercase[len(parts)], ask, kind, points, zero=True))
+            parts.append(Part(ask, kind, points, zero=True))
     return Question((*blocks, Table(header=("$t$", *times), rows=rows)), tuple(parts))
 
 

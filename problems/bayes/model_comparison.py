@@ -104,15 +104,15 @@ def question(given: Given) -> Question:
     )
     first, second = names[:2]
     if len(names) == 2:
-        odds = Part("b", f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
+        odds = Part(f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
     else:
-        odds = Part("b", "What is the posterior probability $p(M|D)$ of every model?", Values("p(·|D)", names), 2)
+        odds = Part("What is the posterior probability $p(M|D)$ of every model?", Values("p(·|D)", names), 2)
     return Question(
         blocks,
         (
-            Part("a", "What is the evidence $p(D|M)$ of every model?", Values("p(D|·)", names), 2),
+            Part("What is the evidence $p(D|M)$ of every model?", Values("p(D|·)", names), 2),
             odds,
-            Part("c", f"Is “{first}” the most probable model now?", YesNo()),
+            Part(f"Is “{first}” the most probable model now?", YesNo()),
         ),
     )
 

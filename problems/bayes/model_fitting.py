@@ -139,8 +139,8 @@ def _coin(coin: Coin) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is the maximum likelihood estimate of $θ$?", Number(), zero=True),
-            Part("b", f"{prior}{power} What is the maximum a posteriori estimate of $θ$?", Number(), 2, zero=True),
+            Part("What is the maximum likelihood estimate of $θ$?", Number(), zero=True),
+            Part(f"{prior}{power} What is the maximum a posteriori estimate of $θ$?", Number(), 2, zero=True),
         ),
     )
 
@@ -154,9 +154,9 @@ def _sample(sample: Sample) -> Question:
         ),
     ]
     parts = [
-        Part("a", "What is the maximum likelihood estimate of $μ$?", Number(), zero=True),
-        Part("b", "What is the maximum likelihood estimate of $σ^2$, which divides by $n$?", Number(), zero=True),
-        Part("c", "What is the unbiased estimate of $σ^2$, which divides by $n − 1$?", Number(), zero=True),
+        Part("What is the maximum likelihood estimate of $μ$?", Number(), zero=True),
+        Part("What is the maximum likelihood estimate of $σ^2$, which divides by $n$?", Number(), zero=True),
+        Part("What is the unbiased estimate of $σ^2$, which divides by $n − 1$?", Number(), zero=True),
     ]
     if sample.prior is not None:
         prior = sample.prior
@@ -164,7 +164,7 @@ def _sample(sample: Sample) -> Question:
             f"Now let the variance of a measurement be known, $σ^2 = {shown(prior.noise)}$, and let the prior of $μ$ "
             f"be normal with mean $μ_0 = {shown(prior.mean)}$ and variance $σ_0^2 = {shown(prior.variance)}$."
         )
-        parts.append(Part("d", f"{told} What is the maximum a posteriori estimate of $μ$?", Number(), 2, zero=True))
+        parts.append(Part(f"{told} What is the maximum a posteriori estimate of $μ$?", Number(), 2, zero=True))
     return Question(tuple(blocks), tuple(parts))
 
 
@@ -178,13 +178,11 @@ def _line(line: Line) -> Question:
         Paragraph("The model is a line with independent normal noise of the same variance: $y = θ_0 + θ_1 x + ε$."),
     )
     entries = Numbers(("θ_1", "θ_0"))
-    parts = [
-        Part("a", "Which slope $θ_1$ and intercept $θ_0$ have the greatest likelihood (least squares)?", entries, 2)
-    ]
+    parts = [Part("Which slope $θ_1$ and intercept $θ_0$ have the greatest likelihood (least squares)?", entries, 2)]
     if line.prior is not None:
         told = (
             f"Now let the variance of the noise be known, $σ^2 = {shown(line.prior.noise)}$, and let the prior of the "
             f"slope be normal with mean $0$ and variance $σ_0^2 = {shown(line.prior.variance)}$; that of $θ_0$ is flat."
         )
-        parts.append(Part("b", f"{told} Which $θ_1$ and $θ_0$ are the most probable?", entries, 2))
+        parts.append(Part(f"{told} Which $θ_1$ and $θ_0$ are the most probable?", entries, 2))
     return Question(blocks, tuple(parts))

@@ -50,4 +50,4 @@ def question(given: Given) -> Question:
         Paragraph(f"The values of the states under a policy $π$ are known. {discount(given.gamma)}"),
         values_table(given.values, "V^π"),
     )
-    return Question(blocks, (Part("a", one if len(pairs) == 1 else every, Values("Q^π", pairs)),))
+    return Question(blocks, (Part(one if len(pairs) == 1 else every, Values("Q^π", pairs)),))

@@ -67,4 +67,4 @@ def question(given: Given) -> Question:
         Paragraph(f"The values of the next states under the policy are known. {discount(given.gamma)}"),
         values_table(given.values, "V^π"),
     )
-    return Question(blocks, (Part("a", f'What is $V^π("{given.state}")${in_open(given)}?', Number()),))
+    return Question(blocks, (Part(f'What is $V^π("{given.state}")${in_open(given)}?', Number()),))

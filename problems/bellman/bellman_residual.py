@@ -121,7 +121,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is the residual $δ(s)$ of every state?", Values("δ", given.mdp.states), zero=True),
-            Part("b", f"Is $V$ equal to ${of}$?", YesNo()),
+            Part("What is the residual $δ(s)$ of every state?", Values("δ", given.mdp.states), zero=True),
+            Part(f"Is $V$ equal to ${of}$?", YesNo()),
         ),
     )

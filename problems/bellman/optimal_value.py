@@ -58,8 +58,8 @@ def question(given: Given) -> Question:
     return Question(
         (*model_blocks(given.mdp), Paragraph(discount(given.gamma))),
         (
-            Part("a", "What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states), points=2),
-            Part("b", "Which action is best in every state?", Policy(given.mdp.actions)),
-            Part("c", "What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
+            Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states), points=2),
+            Part("Which action is best in every state?", Policy(given.mdp.actions)),
+            Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
         ),
     )

@@ -40,9 +40,8 @@ def question(given: Given) -> Question:
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
         (
-            Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),
+            Part(f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),
             Part(
-                "b",
                 f"What is $Q^π(s, a)$ for every state and action{in_open(given)}?",
                 Values("Q^π", given.mdp.pairs),
             ),

@@ -65,5 +65,5 @@ def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
-        (Part("a", f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),),
+        (Part(f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),),
     )

@@ -141,15 +141,14 @@ def question(given: Given) -> Question:
     states = tuple(given.onward)
     parts = [
         Part(
-            "a",
             f"What is $V^*(s)$, the greatest total reward of a path to {given.goal}, from every state $s$?",
             Values("V^*", states),
         ),
     ]
     if given.forks:
         ask = "To which state does a best path lead next, from every state where there is a choice?"
-        parts.append(Part("b", ask, Policy(given.forks)))
+        parts.append(Part(ask, Policy(given.forks)))
     if given.through is not None:
         ask = f"What is the greatest total reward of a path from {given.start} to {given.goal} through {given.through}?"
-        parts.append(Part("c" if given.forks else "b", ask, Number()))
+        parts.append(Part(ask, Number()))
     return Question(blocks, tuple(parts))

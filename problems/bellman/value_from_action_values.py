@@ -63,12 +63,11 @@ def question(given: Given) -> Question:
     )
     parts = [
         Part(
-            "a",
             f"The table holds $Q^π$, the action values of this policy. What is $V^π(s)$ {every}{in_open(given)}?",
             Values("V^π", states),
         )
     ]
     if not given.parameters():
         ask = f"Suppose instead that the table holds $Q^*$, the optimal action values. What is $V^*(s)$ {every}?"
-        parts.append(Part("b", ask, Values("V^*", states)))
+        parts.append(Part(ask, Values("V^*", states)))
     return Question(blocks, tuple(parts))

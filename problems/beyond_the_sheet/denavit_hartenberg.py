@@ -76,8 +76,5 @@ def question(given: Given) -> Question:
                 "frame to the frame before it."
             ),
         ),
-        tuple(
-            Part(label, ask, Matrix(4, 4), points=points)
-            for label, (ask, points) in zip("abcdefgh", asks, strict=False)
-        ),
+        tuple(Part(ask, Matrix(4, 4), points=points) for ask, points in asks),
     )

@@ -26,7 +26,7 @@ def question(given: Given) -> Question:
     return Question(
         situation(given),
         (
-            Part("a", "What is the angle $φ$ of the last link against the $x$ axis, in radians?", Number(), zero=True),
-            Part("b", "Where is the end point $(x, y)$ of the last link?", Numbers(("x", "y")), points=2),
+            Part("What is the angle $φ$ of the last link against the $x$ axis, in radians?", Number(), zero=True),
+            Part("Where is the end point $(x, y)$ of the last link?", Numbers(("x", "y")), points=2),
         ),
     )

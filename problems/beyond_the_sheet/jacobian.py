@@ -63,11 +63,11 @@ def question(given: Given) -> Question:
     )  # fmt: skip
     velocity = tuple(f"v_{row}" for row in given.rows)
     parts = [
-        Part("a", "What is $J$ at this configuration?", Matrix(m, n), points=3),
-        Part("b", f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True),
+        Part("What is $J$ at this configuration?", Matrix(m, n), points=3),
+        Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True),
     ]
     if given.square:
-        parts.append(Part("c", "Is the configuration singular, that is, is $det J = 0$?", YesNo()))
+        parts.append(Part("Is the configuration singular, that is, is $det J = 0$?", YesNo()))
     return Question(
         (
             *situation(given),

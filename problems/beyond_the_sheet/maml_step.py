@@ -76,12 +76,11 @@ def question(given: Given) -> Question:
         ),
         (
             Part(
-                "a",
                 f"What {'is the adapted parameter' if count == 1 else 'are the adapted parameters'} "
                 f"${', '.join(adapted)}${open_}?",
                 Numbers(adapted) if count > 1 else Number(),
                 zero=True,
             ),
-            Part("b", f"What is $θ$ after the outer step{open_}?", Number(), points=2, zero=True),
+            Part(f"What is $θ$ after the outer step{open_}?", Number(), points=2, zero=True),
         ),
     )

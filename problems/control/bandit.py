@@ -119,10 +119,10 @@ def question(given: Given) -> Question:
     )
     if given.kind == "gradient":
         return Question((*blocks, *_preferences(given)), _gradient_parts(given))
-    estimates = Part("a", "What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
+    estimates = Part("What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
     choice = Policy({NEXT: given.arms})
     if given.kind == "estimates":
-        return Question(blocks, (estimates, Part("b", "Which arm is pulled next, if the choice is greedy?", choice)))
+        return Question(blocks, (estimates, Part("Which arm is pulled next, if the choice is greedy?", choice)))
     explained = Paragraph(
         f"The next arm is chosen at time $t = {pulls + 1}$ by its upper confidence bound $U(a)$ (UCB), in which the "
         f"exploration is weighted with $c = {shown(given.c or Fraction(0))}$."
@@ -131,8 +131,8 @@ def question(given: Given) -> Question:
         (*blocks, explained),
         (
             estimates,
-            Part("b", "What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
-            Part("c", "Which arm does UCB pull next?", choice),
+            Part("What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
+            Part("Which arm does UCB pull next?", choice),
         ),
     )
 
@@ -158,8 +158,6 @@ def _preferences(given: Given) -> tuple[Block, ...]:
 def _gradient_parts(given: Given) -> tuple[Part, ...]:
     last = len(given.every_pull)
     return (
-        Part("a", f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", given.arms)),
-        Part(
-            "b", f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", given.arms), points=2
-        ),
+        Part(f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", given.arms)),
+        Part(f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", given.arms), points=2),
     )

@@ -93,12 +93,12 @@ def question(given: Given) -> Question:
         ),
     )
     parts = []
-    for label, table in zip("ab", given.asked, strict=False):
+    for table in given.asked:
         pairs = given.updated_in(table)
         asked = (
             f'$Q_{table}("{pairs[0][0]}", "{pairs[0][1]}")$'
             if len(pairs) == 1
             else f"the value in $Q_{table}$ of every pair that is updated there"
         )
-        parts.append(Part(label, f"What is {asked} after the run{in_open(given)}?", Values(f"Q_{table}", pairs)))
+        parts.append(Part(f"What is {asked} after the run{in_open(given)}?", Values(f"Q_{table}", pairs)))
     return Question(blocks, tuple(parts))

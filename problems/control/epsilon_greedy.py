@@ -69,12 +69,11 @@ def question(given: Given) -> Question:
     where = f'"{given.state}"'
     parts = [
         Part(
-            "a",
             f"With which probability $π(a|{where})$ is every action taken{in_open(given)}?",
             Values("π", tuple(given.values)),
         )
     ]
     if given.valued:
         ask = f"If these action values are those of the policy, what is $V^π({where})${in_open(given)}?"
-        parts.append(Part("b", ask, Number()))
+        parts.append(Part(ask, Number()))
     return Question(blocks, tuple(parts))

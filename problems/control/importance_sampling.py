@@ -124,17 +124,17 @@ def question(given: Given) -> Question:
         return Question(
             blocks,
             (
-                Part("a", f"What is the importance sampling ratio $ρ_1$ of the episode{in_open(given)}?", Number()),
-                Part("b", f"What is the ordinary estimate of {value} from this episode{in_open(given)}?", Number()),
+                Part(f"What is the importance sampling ratio $ρ_1$ of the episode{in_open(given)}?", Number()),
+                Part(f"What is the ordinary estimate of {value} from this episode{in_open(given)}?", Number()),
             ),
         )
     ratios = f"What are the importance sampling ratios {_listed(entries)} of the episodes, in this order"
     return Question(
         blocks,
         (
-            Part("a", f"{ratios}{in_open(given)}?", Numbers(entries)),
-            Part("b", f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
-            Part("c", f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
+            Part(f"{ratios}{in_open(given)}?", Numbers(entries)),
+            Part(f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
+            Part(f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
         ),
     )
 

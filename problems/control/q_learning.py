@@ -42,5 +42,5 @@ def question(given: Given) -> Question:
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
         run_blocks(given, action_values_table(given.values), "Q-learning"),
-        (Part("a", f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
+        (Part(f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
     )

@@ -79,9 +79,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"What is the trace of these pairs after the run{in_open(given)}?", Values("e", given.eligible)),
+            Part(f"What is the trace of these pairs after the run{in_open(given)}?", Values("e", given.eligible)),
             Part(
-                "b",
                 f"What is the action value of these pairs after the run{in_open(given)}?",
                 Values("Q", given.eligible),
                 points=2,

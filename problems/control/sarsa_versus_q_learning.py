@@ -62,8 +62,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"{asked} of Sarsa{in_open(given)}?", kind),
-            Part("b", f"{asked} of Q-learning{in_open(given)}?", kind),
-            Part("c", f"Which of the two is {given.word}, so that it {_MEANING[given.word]}?", Choice(METHODS)),
+            Part(f"{asked} of Sarsa{in_open(given)}?", kind),
+            Part(f"{asked} of Q-learning{in_open(given)}?", kind),
+            Part(f"Which of the two is {given.word}, so that it {_MEANING[given.word]}?", Choice(METHODS)),
         ),
     )

@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, check_keys
-from rldrill.problems.parts import Number, Part, lettered
+from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import draw_setting
 from rldrill.problems.sweeps import counted
@@ -90,12 +90,12 @@ def question(given: Given) -> Question:
         ),
         Paragraph(f"{discount(given.gamma)} Distances are measured in the maximum norm $‖·‖_∞$."),
     )
-    parts = [Part("", f"What is $‖{'V_0 − V^*' if known else 'V_1 − V_0'}‖_∞$?", Number())]
+    parts = [Part(f"What is $‖{'V_0 − V^*' if known else 'V_1 − V_0'}‖_∞$?", Number())]
     if not known:
-        parts.append(Part("", "How large can $‖V_0 − V^*‖_∞$ be at most, by what the first sweep changed?", Number()))
+        parts.append(Part("How large can $‖V_0 − V^*‖_∞$ be at most, by what the first sweep changed?", Number()))
     ask = f"How large can $‖V_{{{given.sweeps}}} − V^*‖_∞$ be at most, after {counted(given.sweeps)}?"
-    parts.append(Part("", ask, Number()))
+    parts.append(Part(ask, Number()))
     if given.accuracy is not None:
         ask = f"What is the smallest $k$ for which this bound guarantees $‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$?"
-        parts.append(Part("", ask, Number(), points=2))
-    return Question(blocks, lettered(parts))
+        parts.append(Part(ask, Number(), points=2))
+    return Question(blocks, tuple(parts))

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Dynamics, Name, transitions_table
-from rldrill.problems.parts import Part, Policy, Values, lettered
+from rldrill.problems.parts import Part, Policy, Values
 from rldrill.problems.phrases import discount, terminal_note
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
@@ -94,11 +94,11 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
     best = Part(
-        "", "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions)
+        "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions)
     )
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
-        return Question(tuple(known), lettered([best]))
+        return Question(tuple(known), (best,))
     blocks = (
         *known,
         Paragraph("Where a question mark stands, the action does this:"),
@@ -109,7 +109,7 @@ def question(given: Given) -> Question:
     ask = (
         "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
     )
-    return Question(blocks, lettered([Part("", ask, Values("Q^*", given.gaps), points=len(given.gaps)), best]))
+    return Question(blocks, (Part(ask, Values("Q^*", given.gaps), points=len(given.gaps)), best))
 
 
 def _table(given: Given) -> Table:

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Name, PolicyField, check_keys, check_policy, model_blocks
-from rldrill.problems.parts import Part, Policy, YesNo, lettered
+from rldrill.problems.parts import Part, Policy, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
@@ -64,7 +64,7 @@ def question(given: Given) -> Question:
     blocks = (*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma)), *known)
     parts = (
         *asked,
-        Part("", "Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions), points=len(states)),
-        Part("", "Is $π$ an optimal policy?", YesNo()),
+        Part("Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions), points=len(states)),
+        Part("Is $π$ an optimal policy?", YesNo()),
     )
-    return Question(blocks, lettered(parts))
+    return Question(blocks, tuple(parts))

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Name, check_keys, check_policy, model_blocks
-from rldrill.problems.parts import Part, Values, YesNo, lettered
+from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
@@ -80,7 +80,7 @@ def question(given: Given) -> Question:
     )
     parts = (
         *asked,
-        Part("", "What is $Q^π(s, π'(s))$ in every state?", Values("Q^π", given.pairs), points=len(states)),
-        Part("", "Does the policy improvement theorem show that $π'$ is at least as good as $π$?", YesNo()),
+        Part("What is $Q^π(s, π'(s))$ in every state?", Values("Q^π", given.pairs), points=len(states)),
+        Part("Does the policy improvement theorem show that $π'$ is at least as good as $π$?", YesNo()),
     )
-    return Question(blocks, lettered(parts))
+    return Question(blocks, tuple(parts))

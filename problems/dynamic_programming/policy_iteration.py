@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Name, check_policy, model_blocks
-from rldrill.problems.parts import Part, Policy, Values, YesNo, lettered
+from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_valued
@@ -62,9 +62,13 @@ def question(given: Given) -> Question:
     for number in range(given.rounds):
         of, after = f"V^{{π_{{{number}}}}}", f"π_{{{number + 1}}}"
         parts += [
-            Part("", f"What is ${of}(s)$, the value of every state?", Values(of, states), points=len(states)),
-            Part("", f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions), points=len(states)),
+            Part(f"What is ${of}(s)$, the value of every state?", Values(of, states), points=len(states)),
+            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions), points=len(states)),
         ]
     return Question(
-        blocks, lettered([*parts, Part("", f"Does the last round show that ${after}$ is optimal?", YesNo())])
+        blocks,
+        (
+            *parts,
+            Part(f"Does the last round show that ${after}$ is optimal?", YesNo()),
+        ),
     )

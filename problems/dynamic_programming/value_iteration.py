@@ -42,10 +42,9 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part(
-                "a",
                 f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}?",
                 Values(f"V_{{{k}}}", given.mdp.states),
             ),
-            Part("b", f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),
+            Part(f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),
         ),
     )

@@ -94,7 +94,7 @@ def question(given: Given) -> Question:
                 f"They are piecewise linear radial basis functions of the width $b = {shown(given.bumps.width)}$."
             ),
         )
-        parts.append(Part("a", f"What are the features ${', '.join(names)}$, in this order?", Numbers(names)))
+        parts.append(Part(f"What are the features ${', '.join(names)}$, in this order?", Numbers(names)))
     last = given.size * len(given.actions)
     stacked = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, last + 1))
     blocks += (
@@ -110,5 +110,5 @@ def question(given: Given) -> Question:
         ("Which action is greedy?", Policy({"s": given.actions}), 1),
     )
     for ask, kind, points in asked:
-        parts.append(Part(chr(ord("a") + len(parts)), ask, kind, points=points, zero=True))
+        parts.append(Part(ask, kind, points=points, zero=True))
     return Question(blocks, tuple(parts))

@@ -135,4 +135,4 @@ def question(given: Given) -> Question:
         ]
     blocks = (*model_blocks(given.mdp), *start, *policy_blocks(given), Paragraph(discount(given.gamma)))
     ask = f"What is the expected return $𝔼_π(R_0)${in_open(given)}?"
-    return Question(blocks, (Part("a", ask, Number()),))
+    return Question(blocks, (Part(ask, Number()),))

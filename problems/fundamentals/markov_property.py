@@ -117,11 +117,11 @@ def question(given: Given) -> Question:
     )
     ask = f'What is $Pr(s_{{t+1}} = "{given.asked}" | s_{{t-1}}, s_t)$ for every history $s_{{t-1}}, s_t$ of the table?'
     parts = [
-        Part("a", ask, Values("Pr", given.histories)),
-        Part("b", "Can the process of these states be Markov, going by this table?", YesNo()),
+        Part(ask, Values("Pr", given.histories)),
+        Part("Can the process of these states be Markov, going by this table?", YesNo()),
     ]
     if options := where(given):
-        parts.append(Part("c", "In which present state $s_t$ does it matter what $s_{t-1}$ was?", Choice(options)))
+        parts.append(Part("In which present state $s_t$ does it matter what $s_{t-1}$ was?", Choice(options)))
     return Question(blocks, tuple(parts))
 
 

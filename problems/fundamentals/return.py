@@ -51,8 +51,8 @@ def question(given: Given) -> Question:
     if given.time is None:
         entries = tuple(f"R_{{{time}}}" for time in range(end))
         ask = f"What are the returns $R_0, …, R_{{{end - 1}}}$, in this order{in_open(given)}?"
-        return Question(blocks, (Part("a", ask, Numbers(entries)),))
-    parts = [Part("a", f"What is the return $R_{{{given.time}}}${in_open(given)}?", Number())]
+        return Question(blocks, (Part(ask, Numbers(entries)),))
+    parts = [Part(f"What is the return $R_{{{given.time}}}${in_open(given)}?", Number())]
     if given.time:
-        parts.append(Part("b", f"What is the return $R_0${in_open(given)}?", Number()))
+        parts.append(Part(f"What is the return $R_0${in_open(given)}?", Number()))
     return Question(blocks, tuple(parts))

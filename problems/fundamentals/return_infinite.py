@@ -55,7 +55,7 @@ def question(given: Given) -> Question:
         told = f"{since}, the rewards are ${round_}$, and again ${round_}$, and so on for ever."
     limits = " It is at least $0$ and below $1$." if isinstance(given.gamma, Parameter) else ""
     blocks = (Paragraph(f"{opening}{told} {discount(given.gamma)}{limits}"),)
-    parts = [Part("a", f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
+    parts = [Part(f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
     if k:
-        parts.append(Part("b", f"What is the return $R_{{0}}${in_open(given)}?", Number()))
+        parts.append(Part(f"What is the return $R_{{0}}${in_open(given)}?", Number()))
     return Question(blocks, tuple(parts))

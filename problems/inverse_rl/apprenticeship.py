@@ -1,7 +1,6 @@
 """Apprenticeship learning by projection: distances, projected points and the weights of the next reward."""
 
 from fractions import Fraction
-from string import ascii_lowercase
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -102,12 +101,11 @@ def question(given: Given) -> Question:
             "are then $w = μ(π_E) − μ̄$."
         ),
     )
-    labels = iter(ascii_lowercase)
-    parts = [Part(next(labels), "What is the distance $‖μ(π_1) − μ(π_E)‖$ (Euclidean)?", Number())]
+    parts = [Part("What is the distance $‖μ(π_1) − μ(π_E)‖$ (Euclidean)?", Number())]
     for number in range(1, count + 1):
         point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
         weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
-        parts.append(Part(next(labels), f"Where is $μ̄$ after $π_{{{number}}}$?", point, 2))
-        parts.append(Part(next(labels), "What are the weights $w$ then?", weights, zero=True))
-    parts.append(Part(next(labels), f"What is the distance $‖w‖$ that is left after $π_{{{count}}}$?", Number()))
+        parts.append(Part(f"Where is $μ̄$ after $π_{{{number}}}$?", point, 2))
+        parts.append(Part("What are the weights $w$ then?", weights, zero=True))
+    parts.append(Part(f"What is the distance $‖w‖$ that is left after $π_{{{count}}}$?", Number()))
     return Question(blocks, tuple(parts))

@@ -76,4 +76,4 @@ def question(given: Given) -> Question:
     )
     size = len(next(iter(given.features.values())))
     ask = f"Which estimate of the feature expectations $μ(π)$ of the expert's policy do they give{in_open(given)}?"
-    return Question(blocks, (Part("a", ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, size + 1)))),))
+    return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, size + 1)))),))

@@ -1,7 +1,6 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
 from fractions import Fraction
-from string import ascii_lowercase
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -113,17 +112,16 @@ def question(given: Given) -> Question:
     )
     parts = [
         Part(
-            label,
             f"With $μ_{{{number}}}(s)$ the expected discounted sum of the feature $φ_{{{number}}}$ of the states from "
             f"$s_0 = s$ on, $s_0$ included: what is $μ_{{{number}}}(s)$ for every state{in_open(given)}?",
             Values(f"μ_{{{number}}}", given.states),
             2,
         )
-        for label, number in zip(ascii_lowercase, numbers, strict=False)
+        for number in numbers
     ]
     entries = tuple(f"μ_{{{number}}}" for number in numbers)
     ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
-    parts.append(Part(ascii_lowercase[given.size], ask, Numbers(entries)))
+    parts.append(Part(ask, Numbers(entries)))
     return Question(blocks, tuple(parts))
 
 

@@ -92,8 +92,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is $w^⊤ μ(π)$ of every policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
-            Part("b", "How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
-            Part("c", "What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), 2, zero=True),
+            Part("What is $w^⊤ μ(π)$ of every policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
+            Part("How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
+            Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), 2, zero=True),
         ),
     )

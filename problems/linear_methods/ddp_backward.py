@@ -81,7 +81,7 @@ def question(given: Given) -> Question:
             ),
         ),
         tuple(
-            Part(label, f"What is the {what} ${head}$?", Matrix(rows, columns), points=points, zero=True)
-            for label, (head, what, rows, columns, points) in zip("abcdefg", wanted, strict=True)
+            Part(f"What is the {what} ${head}$?", Matrix(rows, columns), points=points, zero=True)
+            for head, what, rows, columns, points in wanted
         ),
     )

@@ -47,8 +47,5 @@ def question(given: Given) -> Question:
                 "is $0$."
             ),
         ),
-        tuple(
-            Part(label, ask + in_open(given) + "?", kind, points=points, zero=n > 1)
-            for label, (ask, kind, points) in zip("abcdefghijklmnopqrstuvwxyz", wanted, strict=False)
-        ),
+        tuple(Part(ask + in_open(given) + "?", kind, points, zero=n > 1) for ask, kind, points in wanted),
     )

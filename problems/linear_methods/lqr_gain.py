@@ -78,7 +78,6 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part(
-                "a",
                 "What is the gain $L_0$ of the optimal action $a_0 = −L_0 s_0$?",
                 MatrixKind(rows, columns),
             ),

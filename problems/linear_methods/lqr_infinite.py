@@ -121,8 +121,8 @@ def question(given: Given) -> Question:
             ),
         ),
         (
-            Part("a", "What is $P$?", Matrix(n, n), points=3),
-            Part("b", "What is the gain $L$?", Matrix(m, n), points=2),
-            Part("c", "What is the matrix $A − B L$ of the closed loop?", Matrix(n, n), zero=True),
+            Part("What is $P$?", Matrix(n, n), points=3),
+            Part("What is the gain $L$?", Matrix(m, n), points=2),
+            Part("What is the matrix $A − B L$ of the closed loop?", Matrix(n, n), zero=True),
         ),
     )

@@ -79,7 +79,7 @@ def question(given: Given) -> Question:
             *gains,
         ),
         (
-            Part("a", f"What is the first reward $r(s_0, a_0)${in_open(given)}?", Number()),
-            Part("b", f"What is the total reward $J = {sum_}${in_open(given)}?", Number(), points=2),
+            Part(f"What is the first reward $r(s_0, a_0)${in_open(given)}?", Number()),
+            Part(f"What is the total reward $J = {sum_}${in_open(given)}?", Number(), points=2),
         ),
     )

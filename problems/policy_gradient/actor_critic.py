@@ -115,10 +115,10 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
+            Part(f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
                  Numbers(errors)),
-            Part("b", f"{values} after the run{opened}?", Values("V", given.visited), zero=True),
-            Part("c", f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta)),
+            Part(f"{values} after the run{opened}?", Values("V", given.visited), zero=True),
+            Part(f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta)),
                  points=3),
         ),
     )  # fmt: skip

@@ -144,15 +144,14 @@ def _of_one_state(given: Given, ahead: Lookahead) -> Question:
         Paragraph(f"In state {state} the actions do this:"),
         transitions_table(ahead.dynamics),
     )
-    parts = [Part("a", f"What are the action values $Q^π(s, a)$ in {state}?", Values("Q^π", pairs), zero=True)]
+    parts = [Part(f"What are the action values $Q^π(s, a)$ in {state}?", Values("Q^π", pairs), zero=True)]
     if ahead.policy is None:
         of_states = "The values of the states under the policy $π$ are estimated as follows."
     else:
         opening += (Paragraph("The policy $π$ takes them with these probabilities:"), policy_table(ahead.policy))
         of_states = "The values of the next states under it are known."
-        parts.append(Part("b", f'What is the value $V^π("{state}")$?', Number(), zero=True))
-    label = chr(ord("a") + len(parts))
-    parts.append(Part(label, f"What is the advantage $A(s, a)$ of every action in {state}?", Values("A", pairs)))
+        parts.append(Part(f'What is the value $V^π("{state}")$?', Number(), zero=True))
+    parts.append(Part(f"What is the advantage $A(s, a)$ of every action in {state}?", Values("A", pairs)))
     blocks = (*opening, Paragraph(f"{of_states} {discount(given.gamma)}"), values_table(ahead.values, "V^π"))
     return Question(blocks, tuple(parts))
 
@@ -174,8 +173,6 @@ def _along(given: Given, run: Run) -> Question:
     )
     ask = f"What are the estimates ${', '.join(estimates)}$, in this order{in_open(given)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
-        return Question(blocks, (Part("a", ask, Numbers(estimates), points=3),))
+        return Question(blocks, (Part(ask, Numbers(estimates), points=3),))
     first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
-    return Question(
-        blocks, (Part("a", first, Numbers(errors), zero=True), Part("b", ask, Numbers(estimates), points=2))
-    )
+    return Question(blocks, (Part(first, Numbers(errors), zero=True), Part(ask, Numbers(estimates), points=2)))

@@ -56,9 +56,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is $Q̂(s, a)$ of every action?", Values("Q̂", pairs), points=2, zero=True),
+            Part("What is $Q̂(s, a)$ of every action?", Values("Q̂", pairs), points=2, zero=True),
             Part(
-                "b",
                 "Which action does the policy take in each state?"
                 if len(given.features) > 1
                 else "Which action does the policy take?",

@@ -106,15 +106,15 @@ def question(given: Given) -> Question:
     """A table of samples; ratios, terms, the objective, and for every sample whether its gradient is cut."""
     times = range(len(given.samples))
     parts = [
-        _asked("a", "probability ratio", "ρ", times),
-        _asked("b", "unclipped term", "u", times),
-        _asked("c", "clipped term", "c", times),
-        Part("d", "What is the objective $L$, the mean over the samples?" if len(times) > 1
+        _asked("probability ratio", "ρ", times),
+        _asked("unclipped term", "u", times),
+        _asked("clipped term", "c", times),
+        Part("What is the objective $L$, the mean over the samples?" if len(times) > 1
              else "What is the objective $L_0$?", Number(), points=2, zero=True),
     ]  # fmt: skip
     for time in times:
         ask = f"Does clipping cut off the gradient of $L_{{{time}}}$, so that it does not change $θ$?"
-        parts.append(Part(chr(ord("e") + time), ask, YesNo()))
+        parts.append(Part(ask, YesNo()))
     wanted = "samples" if len(times) > 1 else "sample"
     blocks: tuple[Block, ...] = (
         Paragraph(f"PPO learns from the {wanted} below, taken by the old policy; $A_t$ is the estimated advantage."),
@@ -128,11 +128,11 @@ def question(given: Given) -> Question:
     return Question(blocks, tuple(parts))
 
 
-def _asked(label: str, what: str, letter: str, times: range) -> Part:
+def _asked(what: str, letter: str, times: range) -> Part:
     names = tuple(f"{letter}_{{{time}}}" for time in times)
     if len(names) == 1:
-        return Part(label, f"What is the {what} ${names[0]}$?", Number())
-    return Part(label, f"What are the {what}s ${', '.join(names)}$, in this order?", Numbers(names))
+        return Part(f"What is the {what} ${names[0]}$?", Number())
+    return Part(f"What are the {what}s ${', '.join(names)}$, in this order?", Numbers(names))
 
 
 def _samples_table(given: Given) -> Table:

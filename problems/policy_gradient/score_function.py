@@ -92,12 +92,11 @@ def question(given: Given) -> Question:
         blocks += (Paragraph(f"The weights are ${weights(given.theta or ())}$.{left_open}"),)
         probabilities = (
             Part(
-                "a",
                 f"With which probability $π(a|s)$ is every action taken{in_open(given)}?",
                 Values("π", tuple(given.features)),
             ),
         )
     parts = [*probabilities]
     for text in wanted:
-        parts.append(Part(chr(ord("a") + len(parts)), text, Numbers(names), points=2))
+        parts.append(Part(text, Numbers(names), points=2))
     return Question(blocks, tuple(parts))

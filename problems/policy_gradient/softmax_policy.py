@@ -56,9 +56,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", "What is the preference $h(s, a)$ of every action?", Values("h", actions), zero=True),
+            Part("What is the preference $h(s, a)$ of every action?", Values("h", actions), zero=True),
             Part(
-                "b",
                 "With which probability $π(a|s)$ is every action taken?",
                 Values("π", actions),
                 points=2,

@@ -86,8 +86,8 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("a", f"What are {what} at the end if the updates are those of every-visit Monte Carlo{tail}?", key),
-            Part("b", f"What are {what} at the end if the updates are those of TD(0){tail}?", key),
+            Part(f"What are {what} at the end if the updates are those of every-visit Monte Carlo{tail}?", key),
+            Part(f"What are {what} at the end if the updates are those of TD(0){tail}?", key),
         ),
     )
 

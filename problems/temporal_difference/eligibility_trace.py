@@ -73,7 +73,6 @@ def question(given: Given) -> Question:
     every = "all states" if len(given.visited) > 1 else "the state"
     parts = tuple(
         Part(
-            chr(ord("a") + index),
             f"What are the traces $e(s)$ of {every} after the update at $t = {time}${in_open(given)}?",
             Values("e", given.visited),
         )

@@ -75,14 +75,14 @@ def question(given: Given) -> Question:
     )
     average = f"What is the λ-return $R_{{{t}}}^{{(λ)}}$ of this episode{in_open(given)}?"
     if not given.in_parts:
-        return Question(blocks, (Part("a", average, Number()),))
+        return Question(blocks, (Part(average, Number()),))
     entries = (*(f"R_{{{t}}}^{{({n})}}" for n in range(1, given.steps_left)), f"R_{{{t}}}")
     shorter = [f"${entry}$" for entry in entries[:-1]]
     many = f"n-step returns {', '.join(shorter)}" if len(shorter) > 1 else f"one-step return {shorter[0]}"
     return Question(
         blocks,
         (
-            Part("a", f"What are the {many} and the return ${entries[-1]}$?", Numbers(entries)),
-            Part("b", average, Number()),
+            Part(f"What are the {many} and the return ${entries[-1]}$?", Numbers(entries)),
+            Part(average, Number()),
         ),
     )

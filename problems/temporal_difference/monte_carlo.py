@@ -71,11 +71,11 @@ def question(given: Given) -> Question:
     tail = in_open(given)
     values = f"What is {values_asked(given)} after the updates{tail}?"
     if not given.in_parts:
-        return Question(blocks, (Part("a", values, Values("V", given.visited)),))
+        return Question(blocks, (Part(values, Values("V", given.visited)),))
     entries = tuple(f"R_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     if len(entries) == 1:
-        returns = Part("a", f"What is the return ${entries[0]}${tail}?", Number())
+        returns = Part(f"What is the return ${entries[0]}${tail}?", Number())
     else:
         listed = ", ".join(entries) if len(entries) < 4 else f"{entries[0]}, …, {entries[-1]}"
-        returns = Part("a", f"What are the returns ${listed}$, in this order{tail}?", Numbers(entries))
-    return Question(blocks, (returns, Part("b", values, Values("V", given.visited))))
+        returns = Part(f"What are the returns ${listed}$, in this order{tail}?", Numbers(entries))
+    return Question(blocks, (returns, Part(values, Values("V", given.visited))))

@@ -62,7 +62,6 @@ def question(given: Given) -> Question:
     tail = in_open(given)
     parts = tuple(
         Part(
-            chr(ord("a") + index),
             f"What is the {n}-step return $R_{{{t}}}^{{({n})}}$ from time ${t}${tail}?",
             Number(),
         )

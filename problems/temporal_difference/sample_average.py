@@ -82,7 +82,7 @@ def question(given: Given) -> Question:
                 _averages(given),
                 *_visits(given, "averaged in"),
             ),
-            (Part("a", _values_asked(given), Values("V", given.visited)),),
+            (Part(_values_asked(given), Values("V", given.visited)),),
         )
     state, count = given.visited[0], len(given.visits)
     blocks = (
@@ -96,11 +96,11 @@ def question(given: Given) -> Question:
     after = f'$V("{state}")$ after {"all these updates" if count > 1 else "the update"}'
     value = f"What is {after}{tail}?"
     if count == 1:
-        weights = Part("a", f"With which weight $w_1$ does the return enter {after}{tail}?", Number())
+        weights = Part(f"With which weight $w_1$ does the return enter {after}{tail}?", Number())
     else:
         ask = f"With which weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
-        weights = Part("a", f"{ask} {after}{tail}?", Numbers(entries))
-    return Question(blocks, (weights, Part("b", value, Number())))
+        weights = Part(f"{ask} {after}{tail}?", Numbers(entries))
+    return Question(blocks, (weights, Part(value, Number())))
 
 
 def _values_asked(given: Given) -> str:

@@ -54,5 +54,5 @@ def question(given: Given) -> Question:
                 "the TD error of the values that are current before the transition."
             ),
         ),
-        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
+        (Part(f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
     )

@@ -68,11 +68,11 @@ def question(given: Given) -> Question:
     tail = in_open(given)
     entries = tuple(f"R_{{{time}}}^{{(λ)}}" for time in given.asked)
     if len(entries) == 1:
-        returns = Part("a", f"What is the λ-return ${entries[0]}${tail}?", Number())
+        returns = Part(f"What is the λ-return ${entries[0]}${tail}?", Number())
         asked = f'$V("{given.updated[0]}")$'
     else:
-        returns = Part("a", f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Numbers(entries))
+        returns = Part(f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Numbers(entries))
         asked = f"the values of the states visited at times {joined([f'${time}$' for time in given.asked])}"
     verb = "is" if len(entries) == 1 else "are"
-    values = Part("b", f"What {verb} {asked} after the update{tail}?", Values("V", given.updated))
+    values = Part(f"What {verb} {asked} after the update{tail}?", Values("V", given.updated))
     return Question(blocks, (returns, values))

@@ -42,5 +42,5 @@ def question(given: Given) -> Question:
     """The run, the values before it; all visited states are asked for."""
     return Question(
         run_blocks(given, values_table(given.values), "TD(0)"),
-        (Part("a", f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
+        (Part(f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
     )

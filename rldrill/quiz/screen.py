@@ -142,7 +142,7 @@ class Screen:
                 case _:
                     verdict = record.answer(part, text).verdict
                     if verdict is not None:
-                        self._verdict(verdict, part)
+                        self._verdict(verdict, record.exercise, part)
         self._print()
         return Then.NEXT
 
@@ -153,18 +153,19 @@ class Screen:
             return self._after(record)
         return {"v": Then.VARIANT, "r": Then.RESTART, "q": Then.QUIT}.get(text, Then.NEXT)
 
-    def _verdict(self, verdict: Verdict, part: PartRecord) -> None:
+    def _verdict(self, verdict: Verdict, exercise: Exercise, part: PartRecord) -> None:
         style = _STYLES[verdict.outcome]
         line = Text("  ").append(_WORDS[verdict.outcome], style=f"bold {style}").append(f" {verdict.says}")
         if verdict.read:
             line.append(f"  (read as {verdict.read})", style="dim")
         self._print(line)
         for misconception in verdict.told:
-            if misconception.formula is not None and misconception.reads is not None:
-                self._print(Text("  Your answer comes from this:", style="dim"))
-                self._indented(renderable(misconception.formula.equation(misconception.reads)))
-                self._print(Text("  The formula is:", style="dim"))
-                self._indented(renderable(misconception.formula.equation(misconception.formula.right)))
+            for formula in exercise.formulas(part.part.label):
+                if misconception in formula.misread:
+                    self._print(Text("  Your answer comes from this:", style="dim"))
+                    self._indented(renderable(formula.equation(formula.misread[misconception])))
+                    self._print(Text("  The formula is:", style="dim"))
+                    self._indented(renderable(formula.equation(formula.right)))
         if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
             self._print(Text("  Try again, or h for a hint, w for the working, s to go on.", style="dim"))
 

@@ -5,7 +5,7 @@ from typing import Any
 from rldrill.problems.backup_diagrams.backup_diagram_name import Given
 from rldrill.problems.backups import BACKUPS, TITLES, Backup, backup_diagram
 from rldrill.problems.pictures import Node
-from rldrill.solutions.formula.formula import Misconception, slip
+from rldrill.solutions.formula.formula import Misconception, fork
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.work import Work
 
@@ -39,26 +39,26 @@ def _offered(wrong: Backup) -> Any:
 
 
 _CHOSEN: dict[Backup, Misconception] = {
-    backup: slip(f"took-it-for-{backup}", _LOOKS[backup], when=_offered(backup)) for backup in BACKUPS
+    backup: fork(f"took-it-for-{backup}", _LOOKS[backup], when=_offered(backup)) for backup in BACKUPS
 }
 MISCONCEPTIONS = tuple(_CHOSEN.values())
 
 
 def solve(given: Given, work: Work) -> None:
     """One letter for every diagram."""
-    for part, item in zip("abcdef", given.diagrams, strict=False):
+    for item in given.diagrams:
         mistaken = [option for option in item.options if work.makes(_CHOSEN[option])]
         letter = item.letters[mistaken[0] if mistaken else item.shows]
         work.say(f"{_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
-        work.answer(part, letter)
+        work.answer(letter)
 
 
 def oracle(given: Given) -> Answers:
     """Named by what is drawn, not by what was to be drawn."""
-    answers = {}
-    for part, item in zip("abcdef", given.diagrams, strict=False):
+    answers = []
+    for item in given.diagrams:
         root = backup_diagram(item.shows, item.branches, item.steps).root
-        answers[part] = item.letters[_named(root)]
+        answers.append(item.letters[_named(root)])
     return answers
 
 

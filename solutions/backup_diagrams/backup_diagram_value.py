@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
@@ -36,32 +36,32 @@ def _is_deep(given: Given) -> bool:
     return _discounts(given) and bool(given.inner)
 
 
-MAX_FOR_MEAN = slip(
+MAX_FOR_MEAN = fork(
     "max-for-mean",
     "There is no arc, so the actions are averaged with the probabilities beside them; only an arc takes the maximum.",
     when=_has_policy,
 )
-MEAN_FOR_MAX = slip(
+MEAN_FOR_MAX = fork(
     "mean-for-max",
     "The arc says that only the best action counts, not the mean of all.",
     when=_has_arcs,
 )
-FORGOT_POLICY = slip(
+FORGOT_POLICY = fork(
     "forgot-policy",
     "Each action counts with the probability that stands beside its branch.",
     when=_has_policy,
 )
-FORGOT_GAMMA = slip(
+FORGOT_GAMMA = fork(
     "forgot-gamma",
     "The value of a next state is discounted by γ.",
     when=_discounts,
 )
-GAMMA_ON_REWARD = slip(
+GAMMA_ON_REWARD = fork(
     "gamma-on-reward",
     "The reward beside a branch is earned on the way down it: only the value below it is discounted.",
     when=_discounts,
 )
-ONE_LEVEL_ONLY = slip(
+ONE_LEVEL_ONLY = fork(
     "discounted-at-one-level-only",
     "Every level of states discounts once more: what lies two levels down is discounted by γ twice.",
     when=_is_deep,
@@ -81,7 +81,7 @@ def solve(given: Given, work: Work) -> None:
         best = not best
     root, _ = given.root
     if given.action_values:
-        work.answer("a", _action_value(given, work, known, best=best))
+        work.answer(_action_value(given, work, known, best=best))
         return
     formula = BELLMAN_OPTIMALITY_V if best else BELLMAN_V
     values = knowns.values(given.values)
@@ -89,7 +89,7 @@ def solve(given: Given, work: Work) -> None:
         values = values | {state: work.step(formula, s=state, V=values, **known)}
     if work.makes(ONE_LEVEL_ONLY):
         known["gamma"] = ONE
-    work.answer("a", work.step(formula, s=root, V=values, **known))
+    work.answer(work.step(formula, s=root, V=values, **known))
 
 
 def _action_value(given: Given, work: Work, known: dict[str, Any], *, best: bool) -> Value:
@@ -132,7 +132,7 @@ def oracle(given: Given) -> Answers:
         return float(np.array([at(row.probability) for row in rows]) @ worth)
 
     root, action = given.root
-    return {"a": of_action(root, action) if given.action_values else of_state(root)}
+    return (of_action(root, action) if given.action_values else of_state(root),)
 
 
 def _over(given: Given) -> Callable[[str, dict[str, float]], float]:

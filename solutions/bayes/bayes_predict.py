@@ -1,9 +1,6 @@
 """The prediction once for every action; each belief is the one that the next action starts from."""
 
-from string import ascii_lowercase
 from typing import Any
-
-import numpy as np
 
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.solutions import knowns
@@ -20,19 +17,19 @@ def solve(given: Given, work: Work) -> None:
     states = tuple(given.belief)
     belief = knowns.values(given.belief)
     motion = knowns.motion(given.motion)
-    for part, action in zip(ascii_lowercase, given.actions, strict=False):
+    for action in given.actions:
         known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
         after = {state: work.step(PREDICT, s1=state, **known) for state in states}
         work.picture(*before_and_after(belief, after))
-        belief = work.answer(part, after)
+        belief = work.answer(after)
 
 
 def oracle(given: Given) -> Answers:
     """All ways to go, one by one: the probability of each path is added where it ends."""
     states = tuple(given.belief)
     paths: dict[tuple[str, ...], float] = {(state,): at(chance) for state, chance in given.belief.items()}
-    answers = {}
-    for part, action in zip(ascii_lowercase, given.actions, strict=False):
+    answers = []
+    for action in given.actions:
         array = motion_array(given.motion, action, states)
         paths = {
             (*path, after): chance * array[states.index(path[-1]), states.index(after)]
@@ -40,5 +37,5 @@ def oracle(given: Given) -> Answers:
             for after in states
             if array[states.index(path[-1]), states.index(after)]
         }
-        answers[part] = np.array([sum(c for path, c in paths.items() if path[-1] == state) for state in states])
+        answers.append([sum(c for path, c in paths.items() if path[-1] == state) for state in states])
     return answers

@@ -27,7 +27,7 @@ def solve(given: Given, work: Work) -> None:
     belief = knowns.values(given.prior)
     if len(hypotheses) == 2:
         work.recall(BAYES_TWO_STATES)
-    for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
+    for reading in given.measurements:
         known: dict[str, Any] = {
             "z": reading,
             "p": belief,
@@ -36,14 +36,14 @@ def solve(given: Given, work: Work) -> None:
         }
         after = {h: work.step(BAYES, h=h, **known) for h in hypotheses}
         work.picture(*before_and_after(belief, after))
-        belief = work.answer(part, after)
+        belief = work.answer(after)
 
 
 def oracle(given: Given) -> Answers:
     """The joint probability of hypothesis and all readings so far, one column normalised."""
     joint = np.array([at(chance) for chance in given.prior.values()])
-    answers = {}
-    for part, reading in zip("abcdefghijklmnopqrstuvwxyz", given.measurements, strict=False):
+    answers = []
+    for reading in given.measurements:
         joint = joint * [at(given.likelihood[reading][hypothesis]) for hypothesis in given.prior]
-        answers[part] = joint / joint.sum()
+        answers.append(joint / joint.sum())
     return answers

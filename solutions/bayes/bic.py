@@ -12,31 +12,28 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
 from rldrill.solutions.work import Work
 
-LARGEST_WINS = slip(
-    "largest-wins",
-    "The smallest BIC wins: it is large where the fit is poor or there are many parameters.",
-)
-MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, LARGEST_WINS, BIC_LOG_10)
-
 
 def solve(given: Given, work: Work) -> None:
     """The log-likelihoods, unless they are given; the criteria; the winner."""
+    _compare(given, work, better=-1)
+
+
+def _compare(given: Given, work: Work, better: int) -> None:
+    """The first model wins where the sign of its BIC minus the other's is ``better``."""
     names = given.names
     if given.fitted is not None:
-        labels = iter("ab")
         n = exact(given.n or 0)
         free = {name: exact(model.k) for name, model in given.fitted.items()}
         fit = {name: sympy.log(to_sympy(exact(model.likelihood))) for name, model in given.fitted.items()}
     else:
         assert given.data is not None
-        labels = iter("abc")
         n = exact(sum(map(sum, given.data.tosses.values())))
         free = {name: exact(free_parameters(given.data, name)) for name in names}
-        fit = work.answer(next(labels), {name: _fit(work, given.data, name) for name in names})
+        fit = work.answer({name: _fit(work, given.data, name) for name in names})
     criteria = work.answer(
-        next(labels), {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
+        {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
     )
-    work.answer(next(labels), _winner(work, criteria, names))
+    work.answer(_winner(work, criteria, names, better))
 
 
 def free_parameters(data: Data, model: str) -> int:
@@ -66,13 +63,22 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     return shorter
 
 
-def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...]) -> str:
+def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...], better: int) -> str:
     numbers = " and ".join(f"BIC({name}) ≈ {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
     work.say(f"In numbers, {numbers}; the smaller one wins.")
     difference = sign(criteria[names[0]] - criteria[names[1]])
     if difference == 0:
         raise NoSolution("both models have the same BIC")
-    return "a" if (difference < 0) is not work.makes(LARGEST_WINS) else "b"
+    return "a" if difference == better else "b"
+
+
+@slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
+def largest_wins(given: Given, work: Work) -> None:
+    """The model with the larger BIC."""
+    _compare(given, work, better=1)
+
+
+MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 
 
 def oracle(given: Given) -> Answers:
@@ -95,7 +101,7 @@ def oracle(given: Given) -> Answers:
         n = int(pooled.sum())
     criteria = np.log(float(n)) * np.array(free) - 2 * fit
     winner = "ab"[int(criteria.argmin())]
-    return {"a": criteria, "b": winner} if given.fitted is not None else {"a": fit, "b": criteria, "c": winner}
+    return (criteria, winner) if given.fitted is not None else (fit, criteria, winner)
 
 
 def _best(heads: float, tails: float) -> float:

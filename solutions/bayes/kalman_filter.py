@@ -1,7 +1,5 @@
 """The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
 
-from collections.abc import Iterator
-from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -27,7 +25,6 @@ MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORG
 
 def solve(given: Given, work: Work) -> None:
     """Every step: the belief moved, then weighed with the measurement."""
-    labels = iter(ascii_lowercase)
     mean, covariance = given_matrix(given.mean), given_matrix(given.covariance)
     models: dict[str, Any] = {
         "At": given_matrix(given.A), "Bt": given_matrix(given.B), "Ct": given_matrix(given.C),
@@ -43,39 +40,38 @@ def solve(given: Given, work: Work) -> None:
         }
         mean = work.step(KALMAN_MOVE_MEAN, **known)
         if not given.on_a_line:
-            mean = work.answer(next(labels), mean)
+            mean = work.answer(mean)
         covariance = work.step(KALMAN_MOVE_COVARIANCE, **known)
         if not given.on_a_line:
-            covariance = work.answer(next(labels), covariance)
+            covariance = work.answer(covariance)
         else:
-            mean, covariance = _answered(work, next(labels), mean, covariance)
+            mean, covariance = _answered(work, mean, covariance)
         if event.z is not None:
             known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
             known["read"] = {time: given_matrix(event.z)}
-            mean, covariance = _measured(given, work, labels, known)
+            mean, covariance = _measured(given, work, known)
 
 
-def _measured(given: Given, work: Work, labels: Iterator[str], known: dict[str, Any]) -> tuple[Any, Any]:
+def _measured(given: Given, work: Work, known: dict[str, Any]) -> tuple[Any, Any]:
     gain = work.step(KALMAN_GAIN, **known)
     if given.on_a_line:
         known = known | {"Kt": {known["t"]: gain}}
         mean, covariance = work.step(KALMAN_MEAN, **known), work.step(KALMAN_COVARIANCE, **known)
-        return _answered(work, next(labels), mean, covariance)
-    known = known | {"Kt": {known["t"]: work.answer(next(labels), gain)}}
-    mean = work.answer(next(labels), work.step(KALMAN_MEAN, **known))
-    return mean, work.answer(next(labels), work.step(KALMAN_COVARIANCE, **known))
+        return _answered(work, mean, covariance)
+    known = known | {"Kt": {known["t"]: work.answer(gain)}}
+    mean = work.answer(work.step(KALMAN_MEAN, **known))
+    return mean, work.answer(work.step(KALMAN_COVARIANCE, **known))
 
 
-def _answered(work: Work, label: str, mean: Any, covariance: Any) -> tuple[Any, Any]:
+def _answered(work: Work, mean: Any, covariance: Any) -> tuple[Any, Any]:
     """Mean and variance on a line as one answer, and as matrices to go on with."""
-    first, second = work.answer(label, (mean[0, 0], covariance[0, 0]))
+    first, second = work.answer((mean[0, 0], covariance[0, 0]))
     return matrix([[first]]), matrix([[second]])
 
 
 def oracle(given: Given) -> Answers:
     """All states and readings as one Gaussian in the first state and all noises; then conditioned at once."""
-    labels = iter(ascii_lowercase)
-    answers: dict[str, Any] = {}
+    answers: list[Any] = []
     A, B, C, R, Q = (_array(rows) for rows in (given.A, given.B, given.C, given.process, given.sensor))
     n, m, count = len(A), len(C), len(given.steps)
     spread = np.zeros((n + count * (n + m),) * 2)
@@ -88,7 +84,7 @@ def oracle(given: Given) -> Answers:
         spread[motion:sensor, motion:sensor], spread[sensor : sensor + m, sensor : sensor + m] = R, Q
         state, mean = A @ state, A @ mean + B @ _array(event.u)[:, 0]
         state[:, motion:sensor] += np.eye(n)
-        _put(given, answers, labels, seen.posterior(state, mean, spread))
+        answers += _asked(given, *seen.posterior(state, mean, spread))
         if event.z is not None:
             reading = C @ state
             reading[:, sensor : sensor + m] += np.eye(m)
@@ -97,8 +93,8 @@ def oracle(given: Given) -> Answers:
             if not given.on_a_line:
                 here = seen.posterior(state, mean, spread)[0]
                 shifted = (before.with_more(reading, _array(event.z)[:, 0] - C @ mean + unit) for unit in np.eye(m))
-                answers[next(labels)] = np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1)
-            _put(given, answers, labels, seen.posterior(state, mean, spread))
+                answers.append(np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1))
+            answers += _asked(given, *seen.posterior(state, mean, spread))
     return answers
 
 
@@ -120,11 +116,9 @@ class _Readings:
         return mean + weights @ self.surprises, state @ spread @ state.T - weights @ (state @ joint).T
 
 
-def _put(given: Given, answers: dict[str, Any], labels: Iterator[str], belief: tuple[Array, Array]) -> None:
-    if given.on_a_line:
-        answers[next(labels)] = [belief[0][0], belief[1][0, 0]]
-    else:
-        answers[next(labels)], answers[next(labels)] = belief
+def _asked(given: Given, mean: Array, spread: Array) -> list[Any]:
+    """A belief as its parts ask for it."""
+    return [[mean[0], spread[0, 0]]] if given.on_a_line else [mean, spread]
 
 
 def _array(rows: Any) -> Array:

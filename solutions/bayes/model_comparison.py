@@ -19,17 +19,17 @@ def solve(given: Given, work: Work) -> None:
     names = tuple(given.models)
     tosses: dict[str, Any] = {"heads": given.heads, "tails": given.tails}
     prior = knowns.values(given.prior)
-    evidence = work.answer("a", {name: _evidence(work, name, model, tosses) for name, model in given.models.items()})
+    evidence = work.answer({name: _evidence(work, name, model, tosses) for name, model in given.models.items()})
     known: dict[str, Any] = {"evidence": evidence, "p": prior, "models": names}
     if len(names) == 2:
-        work.answer("b", work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known))
+        work.answer(work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known))
     else:
         likelihood = {("data", name): value for name, value in evidence.items()}
         posterior = {
             name: work.step(BAYES, h=name, z="data", p=prior, likelihood=likelihood, hypotheses=names) for name in names
         }
-        work.answer("b", posterior)
-    work.answer("c", work.step(MODEL_COMPARISON, **known) == names[:1])
+        work.answer(posterior)
+    work.answer(work.step(MODEL_COMPARISON, **known) == names[:1])
 
 
 def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -> Any:
@@ -52,4 +52,4 @@ def oracle(given: Given) -> Answers:
             evidence.append(at(model.theta) ** given.heads * (1 - at(model.theta)) ** given.tails)
     joint = np.array(evidence) * [at(given.prior[name]) for name in given.models]
     after = joint[0] / joint[1] if len(joint) == 2 else joint / joint.sum()
-    return {"a": evidence, "b": after, "c": bool(joint[0] > joint[1:].max() * (1 + 1e-9))}
+    return (evidence, after, bool(joint[0] > joint[1:].max() * (1 + 1e-9)))

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.bayes import (
     COIN_MAP,
@@ -25,38 +25,36 @@ from rldrill.solutions.sheet.bayes import (
 )
 from rldrill.solutions.work import Work
 
-PRIOR_IGNORED = slip(
-    "prior-ignored",
-    "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
-    when=lambda given: given.has_prior,
-)
-MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, PRIOR_IGNORED)
-
 
 def solve(given: Given, work: Work) -> None:
     """What the data alone say; then with the prior."""
+    _fit(given, work, COIN_MAP, GAUSSIAN_MAP, LINE_SLOPE_MAP)
+
+
+def _fit(given: Given, work: Work, of_coin: Formula, of_sample: Formula, of_line: Formula) -> None:
+    """The estimates, those with the prior by these formulas."""
     if given.coin is not None:
-        _coin(given.coin, work)
+        _coin(given.coin, work, of_coin)
     elif given.sample is not None:
-        _sample(given.sample, work)
+        _sample(given.sample, work, of_sample)
     elif given.line is not None:
-        _line(given.line, work)
+        _line(given.line, work, of_line)
 
 
-def _coin(coin: Coin, work: Work) -> None:
+def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
     known = {
         "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
     }  # fmt: skip
-    work.answer("a", work.step(COIN_ML, **known))
+    work.answer(work.step(COIN_ML, **known))
     work.recall(MODEL_FITTING)
-    work.answer("b", work.step(COIN_ML if work.makes(PRIOR_IGNORED) else COIN_MAP, **known))
+    work.answer(work.step(with_prior, **known))
 
 
-def _sample(sample: Sample, work: Work) -> None:
+def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     known: dict[str, Any] = {"x": dict(enumerate(map(exact, sample.values), 1)), "n": len(sample.values)}
-    known["mu_hat"] = work.answer("a", work.step(GAUSSIAN_MEAN, **known))
-    work.answer("b", work.step(GAUSSIAN_VARIANCE, **known))
-    work.answer("c", work.step(SAMPLE_VARIANCE, **known))
+    known["mu_hat"] = work.answer(work.step(GAUSSIAN_MEAN, **known))
+    work.answer(work.step(GAUSSIAN_VARIANCE, **known))
+    work.answer(work.step(SAMPLE_VARIANCE, **known))
     if sample.prior is None:
         return
     prior = {
@@ -65,11 +63,10 @@ def _sample(sample: Sample, work: Work) -> None:
         "prior_variance": exact(sample.prior.variance),
     }
     work.recall(MODEL_FITTING)
-    ignored = work.makes(PRIOR_IGNORED)
-    work.answer("d", work.step(GAUSSIAN_MEAN, **known) if ignored else work.step(GAUSSIAN_MAP, **known, **prior))
+    work.answer(work.step(with_prior, **known, **prior))
 
 
-def _line(line: Line, work: Work) -> None:
+def _line(line: Line, work: Work, with_prior: Formula) -> None:
     values = {
         (axis, index): exact(number)
         for index, point in enumerate(line.points, 1)
@@ -78,43 +75,51 @@ def _line(line: Line, work: Work) -> None:
     known: dict[str, Any] = {"n": len(line.points), "abscissa": "x", "ordinate": "y", "value_of": values}
     known["average"] = {axis: work.step(MEAN, v=axis, **known) for axis in "xy"}
     slope = work.step(LINE_SLOPE, **known)
-    work.answer("a", (slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+    work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
     if line.prior is None:
         return
     work.recall(MODEL_FITTING)
-    if work.makes(PRIOR_IGNORED):
-        slope = work.step(LINE_SLOPE, **known)
-    else:
-        noise, variance = exact(line.prior.noise), exact(line.prior.variance)
-        slope = work.step(LINE_SLOPE_MAP, sigma2=noise, prior_variance=variance, **known)
-    work.answer("b", (slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+    noise, variance = exact(line.prior.noise), exact(line.prior.variance)
+    slope = work.step(with_prior, sigma2=noise, prior_variance=variance, **known)
+    work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+
+
+@slip(
+    "prior-ignored",
+    "That is the maximum likelihood estimate; maximum a posteriori weighs it with the prior.",
+    when=lambda given: given.has_prior,
+)
+def prior_ignored(given: Given, work: Work) -> None:
+    """Maximum likelihood once more, where the prior is asked for."""
+    _fit(given, work, COIN_ML, GAUSSIAN_MEAN, LINE_SLOPE)
+
+
+MISCONCEPTIONS = (N_FOR_N_MINUS_1, N_MINUS_1_FOR_N, prior_ignored)
 
 
 def oracle(given: Given) -> Answers:
     """The peak of likelihood times prior by bisection, a parabola through three points, or numpy's least squares."""
     if given.coin is not None:
         heads, tails, a, b = (at(n) for n in (given.coin.heads, given.coin.tails, given.coin.a, given.coin.b))
-        return {"a": _best_share(heads, tails), "b": _best_share(heads + a - 1, tails + b - 1)}
+        return (_best_share(heads, tails), _best_share(heads + a - 1, tails + b - 1))
     if given.sample is not None:
         values = np.array([at(value) for value in given.sample.values])
         # The mean over all pairs of half their squared distance, with and without a value's pair with itself.
         squares = (values[:, None] - values[None, :]) ** 2 / 2
         size = len(values)
-        answers = {"a": values.mean(), "b": squares.mean(), "c": squares.sum() / (size * (size - 1))}
+        answers = [values.mean(), squares.mean(), squares.sum() / (size * (size - 1))]
         prior = given.sample.prior
-        return (
-            answers
-            if prior is None
-            else answers | {"d": _peak(values, at(prior.mean), at(prior.variance), at(prior.noise))}
-        )
+        if prior is not None:
+            answers.append(_peak(values, at(prior.mean), at(prior.variance), at(prior.noise)))
+        return answers
     assert given.line is not None
     x, y = np.array([[at(number) for number in point] for point in given.line.points]).T
     design = np.stack([x, np.ones_like(x)], axis=1)
-    answers = {"a": np.linalg.lstsq(design, y, rcond=None)[0]}
+    answers = [np.linalg.lstsq(design, y, rcond=None)[0]]
     if (prior := given.line.prior) is not None:
         # A prior of the slope is one more point, seen with its own noise.
         weight = np.sqrt(at(prior.noise) / at(prior.variance))
-        answers["b"] = np.linalg.lstsq(np.vstack([design, [weight, 0.0]]), np.append(y, 0.0), rcond=None)[0]
+        answers.append(np.linalg.lstsq(np.vstack([design, [weight, 0.0]]), np.append(y, 0.0), rcond=None)[0])
     return answers
 
 

@@ -26,7 +26,7 @@ def solve(given: Given, work: Work) -> None:
         V=knowns.values(given.values),
         **knowns.model(given.dynamics),
     )
-    work.answer("a", value)
+    work.answer(value)
 
 
 def oracle(given: Given) -> Answers:
@@ -34,4 +34,4 @@ def oracle(given: Given) -> Answers:
     rows = given.dynamics.transitions
     weight = [at(given.policy[row.state].get(row.action, 0)) * at(row.probability) for row in rows]
     worth = [at(row.reward) + at(given.gamma) * at(given.values[row.next]) for row in rows]
-    return {"a": sum(w * v for w, v in zip(weight, worth, strict=True))}
+    return (sum(w * v for w, v in zip(weight, worth, strict=True)),)

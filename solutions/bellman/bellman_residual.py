@@ -8,15 +8,13 @@ from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, is_zero
-from rldrill.solutions.formula.formula import Misconception, slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
-    OPTIMALITY_RESIDUAL_FORGOT_GAMMA,
-    OPTIMALITY_RESIDUAL_SIGN,
-    RESIDUAL_FORGOT_GAMMA,
-    RESIDUAL_MAX,
+    FORGOT_GAMMA,
+    MAX_FOR_MEAN,
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
 )
@@ -29,6 +27,10 @@ def _residuals(given: Given) -> list[Value]:
     return [formula.value({"s": state, **known}) for state in given.mdp.states]
 
 
+def _policy_mixes(given: Given) -> bool:
+    return any(chance not in (0, 1) for row in given.chances.values() for chance in row.values())
+
+
 def _wrong(given: Given) -> bool:
     return any(_residuals(given))
 
@@ -37,28 +39,16 @@ def _wrong_in_part(given: Given) -> bool:
     return _wrong(given) and not all(_residuals(given))
 
 
-def _of_a_policy(mistake: Misconception) -> Misconception:
-    """The mistake, where the values are claimed for a policy."""
-    return replace(mistake, when=lambda given: not given.optimal and mistake.applies(given))
-
-
-def _of_the_optimum(mistake: Misconception) -> Misconception:
-    """The mistake, where the values are claimed to be optimal."""
-    return replace(mistake, when=lambda given: given.optimal and mistake.applies(given))
-
-
-ONE_STATE = slip(
+ONE_STATE = fork(
     "one-state-enough",
     "The values are right only if the residual is 0 in every state.",
     when=_wrong_in_part,
 )
 MISCONCEPTIONS = (
-    _of_a_policy(replace(RESIDUAL_SIGN, when=_wrong)),
-    _of_a_policy(RESIDUAL_MAX),
-    _of_a_policy(RESIDUAL_FORGOT_GAMMA),
-    _of_the_optimum(replace(OPTIMALITY_RESIDUAL_SIGN, when=_wrong)),
-    _of_the_optimum(RESIDUAL_MEAN),
-    _of_the_optimum(OPTIMALITY_RESIDUAL_FORGOT_GAMMA),
+    replace(RESIDUAL_SIGN, when=_wrong),
+    replace(MAX_FOR_MEAN, when=_policy_mixes),
+    RESIDUAL_MEAN,
+    FORGOT_GAMMA,
     ONE_STATE,
 )
 
@@ -67,13 +57,13 @@ def solve(given: Given, work: Work) -> None:
     """One backup of every state, compared with what the values say."""
     formula = BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL
     known = _known(given)
-    residuals = work.answer("a", {state: work.step(formula, s=state, **known) for state in given.mdp.states})
+    residuals = work.answer({state: work.step(formula, s=state, **known) for state in given.mdp.states})
     wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
     if wrong:
         work.say(f"The equation does not hold in {joined(wrong)}, so these are not the values.")
     else:
         work.say("The equations hold in every state. With γ below 1 they have one solution only, so it is this one.")
-    work.answer("b", len(wrong) < len(residuals) if work.makes(ONE_STATE) else not wrong)
+    work.answer(len(wrong) < len(residuals) if work.makes(ONE_STATE) else not wrong)
 
 
 def _known(given: Given) -> dict[str, Value]:
@@ -101,4 +91,4 @@ def oracle(given: Given) -> Answers:
     else:
         true = optimal_values(P, R, at(given.gamma), n)
         after = lookahead(P, R, V, at(given.gamma))[:n].max(axis=1)
-    return {"a": after - V[:n], "b": bool(np.allclose(V[:n], true[:n], atol=1e-9))}
+    return (after - V[:n], bool(np.allclose(V[:n], true[:n], atol=1e-9)))

@@ -7,34 +7,34 @@ from rldrill.problems.document import joined
 from rldrill.problems.models import Policy, equiprobable
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
 from rldrill.solutions.policy_values import TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
-    Q_STAR_FORGOT_GAMMA,
+    OWN_VALUE,
+    Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
-    Q_STAR_OWN_VALUE,
 )
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V
 from rldrill.solutions.work import Work
 
-GREEDY_ON_REWARD = slip(
+GREEDY_ON_REWARD = fork(
     "greedy-on-reward",
     "The action with the greatest immediate reward need not be best: what can be earned after it counts too.",
     when=lambda given: given.gamma != 0,
 )
-FIRST_ACTIONS = slip(
+FIRST_ACTIONS = fork(
     "wrong-fixed-policy",
     "These are the values of the policy that always takes the first action; in some state another one is better.",
 )
-RANDOM_POLICY = slip(
+RANDOM_POLICY = fork(
     "mean-for-max",
     "These are the values of choosing at random; the optimal value takes the best action in every state.",
 )
 MISCONCEPTIONS = (
-    GREEDY_ON_REWARD, FIRST_ACTIONS, RANDOM_POLICY, TERMINAL_VALUE, Q_STAR_FORGOT_GAMMA, Q_STAR_OWN_VALUE
+    GREEDY_ON_REWARD, FIRST_ACTIONS, RANDOM_POLICY, TERMINAL_VALUE, Q_FORGOT_GAMMA, OWN_VALUE
 )  # fmt: skip
 
 
@@ -49,14 +49,14 @@ def solve(given: Given, work: Work) -> None:
         work.say("Put into the optimality equation, no other action is better, so these are the optimal values:")
         for state in mdp.states:
             work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
-    values = values | work.answer("a", of_states(mdp, values))
+    values = values | work.answer(of_states(mdp, values))
     if work.makes(TERMINAL_VALUE):
         values |= knowns.last_rewards(mdp)
     best = {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
     if work.makes(GREEDY_ON_REWARD) or work.makes(FIRST_ACTIONS):
         best = {state: tuple(chances) for state, chances in policy.items()}
-    work.answer("b", best)
-    work.answer("c", {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+    work.answer(best)
+    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
 def _policy(given: Given, work: Work) -> Policy:
@@ -95,8 +95,8 @@ def oracle(given: Given) -> Answers:
     V = optimal_values(P, R, at(given.gamma), n)
     Q = lookahead(P, R, V, at(given.gamma))
     names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
-    return {
-        "a": V[:n],
-        "b": best_actions(mdp, Q[:n]),
-        "c": [Q[states.index(state), names.index(action)] for state, action in mdp.pairs],
-    }
+    return (
+        V[:n],
+        best_actions(mdp, Q[:n]),
+        [Q[states.index(state), names.index(action)] for state, action in mdp.pairs],
+    )

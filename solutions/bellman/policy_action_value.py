@@ -7,23 +7,23 @@ from rldrill.solutions.oracle import Answers, swept
 from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
+    OWN_VALUE,
     Q_FORGOT_GAMMA,
-    Q_OWN_VALUE,
     Q_REWARD_UNWEIGHTED,
     TRANSPOSED,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED, Q_FORGOT_GAMMA, Q_OWN_VALUE, Q_REWARD_UNWEIGHTED)
+MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED, Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED)
 
 
 def solve(given: Given, work: Work) -> None:
     """Q follows from V: the action is free, and the policy is followed after it."""
     mdp, gamma = given.mdp, exact(given.gamma)
     values = evaluate_policy(mdp, given.chances, gamma, work)
-    values = values | work.answer("a", of_states(mdp, values))
+    values = values | work.answer(of_states(mdp, values))
     known = knowns.model(mdp) | {"gamma": gamma}
-    work.answer("b", {(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+    work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
 def oracle(given: Given) -> Answers:
@@ -31,4 +31,4 @@ def oracle(given: Given) -> Answers:
     V, Q = swept(given)
     names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
     states = given.mdp.states
-    return {"a": V[: len(states)], "b": [Q[states.index(s), names.index(a)] for s, a in given.mdp.pairs]}
+    return (V[: len(states)], [Q[states.index(s), names.index(a)] for s, a in given.mdp.pairs])

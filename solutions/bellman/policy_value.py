@@ -13,9 +13,9 @@ MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED)
 def solve(given: Given, work: Work) -> None:
     """One equation for every state; what is reached and terminal is worth nothing."""
     values = evaluate_policy(given.mdp, given.chances, exact(given.gamma), work)
-    work.answer("a", of_states(given.mdp, values))
+    work.answer(of_states(given.mdp, values))
 
 
 def oracle(given: Given) -> Answers:
     """Sweeps of evaluation until nothing changes, on arrays."""
-    return {"a": swept(given)[0][: len(given.mdp.states)]}
+    return (swept(given)[0][: len(given.mdp.states)],)

@@ -6,21 +6,21 @@ from typing import Any
 from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
 from rldrill.solutions.work import Work
 
-GREEDY_PATH = slip(
+GREEDY_PATH = fork(
     "greedy-path",
     "The way that earns most at once need not begin the best path: what can be earned after it counts too.",
 )
-THROUGH_IGNORED = slip(
+THROUGH_IGNORED = fork(
     "through-ignored",
     "That is the best path of all; the path that is asked for must go through the state that is named.",
     when=lambda given: given.through not in (None, given.start),
 )
-HEAD_LEFT_OUT = slip(
+HEAD_LEFT_OUT = fork(
     "head-left-out",
     "That is the best way on from the state that is named; the best way there earns something too.",
     when=lambda given: given.through not in (None, given.start),
@@ -34,14 +34,14 @@ def solve(given: Given, work: Work) -> None:
     """The best totals, then where they lead, then two best parts put together."""
     R = {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
     values = _totals(given, R, work)
-    values = {given.goal: ZERO} | work.answer("a", {state: values[state] for state in given.onward})
+    values = {given.goal: ZERO} | work.answer({state: values[state] for state in given.onward})
     best = {state: _best(state, after, R, values, work) for state, after in given.onward.items()}
     work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
     work.say("Each part of it is a best path from where that part begins: this is the principle of optimality.")
     if given.forks:
-        work.answer("b", {state: best[state] for state in given.forks})
+        work.answer({state: best[state] for state in given.forks})
     if given.through is not None:
-        work.answer("c" if given.forks else "b", _through(given, given.through, R, values, work))
+        work.answer(_through(given, given.through, R, values, work))
 
 
 def _totals(given: Given, R: Rewards, work: Work) -> dict[str, Value]:
@@ -108,14 +108,15 @@ def oracle(given: Given) -> Answers:
 
     every = {state: paths(state) for state in given.onward}
     best = {state: max(total for total, _ in found) for state, found in every.items()}
-    answers: dict[str, Any] = {
-        "a": list(best.values()),
-        "b": {
-            state: {path[1] for total, path in found if abs(total - best[state]) < 1e-9}
-            for state, found in every.items()
-            if state in given.forks
-        },
-    }
+    answers: list[Any] = [list(best.values())]
+    if given.forks:
+        answers.append(
+            {
+                state: {path[1] for total, path in found if abs(total - best[state]) < 1e-9}
+                for state, found in every.items()
+                if state in given.forks
+            }
+        )
     if given.through is not None:
-        answers["c" if given.forks else "b"] = max(total for total, path in every[given.start] if given.through in path)
+        answers.append(max(total for total, path in every[given.start] if given.through in path))
     return answers

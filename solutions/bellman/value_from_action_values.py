@@ -9,7 +9,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
-    MAX_OF_Q,
+    MAX_FOR_MEAN,
     MEAN_OF_Q_STAR,
     PLAIN_MEAN_OF_Q,
     POLICY_FOR_MAX,
@@ -18,7 +18,7 @@ from rldrill.solutions.sheet.bellman import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (MAX_OF_Q, PLAIN_MEAN_OF_Q, MEAN_OF_Q_STAR, POLICY_FOR_MAX)
+MISCONCEPTIONS = (MAX_FOR_MEAN, PLAIN_MEAN_OF_Q, MEAN_OF_Q_STAR, POLICY_FOR_MAX)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -28,9 +28,9 @@ def solve(given: Given, work: Work) -> None:
         "actions": {state: tuple(row) for state, row in given.values.items()},
         "pi": knowns.policy(given.policy),
     }
-    work.answer("a", {state: work.step(V_FROM_Q, s=state, **known) for state in given.values})
+    work.answer({state: work.step(V_FROM_Q, s=state, **known) for state in given.values})
     if not given.parameters():
-        work.answer("b", {state: work.step(V_STAR_FROM_Q, s=state, **known) for state in given.values})
+        work.answer({state: work.step(V_STAR_FROM_Q, s=state, **known) for state in given.values})
 
 
 def oracle(given: Given) -> Answers:
@@ -40,4 +40,4 @@ def oracle(given: Given) -> Answers:
         for state, row in given.values.items()
     ]
     best = [sorted(map(at, row.values()))[-1] for row in given.values.values()]
-    return {"a": mean} if given.parameters() else {"a": mean, "b": best}
+    return (mean,) if given.parameters() else (mean, best)

@@ -24,10 +24,9 @@ def solve(given: Given, work: Work) -> None:
         "d": {index: exact(link.d) for index, link in enumerate(given.links, 1)},
         "alink": {index: exact(link.a) for index, link in enumerate(given.links, 1)},
     }
-    labels = iter("abcdefgh")
-    transforms = [work.answer(next(labels), work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
+    transforms = [work.answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
     if len(transforms) > 1:
-        work.answer(next(labels), _product(work, transforms))
+        work.answer(_product(work, transforms))
 
 
 def _product(work: Work, transforms: list[AnyMatrix]) -> AnyMatrix:
@@ -41,8 +40,7 @@ def oracle(given: Given) -> Answers:
     """Four elementary motions for each link, one after the other."""
     transforms = [_moved(link) for link in given.links]
     product = np.linalg.multi_dot([np.eye(4), np.eye(4), *transforms])
-    answers = [*transforms, *([product] if len(transforms) > 1 else [])]
-    return dict(zip("abcdefgh", answers, strict=False))
+    return [*transforms, *([product] if len(transforms) > 1 else [])]
 
 
 def _moved(link: Link) -> Array:

@@ -2,12 +2,12 @@
 
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
 from rldrill.solutions import arms
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y
 from rldrill.solutions.work import Work
 
-EXCHANGED = slip(
+EXCHANGED = fork(
     "sine-for-cosine",
     "With angles from the x axis, the cosines give x and the sines give y: they were exchanged.",
 )
@@ -19,12 +19,12 @@ def solve(given: Given, work: Work) -> None:
     arm = arms.known(given)
     angles = arms.link_angles(work, arm)
     last = len(angles)
-    arm["phi"] = angles | {last: work.answer("a", angles[last])}
+    arm["phi"] = angles | {last: work.answer(angles[last])}
     x, y = work.step(FORWARD_X, **arm), work.step(FORWARD_Y, **arm)
-    work.answer("b", (y, x) if work.makes(EXCHANGED) else (x, y))
+    work.answer((y, x) if work.makes(EXCHANGED) else (x, y))
 
 
 def oracle(given: Given) -> Answers:
     """Rotations of the complex plane, from the last link inwards."""
     end = arms.end_point(given, arms.joint_angles(given))
-    return {"a": end[2], "b": end[:2]}
+    return (end[2], end[:2])

@@ -1,11 +1,13 @@
 """The Jacobian column by column; the velocity from it; the determinant where it is square."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
 from rldrill.solutions.exact import ONE, exact, is_zero
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,
@@ -16,7 +18,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
 )
 from rldrill.solutions.work import Work
 
-TRANSPOSED = slip(
+TRANSPOSED = fork(
     "transposed-jacobian",
     "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
     when=lambda given: given.square,
@@ -34,11 +36,11 @@ def solve(given: Given, work: Work) -> None:
         work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
         rows.append([ONE for _ in joints])
     J = matrices.matrix(rows)
-    J = work.answer("a", J.transpose() if work.makes(TRANSPOSED) else J)
+    J = work.answer(J.transpose() if work.makes(TRANSPOSED) else J)
     velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
-    work.answer("b", tuple(velocity.entries()))
+    work.answer(tuple(velocity.entries()))
     if given.square:
-        work.answer("c", is_zero(work.step(SINGULAR, **arm)))
+        work.answer(is_zero(work.step(SINGULAR, **arm)))
 
 
 def oracle(given: Given) -> Answers:
@@ -51,7 +53,7 @@ def oracle(given: Given) -> Answers:
         return (45 * (there[1] - there[-1]) - 9 * (there[2] - there[-2]) + there[3] - there[-3]) / (60 * h)
 
     J = np.array([slope(turn) for turn in unit]).T[: len(given.rows)]
-    answers = {"a": J, "b": J @ np.array([at(rate) for rate in given.rates])}
+    answers: list[Any] = [J, J @ np.array([at(rate) for rate in given.rates])]
     if given.square:
-        answers["c"] = bool(np.linalg.svd(J, compute_uv=False)[-1] < 1e-9)
+        answers.append(bool(np.linalg.svd(J, compute_uv=False)[-1] < 1e-9))
     return answers

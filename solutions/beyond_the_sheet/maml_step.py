@@ -22,9 +22,9 @@ def solve(given: Given, work: Work) -> None:
         "optimum": {index: exact(task.optimum) for index, task in enumerate(given.tasks, 1)},
     }
     found = tuple(work.step(MAML_INNER, i=index, **known) for index in tasks)
-    adapted = work.answer("a", found if len(found) > 1 else found[0])
+    adapted = work.answer(found if len(found) > 1 else found[0])
     by_task = dict(zip(tasks, adapted if len(found) > 1 else (adapted,), strict=True))
-    work.answer("b", work.step(MAML_OUTER, tasks=tuple(tasks), adapted=by_task, **known))
+    work.answer(work.step(MAML_OUTER, tasks=tuple(tasks), adapted=by_task, **known))
 
 
 def oracle(given: Given) -> Answers:
@@ -39,4 +39,4 @@ def oracle(given: Given) -> Answers:
         return float(np.sum(curves * (adapted(start) - optima) ** 2 / 2))
 
     slope = (loss(theta + 1) - loss(theta - 1)) / 2
-    return {"a": adapted(theta), "b": theta - at(given.beta) * slope}
+    return (adapted(theta), theta - at(given.beta) * slope)

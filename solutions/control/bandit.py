@@ -46,9 +46,9 @@ def solve(given: Given, work: Work) -> None:
     if given.kind == "gradient":
         _gradient(given, work, known)
         return
-    known["Q"] = work.answer("a", {arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.arms})
+    known["Q"] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.arms})
     if given.kind == "estimates":
-        work.answer("b", {NEXT: work.step(GREEDY_ARM, n=known["n"], Q=known["Q"], choices=given.arms)})
+        work.answer({NEXT: work.step(GREEDY_ARM, n=known["n"], Q=known["Q"], choices=given.arms)})
         return
     assert given.c is not None  # or it would be of another kind
     known |= {
@@ -56,19 +56,19 @@ def solve(given: Given, work: Work) -> None:
         "c": exact(given.c),
         "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.arms},
     }
-    bounds = work.answer("b", {arm: work.step(UCB, a=arm, **known) for arm in given.arms})
+    bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.arms})
     work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
-    work.answer("c", {NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.arms)})
+    work.answer({NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.arms)})
 
 
 def _gradient(given: Given, work: Work, known: dict[str, Any]) -> None:
     """Probabilities, the baseline, then all preferences at once."""
     known["H"] = knowns.values(given.preferences or {})
-    known["pi"] = work.answer("a", {arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.arms})
+    known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.arms})
     known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], n=known["n"])}
     assert given.alpha is not None  # or it would be of another kind
     known["alpha"] = exact(given.alpha)
-    work.answer("b", {arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.arms})
+    work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.arms})
 
 
 def oracle(given: Given) -> Answers:
@@ -79,12 +79,12 @@ def oracle(given: Given) -> Answers:
         H = np.array([at(value) for value in given.preferences.values()])
         arm = given.arms.index(given.pulled.arm)
         surplus = at(given.pulled.reward) - rewards.mean()
-        return {"a": np.exp(_log_softmax(H)), "b": H + at(given.alpha) * surplus * _slope(H, arm)}
+        return (np.exp(_log_softmax(H)), H + at(given.alpha) * surplus * _slope(H, arm))
     means = np.array([rewards[mask].mean() for mask in pulled])
     if given.c is None:
-        return {"a": means, "b": {NEXT: _best(given, means)}}
+        return (means, {NEXT: _best(given, means)})
     bounds = means + at(given.c) * np.sqrt(np.log(len(rewards) + 1) / pulled.sum(axis=1))
-    return {"a": means, "b": bounds, "c": {NEXT: _best(given, bounds)}}
+    return (means, bounds, {NEXT: _best(given, bounds)})
 
 
 def _best(given: Given, worth: Array) -> set[str]:

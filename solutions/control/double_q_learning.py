@@ -7,11 +7,11 @@ import numpy as np
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
-    DOUBLE_FORGOT_GAMMA,
     DOUBLE_Q_ACTION,
     DOUBLE_Q_LEARNING,
     OTHER_TABLE_SELECTS,
@@ -19,12 +19,12 @@ from rldrill.solutions.sheet.control import (
 )
 from rldrill.solutions.work import Work
 
-BOTH_UPDATED = slip(
+BOTH_UPDATED = fork(
     "both-tables-updated",
     "Each transition updates one table only, the one that the coin says; the other stays as it is.",
     when=lambda given: len(set(given.updates)) > 1 and bool(set(given.updated_in(1)) & set(given.updated_in(2))),
 )
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, DOUBLE_FORGOT_GAMMA, BOTH_UPDATED)
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, BOTH_UPDATED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -38,8 +38,7 @@ def solve(given: Given, work: Work) -> None:
         turns = (3 - turn, turn) if work.makes(BOTH_UPDATED) else (turn,)
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in turns}
         if turn not in given.updates[time + 1 :]:
-            part = "ab"[given.asked.index(turn)]
-            answer = work.answer(part, {pair: tables[turn, *pair] for pair in given.updated_in(turn)})
+            answer = work.answer({pair: tables[turn, *pair] for pair in given.updated_in(turn)})
             tables = tables | {(turn, *pair): value for pair, value in answer.items()}
 
 
@@ -70,7 +69,7 @@ def oracle(given: Given) -> Answers:
             target += at(given.gamma) * Q[other, there, np.round(Q[mine, there], 10).argmax()]
         column = actions[row].index(run.actions[time])
         Q[mine, row, column] = np.interp(at(given.alpha), [0, 1], [Q[mine, row, column], target])
-    return {
-        part: [Q[table - 1, states.index(s), actions[states.index(s)].index(a)] for s, a in given.updated_in(table)]
-        for part, table in zip("ab", given.asked, strict=False)
-    }
+    return [
+        [Q[table - 1, states.index(s), actions[states.index(s)].index(a)] for s, a in given.updated_in(table)]
+        for table in given.asked
+    ]

@@ -28,7 +28,7 @@ def solve(given: Given, work: Work) -> None:
         values = {action: known["Q"][after, action] for action in known["actions"][after]}
         known["pi"] = {(action, after): chance for action, chance in _policy(given, work, after, values).items()}
         known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
-    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
+    work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> dict[str, Value]:
@@ -54,4 +54,4 @@ def oracle(given: Given) -> Answers:
             ahead = (1 - at(given.epsilon)) * Q[after].max() + at(given.epsilon) * Q[after].mean()
         cell = place[state](run.actions[time])
         Q[state][cell] += at(given.alpha) * (at(run.rewards[time]) + at(given.gamma) * ahead - Q[state][cell])
-    return {"a": [Q[state][place[state](action)] for state, action in given.updated]}
+    return ([Q[state][place[state](action)] for state, action in given.updated],)

@@ -36,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
     known: dict[str, Any] = {"pi": dict.fromkeys(acted, ZERO) | knowns.policy(given.target), "behaviour": acted}
     runs = [knowns.trajectory(episode) | {"T": len(episode.rewards)} for episode in given.episodes]
     ratios = tuple(work.step(IMPORTANCE_RATIO, i=number, **run, **known) for number, run in enumerate(runs, 1))
-    answer = work.answer("a", ratios if len(ratios) > 1 else ratios[0])
+    answer = work.answer(ratios if len(ratios) > 1 else ratios[0])
     ratios = answer if len(ratios) > 1 else (answer,)
     returns = {}
     for number, run in enumerate(runs, 1):
@@ -44,9 +44,9 @@ def solve(given: Given, work: Work) -> None:
             work.say(f"The return of episode {number} is called $R_{number}$ from here on:")
         returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
     weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
-    work.answer("b", work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
+    work.answer(work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))
     if len(runs) > 1:
-        work.answer("c", work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
+        work.answer(work.step(WEIGHTED_IMPORTANCE_SAMPLING, **weighing))
 
 
 def oracle(given: Given) -> Answers:
@@ -61,4 +61,4 @@ def oracle(given: Given) -> Answers:
         returns.append(np.polynomial.Polynomial([at(reward) for reward in episode.rewards])(at(given.gamma)))
     ordinary = np.dot(ratios, returns) / len(returns)
     weighted = np.average(returns, weights=ratios) if sum(ratios) else np.nan
-    return {"a": ratios if len(ratios) > 1 else ratios[0], "b": ordinary, "c": weighted}
+    return (ratios if len(ratios) > 1 else ratios[0], ordinary, weighted)

@@ -3,7 +3,8 @@
 from rldrill.problems.control.q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.control import FORGOT_GAMMA, MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.control import MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
@@ -14,7 +15,7 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.action_run(given)
     for time, pair in enumerate(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False)):
         known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, t=time, **known)}
-    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
+    work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def oracle(given: Given) -> Answers:
@@ -25,4 +26,4 @@ def oracle(given: Given) -> Answers:
         best = 0.0 if after in run.terminal else sorted(table[after].values())[-1]
         target = at(reward) + at(given.gamma) * best
         table[state][action] += at(given.alpha) * (target - table[state][action])
-    return {"a": [table[state][action] for state, action in given.updated]}
+    return ([table[state][action] for state, action in given.updated],)

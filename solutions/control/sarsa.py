@@ -17,7 +17,7 @@ def solve(given: Given, work: Work) -> None:
     known = knowns.action_run(given)
     for time, pair in enumerate(zip(run.states[:-1], run.actions, strict=False)):
         known["Q"] = known["Q"] | {pair: work.step(SARSA, t=time, **known)}
-    work.answer("a", {pair: known["Q"][pair] for pair in given.updated})
+    work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def oracle(given: Given) -> Answers:
@@ -35,4 +35,4 @@ def oracle(given: Given) -> Answers:
             update[visits[time], visits[time + 1]] += at(given.alpha) * at(given.gamma)
         whole = update @ whole
     after = whole @ start
-    return {"a": [after[pairs.index(pair)] for pair in given.updated]}
+    return ([after[pairs.index(pair)] for pair in given.updated],)

@@ -7,7 +7,7 @@ import numpy as np
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     ACTION_TRACE,
@@ -39,17 +39,17 @@ def _comes_back(given: Given) -> bool:
     return len({*visits, *traced}) < len(visits) + len(traced)
 
 
-TRACES_CUT = slip(
+TRACES_CUT = fork(
     "traces-cut",
     "Sarsa(λ) keeps its traces when an exploratory action is taken; it is Watkins's Q(λ) that cuts them there.",
     when=lambda given: any(_explores(given, time) for time in range(len(given.trajectory.rewards))),
 )
-REPLACING = slip(
+REPLACING = fork(
     "replacing-traces",
     "Accumulating traces add 1 to what is left of the trace; replacing traces would set it to 1.",
     when=_comes_back,
 )
-ONLY_VISITED = slip(
+ONLY_VISITED = fork(
     "only-the-visited-pair",
     "Every pair with a trace is moved by the TD error, not only the pair that was just left.",
     when=lambda given: len(given.eligible) > 1,
@@ -63,7 +63,7 @@ def solve(given: Given, work: Work) -> None:
     run = given.trajectory
     visits = list(zip(run.states[:-1], run.actions, strict=False))
     traces = _traces(given, work, visits, known)
-    traces[-1] = traces[-1] | work.answer("a", {pair: traces[-1][pair] for pair in given.eligible})
+    traces[-1] = traces[-1] | work.answer({pair: traces[-1][pair] for pair in given.eligible})
     for time, visited in enumerate(visits):
         error = work.step(SARSA_TD_ERROR, t=time, **known)
         old, trace = known["Q"], traces[time]
@@ -73,7 +73,7 @@ def solve(given: Given, work: Work) -> None:
             for pair in given.eligible
             if trace[pair] != 0 and (pair == visited or not work.makes(ONLY_VISITED))
         }  # fmt: skip
-    work.answer("b", {pair: known["Q"][pair] for pair in given.eligible})
+    work.answer({pair: known["Q"][pair] for pair in given.eligible})
 
 
 def _traces(given: Given, work: Work, visits: list[Pair], known: dict[str, Any]) -> list[dict[Pair, Value]]:
@@ -115,4 +115,4 @@ def oracle(given: Given) -> Answers:
         ahead = 0.0 if run.states[time + 1] in run.terminal else Q[visits[time + 1]]
         Q = Q + at(given.alpha) * (at(reward) + at(given.gamma) * ahead - Q[visits[time]]) * e
     asked = [pairs.index(pair) for pair in given.eligible]
-    return {"a": e[asked], "b": Q[asked]}
+    return (e[asked], Q[asked])

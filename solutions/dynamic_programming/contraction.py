@@ -7,7 +7,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
     CHANGE_FOR_ERROR,
@@ -25,7 +25,7 @@ from rldrill.solutions.work import Work
 MOST_SWEEPS = 4096
 #: Up to so many sweeps the bound is written out as a fraction.
 WRITTEN_OUT = 8
-STOPS_SHORT = slip(
+STOPS_SHORT = fork(
     "one-sweep-too-few",
     "After that many sweeps the bound is still above the accuracy; round up to the next whole number of sweeps.",
     when=lambda given: given.accuracy is not None,
@@ -35,7 +35,6 @@ MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERRO
 
 def solve(given: Given, work: Work) -> None:
     """The norm, then the bounds; the smallest k by exact comparisons."""
-    labels = iter("abcd")
     gamma = exact(given.gamma)
     distance = work.step(
         MAX_NORM,
@@ -44,18 +43,18 @@ def solve(given: Given, work: Work) -> None:
         V=knowns.values(given.other),
         V1=knowns.values(given.start),
     )
-    distance = work.answer(next(labels), distance)
+    distance = work.answer(distance)
     if given.first is not None:
-        distance = work.answer(next(labels), work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
+        distance = work.answer(work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
     known = {"distance": {0: distance}, "gamma": gamma}
-    work.answer(next(labels), work.step(CONTRACTION, k=given.sweeps, **known))
+    work.answer(work.step(CONTRACTION, k=given.sweeps, **known))
     if given.accuracy is None:
         return
     enough = _sweeps(work, known, exact(given.accuracy))
     if enough > WRITTEN_OUT:
         work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
     _explain(work, known, exact(given.accuracy), enough)
-    work.answer(next(labels), max(enough - 1, 0) if work.makes(STOPS_SHORT) else enough)
+    work.answer(max(enough - 1, 0) if work.makes(STOPS_SHORT) else enough)
 
 
 def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) -> None:
@@ -110,4 +109,4 @@ def oracle(given: Given) -> Answers:
         while worst > at(given.accuracy) * (1 + 1e-11):
             worst, k = worst * at(given.gamma), k + 1
         answers.append(k)
-    return dict(zip("abcd", answers, strict=False))
+    return answers

@@ -6,12 +6,14 @@ from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q
-from rldrill.solutions.sheet.dynamic_programming import (
-    GREEDY_FROM_Q,
+from rldrill.solutions.sheet.bellman import (
+    BELLMAN_OPTIMALITY_Q,
     OPTIMAL_Q_BY_REWARD,
     OPTIMAL_Q_BY_VALUE,
     OPTIMAL_Q_MEAN_FOR_MAX,
+)
+from rldrill.solutions.sheet.dynamic_programming import (
+    GREEDY_FROM_Q,
     SMALLEST_Q,
 )
 from rldrill.solutions.work import Work
@@ -25,13 +27,12 @@ def solve(given: Given, work: Work) -> None:
     actions = given.actions | dict.fromkeys(given.terminal, (knowns.NO_ACTION,))
     Q = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
     Q |= {(state, knowns.NO_ACTION): ZERO for state in given.terminal}
-    labels = iter("ab")
     if given.missing and given.gamma is not None:
         known = knowns.model(given.missing) | {"actions": actions, "gamma": exact(given.gamma), "Q": Q}
         found = {(state, a): work.step(BELLMAN_OPTIMALITY_Q, s=state, a=a, **known) for state, a in given.gaps}
-        Q = Q | work.answer(next(labels), found)
+        Q = Q | work.answer(found)
     best = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in given.values}
-    work.answer(next(labels), best)
+    work.answer(best)
 
 
 def oracle(given: Given) -> Answers:
@@ -48,4 +49,4 @@ def oracle(given: Given) -> Answers:
             table[state][action] = value
         answers.append(list(found.values()))
     answers.append({s: {a for a, q in row.items() if q > max(row.values()) - 1e-9} for s, row in table.items()})
-    return dict(zip("ab", answers, strict=False))
+    return answers

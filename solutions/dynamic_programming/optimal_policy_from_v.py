@@ -16,7 +16,7 @@ def solve(given: Given, work: Work) -> None:
         "gamma": exact(given.gamma),
         "V": knowns.state_values(given.values, given.mdp.terminal),
     }
-    work.answer("a", {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states})
+    work.answer({state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states})
 
 
 def oracle(given: Given) -> Answers:
@@ -25,4 +25,4 @@ def oracle(given: Given) -> Answers:
     P, R = tensors(given.mdp, states)
     ahead = P @ [at(given.values.get(state, 0)) for state in states]
     worth = (P * R.clip(min=-1e300)).sum(axis=2) + at(given.gamma) * ahead
-    return {"a": best_actions(given.mdp, worth[: len(given.mdp.states)])}
+    return (best_actions(given.mdp, worth[: len(given.mdp.states)]),)

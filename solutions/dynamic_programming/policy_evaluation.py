@@ -5,27 +5,27 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import Answers, at, chances, tensors
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
-    EVALUATION_FORGOT_GAMMA,
     EVALUATION_MAX_FOR_MEAN,
     POLICY_EVALUATION,
 )
 from rldrill.solutions.work import Work
 
-IN_PLACE = slip(
+IN_PLACE = fork(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
     when=lambda given: not given.in_place,
 )
-SYNCHRONOUS = slip(
+SYNCHRONOUS = fork(
     "synchronous",
     "In place, a value found in this sweep is used at once for the states that follow.",
     when=lambda given: given.in_place,
 )
-MISCONCEPTIONS = (IN_PLACE, SYNCHRONOUS, EVALUATION_MAX_FOR_MEAN, EVALUATION_FORGOT_GAMMA)
+MISCONCEPTIONS = (IN_PLACE, SYNCHRONOUS, EVALUATION_MAX_FOR_MEAN, FORGOT_GAMMA)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -42,7 +42,7 @@ def solve(given: Given, work: Work) -> None:
             current = values if newest else old
             value = work.step(POLICY_EVALUATION, s=state, V=current, into=numbered(V, sweep), **known)
             values = values | {state: value}
-    work.answer("a", {state: values[state] for state in mdp.states})
+    work.answer({state: values[state] for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:
@@ -59,4 +59,4 @@ def oracle(given: Given) -> Answers:
         source = values if given.in_place else values.copy()
         for line in range(n):
             values[line] = pay[line] + at(given.gamma) * chain[line] @ source
-    return {"a": values[:n]}
+    return (values[:n],)

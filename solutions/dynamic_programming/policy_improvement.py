@@ -22,15 +22,14 @@ def solve(given: Given, work: Work) -> None:
     """The policy's values if they are not given, the greedy actions, and whether they are the policy's own."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    labels = iter("abc")
     if given.values is None:
         found = evaluated(work, BELLMAN_V, mdp, known | {"pi": knowns.policy(given.policy)})
-        answered = work.answer(next(labels), {state: found[state] for state in mdp.states})
+        answered = work.answer({state: found[state] for state in mdp.states})
     else:
         answered = knowns.values(given.values)
     values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
     greedy = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
-    greedy = work.answer(next(labels), greedy)
+    greedy = work.answer(greedy)
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
     optimal = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
     work.say(
@@ -38,7 +37,7 @@ def solve(given: Given, work: Work) -> None:
         if optimal
         else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
     )
-    work.answer(next(labels), optimal)
+    work.answer(optimal)
 
 
 def oracle(given: Given) -> Answers:
@@ -50,4 +49,4 @@ def oracle(given: Given) -> Answers:
     worth = lookahead(P, R, V, at(given.gamma))[:n]
     answers: list[Any] = [V[:n]] if given.values is None else []
     answers += [best_actions(given.mdp, worth), bool((worth.max(axis=1) < V[:n] + 1e-9).all())]
-    return dict(zip("abc", answers, strict=False))
+    return answers

@@ -1,7 +1,6 @@
 """Evaluation and improvement in turn; when improvement changes nothing, the policy is optimal."""
 
 from collections.abc import Mapping
-from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ from rldrill.problems.dynamic_programming.policy_iteration import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -21,7 +20,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-STOPS = slip(
+STOPS = fork(
     "stops-after-one-round",
     "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
     when=lambda given: given.rounds > 1,
@@ -33,7 +32,6 @@ def solve(given: Given, work: Work) -> None:
     """Round after round: the values of the policy, then the greedy actions for them."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    labels = iter(ascii_lowercase)
     policy, changed = given.start, True
     values: Mapping[str, Value] = {}
     for number in range(given.rounds):
@@ -41,19 +39,19 @@ def solve(given: Given, work: Work) -> None:
         if number == 0 or not work.makes(STOPS):
             work.say(f"Evaluation of $π_{{{number}}}$:")
             values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy}, values)
-        answered = work.answer(next(labels), {state: values[state] for state in mdp.states})
+        answered = work.answer({state: values[state] for state in mdp.states})
         values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
         if number == 0 or not work.makes(STOPS):
             work.say(f"Improvement to $π_{{{number + 1}}}$:")
             best = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
-        improved = work.answer(next(labels), _improved(policy, best))
+        improved = work.answer(_improved(policy, best))
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
     if changed:
         work.say("The last improvement still changed the policy, so it is not known whether another round would.")
     else:
         work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
-    work.answer(next(labels), not changed)
+    work.answer(not changed)
 
 
 def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
@@ -74,4 +72,4 @@ def oracle(given: Given) -> Answers:
         answers += [np.array(V[:n]), best]
         stable = all(policy[state] in actions for state, actions in best.items())
         policy = {state: next(a for a in given.mdp.actions[state] if a in best[state]) for state in given.mdp.states}
-    return dict(zip(ascii_lowercase, [*answers, stable], strict=False))
+    return [*answers, stable]

@@ -5,22 +5,22 @@ import numpy as np
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
-    FORGOT_GAMMA,
     GREEDY_FROM_V,
     MEAN_FOR_MAX,
     VALUE_ITERATION,
 )
 from rldrill.solutions.work import Work
 
-IN_PLACE = slip(
+IN_PLACE = fork(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
 )
-TERMINAL_TWICE = slip(
+TERMINAL_TWICE = fork(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
     when=lambda given: knowns.pays_at_the_end(given.mdp),
@@ -44,8 +44,8 @@ def solve(given: Given, work: Work) -> None:
         for state in mdp.states:
             current = old | values if work.makes(IN_PLACE) else old
             values[state] = work.step(VALUE_ITERATION, s=state, V=current, into=numbered(V, sweep), **known)
-    values = ends | work.answer("a", {state: values[state] for state in mdp.states})
-    work.answer("b", {state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
+    values = ends | work.answer({state: values[state] for state in mdp.states})
+    work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
 def oracle(given: Given) -> Answers:
@@ -57,4 +57,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(given.sweeps):
         V = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:] * 0])
     worth = lookahead(P, R, V, at(given.gamma))[:n]
-    return {"a": V[:n], "b": best_actions(given.mdp, worth)}
+    return (V[:n], best_actions(given.mdp, worth))

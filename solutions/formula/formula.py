@@ -1,7 +1,7 @@
 """A formula of the sheet, and the mistakes that are made with it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
@@ -19,6 +19,54 @@ class Place(Enum):
     SHEET = "sheet"
     BEYOND = "beyond"
     WORKING = "working"
+
+
+@dataclass(frozen=True)
+class Misconception:
+    """A typical mistake; two of one name that say the same are the same mistake.
+
+    Either formulas are misread: then they say how (``Formula.misread``). Or it is a slip in the procedure: then
+    ``solve`` is the way that somebody goes who makes it.
+
+    Args:
+        name: a short name, ``forgot-gamma``.
+        says: one sentence to the person who made it: what is right instead.
+        when: for which givens the mistake can be made at all; always, if None.
+        solve: the family's solver with the slip in it.
+    """
+
+    name: str
+    says: str
+    when: Callable[[Any], bool] | None = field(default=None, compare=False)
+    solve: Callable[[Any, Any], None] | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        return f"<misconception {self.name}>"
+
+    @property
+    def is_slip(self) -> bool:
+        """Whether it is made in the procedure, not in reading a formula."""
+        return self.solve is not None
+
+    def applies(self, given: object) -> bool:
+        """Whether the mistake can be made in this problem."""
+        return self.when is None or self.when(given)
+
+
+def slip(
+    name: str, says: str, when: Callable[[Any], bool] | None = None
+) -> Callable[[Callable[[Any, Any], None]], Misconception]:
+    """Make the wrong way through a problem the mistake of going it: decorates a variant of the family's ``solve``."""
+    return lambda solve: Misconception(name, says, when, solve)
+
+
+def _forked(given: Any, work: Any) -> None:
+    raise NotImplementedError
+
+
+def fork(name: str, says: str, when: Callable[[Any], bool] | None = None) -> Misconception:
+    """The mistake of going about it the wrong way; solvers ask ``work.makes`` for it."""
+    return Misconception(name, says, when, _forked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +87,8 @@ class Formula:
             intermediate results.
         place: whether the lecture's sheet has it (or needs it to be of use); the printed sheet leaves out what only
             a working needs.
+        misread: the mistakes that are made in reading it, each with the right side that it puts in the place of
+            the right one; a mistake that other formulas are read with, too, stands with each of them.
     """
 
     key: str
@@ -52,6 +102,7 @@ class Formula:
     note: str = ""
     hidden: bool = False
     place: Place = Place.SHEET
+    misread: Mapping[Misconception, Expr] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<formula {self.key}>"
@@ -72,44 +123,3 @@ class Formula:
     def value(self, known: Mapping[str, Any]) -> Value:
         """The exact value for known quantities."""
         return value_of(self.right, known)
-
-
-@dataclass(frozen=True, eq=False)
-class Misconception:
-    """A typical mistake.
-
-    Either a formula read with one term changed (``formula`` and ``reads``), or a slip in the procedure:
-    then both are None, and the solver asks ``work.makes(SLIP)`` where the procedure forks.
-
-    Args:
-        name: a short name, ``forgot-gamma``.
-        says: one sentence to the person who made it: what is right instead.
-        formula: the formula that is misread.
-        reads: the right side that the mistake puts in its place.
-        when: for which givens the mistake can be made at all; always, if None.
-    """
-
-    name: str
-    says: str
-    formula: Formula | None = None
-    reads: Expr | None = None
-    when: Callable[[Any], bool] | None = None
-
-    def __repr__(self) -> str:
-        return f"<misconception {self.name}>"
-
-    def applies(self, given: object) -> bool:
-        """Whether the mistake can be made in this problem."""
-        return self.when is None or self.when(given)
-
-
-def misread(
-    formula: Formula, name: str, reads: Expr, says: str, when: Callable[[Any], bool] | None = None
-) -> Misconception:
-    """The mistake of reading a formula with one term changed."""
-    return Misconception(name, says, formula, reads, when)
-
-
-def slip(name: str, says: str, when: Callable[[Any], bool] | None = None) -> Misconception:
-    """The mistake of going about it the wrong way; solvers ask ``work.makes`` for it."""
-    return Misconception(name, says, when=when)

@@ -7,16 +7,16 @@ import numpy as np
 from rldrill.problems.function_approximation.linear_value import Given
 from rldrill.solutions.centres import distances, measured
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import GREEDY_LINEAR, LINEAR_VALUE, PIECEWISE_LINEAR_RBF
 from rldrill.solutions.work import Work
 
-WRONG_BLOCK = slip(
+WRONG_BLOCK = fork(
     "block-of-the-wrong-action",
     "Every action has its own block of weights, in the order in which the actions are named; another one was used.",
 )
-INTERLEAVED = slip(
+INTERLEAVED = fork(
     "weights-interleaved",
     "The first block holds all weights of the first action; the weights were read feature by feature instead.",
     when=lambda given: given.size > 1,
@@ -26,16 +26,13 @@ MISCONCEPTIONS = (WRONG_BLOCK, INTERLEAVED)
 
 def solve(given: Given, work: Work) -> None:
     """Features, stacked vector, values, greedy action."""
-    labels = iter("abcd")
     features = tuple(map(exact, given.features or ()))
     if given.bumps is not None:
         known = distances(given.bumps, work) | {"width": exact(given.bumps.width)}
         numbers = known["distance"]
-        features = work.answer(
-            next(labels), tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in numbers)
-        )
+        features = work.answer(tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in numbers))
     work.say("The features stand in the action's own block, and the other blocks are 0.")
-    work.answer(next(labels), _stacked(given, features, given.action, work))
+    work.answer(_stacked(given, features, given.action, work))
     stacked = {
         (number, "s", action): value
         for action in given.actions
@@ -46,8 +43,8 @@ def solve(given: Given, work: Work) -> None:
         ("s", a): work.step(LINEAR_VALUE, s="s", a=a, theta=theta, phi=stacked, features=tuple(theta))
         for a in given.actions
     }
-    values = work.answer(next(labels), values)
-    work.answer(next(labels), {"s": work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=given.actions)})
+    values = work.answer(values)
+    work.answer({"s": work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=given.actions)})
 
 
 def _stacked(given: Given, features: Sequence[Value], action: str, work: Work) -> tuple[Value, ...]:
@@ -74,4 +71,4 @@ def oracle(given: Given) -> Answers:
     values = np.array([at(weight) for weight in given.theta]).reshape(len(given.actions), -1) @ features
     best = {action for action, value in zip(given.actions, values, strict=True) if value > values.max() - 1e-9}
     answers += [np.kron(unit, features), values, {"s": best}]
-    return dict(zip("abcd", answers, strict=False))
+    return answers

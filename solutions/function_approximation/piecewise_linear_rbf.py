@@ -15,9 +15,9 @@ MISCONCEPTIONS = (NOT_CLAMPED, WIDTH_FORGOTTEN)
 def solve(given: Given, work: Work) -> None:
     """Centre by centre."""
     known = distances(given, work) | {"width": exact(given.width)}
-    work.answer("a", tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in known["distance"]))
+    work.answer(tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in known["distance"]))
 
 
 def oracle(given: Given) -> Answers:
     """The bump as a line between its peak and its foot."""
-    return {"a": np.interp(measured(given), [0.0, at(given.width)], [1.0, 0.0])}
+    return (np.interp(measured(given), [0.0, at(given.width)], [1.0, 0.0]),)

@@ -44,11 +44,11 @@ def solve(given: Given, work: Work) -> None:
         if time:
             current = work.step(step, t=time - 1, theta_vector=current, **known)
         errors.append(_error(given, work, known, current, time))
-    known["delta"] = dict(enumerate(work.answer("a", tuple(errors))))
+    known["delta"] = dict(enumerate(work.answer(tuple(errors))))
 
     for time in range(last):  # these steps stand in the working of (a) already
         theta = work.value(step, t=time, theta_vector=theta, **known)
-    work.answer("b", tuple(work.step(step, t=last, theta_vector=theta, **known)))
+    work.answer(tuple(work.step(step, t=last, theta_vector=theta, **known)))
 
 
 def _error(given: Given, work: Work, known: Mapping[str, Any], theta: Vector, time: int) -> Value:
@@ -125,4 +125,4 @@ def oracle(given: Given) -> Answers:
         unit = np.eye(len(theta))
         slope = np.array([(loss(theta + direction) - loss(theta - direction)) / 2 for direction in unit])
         theta = theta - at(given.alpha) * slope
-    return {"a": errors, "b": theta}
+    return (errors, theta)

@@ -43,7 +43,7 @@ def solve(given: Given, work: Work) -> None:
         returns[number] = work.step(RETURN, t=0, **run, gamma=known["gamma"])
     work.say("Over all episodes:")
     value = work.step(GOAL, episodes=tuple(probabilities), episode_pr=probabilities, episode_return=returns)
-    work.answer("a", value)
+    work.answer(value)
 
 
 def _told(episode: Episode) -> str:
@@ -60,4 +60,4 @@ def oracle(given: Given) -> Answers:
     for _ in states:
         worth = lookahead(P, R, V, at(given.gamma))
         V = (pi * np.where(np.isinf(worth), 0.0, worth)).sum(axis=1)
-    return {"a": sum(at(chance) * V[states.index(state)] for state, chance in given.start.items())}
+    return (sum(at(chance) * V[states.index(state)] for state, chance in given.start.items()),)

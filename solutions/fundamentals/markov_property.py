@@ -9,7 +9,7 @@ import numpy as np
 from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, where
 from rldrill.solutions.exact import ZERO, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
     HISTORY_LEFT_OUT,
@@ -62,12 +62,12 @@ def _uneven(given: Given) -> bool:
     return _verdict(given, _matters(given, _totals(given))) != _verdict(given, _matters(given, _right(given)))
 
 
-ONE_NEXT_STATE = slip(
+ONE_NEXT_STATE = fork(
     "one-next-state",
     "The probabilities of all next states must be independent of the history, not only that of the one asked for.",
     when=_hidden,
 )
-TOTALS_COMPARED = slip(
+TOTALS_COMPARED = fork(
     "totals-compared",
     "Histories need not be equally frequent: compare what follows them, each by its own total.",
     when=_uneven,
@@ -82,7 +82,7 @@ def solve(given: Given, work: Work) -> None:
     def probability(history: tuple[str, str], after: str) -> Value:
         return work.step(RELATIVE_FREQUENCY, S=dict(enumerate((*history, after))), **known)
 
-    asked = work.answer("a", {history: probability(history, given.asked) for history in given.histories})
+    asked = work.answer({history: probability(history, given.asked) for history in given.histories})
     chances = {(*history, given.asked): chance for history, chance in asked.items()}
     if len(given.outcomes) > 2 and not work.makes(ONE_NEXT_STATE):  # of two, the other is the rest to 1
         others = [after for after in given.outcomes if after != given.asked]
@@ -92,10 +92,10 @@ def solve(given: Given, work: Work) -> None:
     for now in given.present:
         _compare(given, work, now, chances, differs=now in matters)
     verdict = _verdict(given, matters)
-    work.answer("b", verdict[0])
+    work.answer(verdict[0])
     if len(verdict) > 1:
         work.say(f"What $s_{{t-1}}$ was matters {_in_words(matters)}.")
-        work.answer("c", verdict[1])
+        work.answer(verdict[1])
 
 
 def _states(given: Given) -> tuple[str, ...]:
@@ -144,9 +144,9 @@ def oracle(given: Given) -> Answers:
         for before, now in given.histories
     ]
     broken = [now for j, now in enumerate(given.present) if np.linalg.matrix_rank(counts[:, j], tol=1e-9) > 1]
-    answers: dict[str, Any] = {"a": share, "b": not broken}
+    answers: list[Any] = [share, not broken]
     options = list(where(given).items())
     if options:
         place = -2 if not broken else -1 if len(broken) > 1 else given.present.index(broken[0])
-        answers["c"] = options[place][0]
+        answers.append(options[place][0])
     return answers

@@ -29,9 +29,9 @@ def solve(given: Any, work: Work) -> None:
         "T": end,
     }
     if given.time is None:
-        work.answer("a", tuple(work.step(RETURN, t=time, **known) for time in range(end)))
+        work.answer(tuple(work.step(RETURN, t=time, **known) for time in range(end)))
         return
-    value = work.answer("a", work.step(RETURN, t=given.time, **known))
+    value = work.answer(work.step(RETURN, t=given.time, **known))
     if given.time == 0:
         return
     if work.misreads(RETURN):  # the recursion holds for the true definition only
@@ -39,7 +39,7 @@ def solve(given: Any, work: Work) -> None:
     else:
         for time in reversed(range(given.time)):
             value = work.step(RETURN_RECURSIVE, t=time, G={time + 1: value}, **known)
-    work.answer("b", value)
+    work.answer(value)
 
 
 def oracle(given: Any) -> Answers:
@@ -48,4 +48,4 @@ def oracle(given: Any) -> Answers:
     steps = np.arange(len(rewards))[None, :] - np.arange(len(rewards))[:, None]
     weights = np.where(steps >= 0, at(given.gamma) ** np.maximum(steps, 0), 0.0)
     returns = weights @ rewards
-    return {"a": returns} if given.time is None else {"a": returns[given.time], "b": returns[0]}
+    return (returns,) if given.time is None else (returns[given.time], returns[0])

@@ -23,9 +23,9 @@ def solve(given: Given, work: Work) -> None:
     k = len(given.first)
     gamma = exact(given.gamma)
     r = {time + 1: exact(reward) for time, reward in enumerate((*given.first, *given.repeated))}
-    tail = work.answer("a", work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r))
+    tail = work.answer(work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r))
     if k:
-        work.answer("b", work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}))
+        work.answer(work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}))
 
 
 def oracle(given: Given) -> Answers:
@@ -37,4 +37,4 @@ def oracle(given: Given) -> Answers:
     value = tail
     for reward in reversed(given.first):
         value = at(reward) + gamma * value
-    return {"a": tail, "b": value} if given.first else {"a": tail}
+    return (tail, value) if given.first else (tail,)

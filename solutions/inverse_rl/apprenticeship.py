@@ -1,7 +1,7 @@
 """The projection method, one policy after the other; the weights point from the projected point to the expert."""
 
-from string import ascii_lowercase
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -19,37 +19,49 @@ from rldrill.solutions.sheet.inverse_rl import (
 )
 from rldrill.solutions.work import Work
 
-NOT_PROJECTED = slip(
-    "not-from-the-projected-point",
-    "The weights point to the expert from the projected point, not from the new policy's feature expectations.",
-)
-MISCONCEPTIONS = (NOT_PROJECTED,)
+#: Feature expectations, or weights, by the number of the feature.
+Point: TypeAlias = dict[int, Any]
 
 
 def solve(given: Given, work: Work) -> None:
     """A distance; for every policy the projected point and the weights; the distance that is left."""
-    labels = iter(ascii_lowercase)
+    _project(given, work, lambda projected, _: projected)
+
+
+def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Point]) -> None:
+    """The projection method; the weights point from ``weighed_from(projected point, policy)`` to the expert."""
     features = tuple(range(1, len(given.expert) + 1))
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
     work.recall(APPRENTICESHIP)
-    work.answer(next(labels), work.step(DISTANCE, mu_now=policies[0], **known))
+    work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
     for mu in policies:
         known |= {"mu_now": mu, "mu_bar": point}
         length = work.step(PROJECTION_LENGTH, **known)
         moved = work.answer(
-            next(labels),
             tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features),
         )
         point = dict(zip(features, moved, strict=True))
-        known["mu_bar"] = mu if work.makes(NOT_PROJECTED) else point
-        pointing = work.answer(next(labels), tuple(work.step(WEIGHTS, component=index, **known) for index in features))
+        known["mu_bar"] = weighed_from(point, mu)
+        pointing = work.answer(tuple(work.step(WEIGHTS, component=index, **known) for index in features))
         weights = dict(zip(features, pointing, strict=True))
-    work.answer(next(labels), work.step(REMAINING, w=weights, features=features))
+    work.answer(work.step(REMAINING, w=weights, features=features))
 
 
-def _vector(values: tuple[Any, ...]) -> dict[int, Any]:
+@slip(
+    "not-from-the-projected-point",
+    "The weights point to the expert from the projected point, not from the new policy's feature expectations.",
+)
+def not_projected(given: Given, work: Work) -> None:
+    """Weights from the policy itself."""
+    _project(given, work, lambda _, policy: policy)
+
+
+MISCONCEPTIONS = (not_projected,)
+
+
+def _vector(values: tuple[Any, ...]) -> Point:
     return dict(enumerate(map(exact, values), 1))
 
 
@@ -58,13 +70,11 @@ def oracle(given: Given) -> Answers:
     expert, point, *policies = (
         np.array([at(value) for value in mu]) for mu in (given.expert, given.first, *given.policies)
     )
-    labels = iter(ascii_lowercase)
-    answers: dict[str, Any] = {next(labels): np.linalg.norm(policies[0] - expert)}
+    answers: list[Any] = [np.linalg.norm(policies[0] - expert)]
     for mu in policies:
         point = _nearest(point, mu, expert)
-        answers[next(labels)] = point
-        answers[next(labels)] = expert - point
-    return answers | {next(labels): np.linalg.norm(expert - point)}
+        answers += [point, expert - point]
+    return [*answers, np.linalg.norm(expert - point)]
 
 
 def _nearest(start: Array, through: Array, to: Array) -> Array:

@@ -30,7 +30,7 @@ def solve(given: Given, work: Work) -> None:
         "trajectories": tuple(runs),
     }
     size = len(next(iter(given.features.values())))
-    work.answer("a", tuple(work.step(FEATURE_EXPECTATIONS, component=index, **known) for index in range(1, size + 1)))
+    work.answer(tuple(work.step(FEATURE_EXPECTATIONS, component=index, **known) for index in range(1, size + 1)))
 
 
 def oracle(given: Given) -> Answers:
@@ -42,4 +42,4 @@ def oracle(given: Given) -> Answers:
         for state in reversed(states):
             total = np.array([at(value) for value in given.features[state]]) + gamma * total
         totals.append(total)
-    return {"a": np.mean(totals, axis=0)}
+    return (np.mean(totals, axis=0),)

@@ -1,7 +1,6 @@
 """One linear system for every feature, then the mean over the start distribution."""
 
 from collections import defaultdict
-from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -38,16 +37,16 @@ def solve(given: Given, work: Work) -> None:
         "gamma": exact(given.gamma),
     }
     expectations: dict[tuple[int, str], Any] = {}
-    for label, index in zip(ascii_lowercase, range(1, given.size + 1), strict=False):
+    for index in range(1, given.size + 1):
         fixed = {(index, state): ZERO for state in given.terminal}
         solved = work.system(
             FEATURES_FROM, mu_of, [{"component": index, "s": state} for state in states], mu_of=fixed, **known
         )
-        answer = work.answer(label, {state: solved[index, state] for state in states})
+        answer = work.answer({state: solved[index, state] for state in states})
         expectations |= {(index, state): value for state, value in answer.items()}
     begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
     total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
-    work.answer(ascii_lowercase[given.size], total)
+    work.answer(total)
 
 
 def oracle(given: Given) -> Answers:
@@ -69,5 +68,4 @@ def oracle(given: Given) -> Answers:
         if occupied.max() < 1e-16:
             break
     begins = np.array([at(chance) for chance in given.start_chances.values()])
-    columns = dict(zip(ascii_lowercase, total.T, strict=False))
-    return columns | {ascii_lowercase[given.size]: begins @ total}
+    return [*total.T, begins @ total]

@@ -13,13 +13,6 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
 from rldrill.solutions.work import Work
 
-MARGIN_ON_THE_WRONG_SIDE = slip(
-    "margin-on-the-wrong-side",
-    "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
-    when=lambda given: any(rival.margin for rival in given.policies.values()),
-)
-MISCONCEPTIONS = (MARGIN_ON_THE_WRONG_SIDE, SUM_FOR_MAXIMUM)
-
 
 def solve(given: Given, work: Work) -> None:
     """Values; then constraint by constraint with ξ = 0; then the slack."""
@@ -29,17 +22,16 @@ def solve(given: Given, work: Work) -> None:
         "features": tuple(range(1, len(given.w) + 1)),
         "mu_policy": knowns.features(mus),
     }
-    worth = work.answer("a", {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
-    side = -1 if work.makes(MARGIN_ON_THE_WRONG_SIDE) else 1
+    worth = work.answer({name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
     sides: dict[str, Any] = {
         "worth": worth,
         "worth_expert": worth[EXPERT],
-        "margin": {EXPERT: ZERO} | {name: side * exact(rival.margin) for name, rival in given.policies.items()},
+        "margin": {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()},
     }
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
-    work.answer("b", fmpq(len(given.policies) - len(violated)))
-    work.answer("c", work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+    work.answer(fmpq(len(given.policies) - len(violated)))
+    work.answer(work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
 
 
 def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
@@ -53,6 +45,20 @@ def _told(violated: tuple[str, ...]) -> str:
     return f"the left side is too small for {', '.join(violated)}" if violated else "all constraints hold"
 
 
+@slip(
+    "margin-on-the-wrong-side",
+    "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
+    when=lambda given: any(rival.margin for rival in given.policies.values()),
+)
+def margin_on_the_wrong_side(given: Given, work: Work) -> None:
+    """The same constraints with every margin taken away instead of added."""
+    rivals = {name: rival.model_copy(update={"margin": -rival.margin}) for name, rival in given.policies.items()}
+    solve(given.model_copy(update={"policies": rivals}), work)
+
+
+MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM)
+
+
 def oracle(given: Given) -> Answers:
     """Slacks tried by bisection until the smallest that does is found, on matrices."""
     mus = np.array([[at(value) for value in mu] for mu in (given.expert, *(r.mu for r in given.policies.values()))])
@@ -64,4 +70,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(200):
         middle = (low + high) / 2
         low, high = (low, middle) if (values[0] + middle >= needed).all() else (middle, high)
-    return {"a": values, "b": (values[0] >= needed - 1e-12).sum(), "c": high}
+    return (values, (values[0] >= needed - 1e-12).sum(), high)

@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
@@ -31,12 +31,12 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-ILQR_FOR_DDP = slip(
+ILQR_FOR_DDP = fork(
     "ilqr-for-ddp",
     "DDP keeps the second derivatives of the dynamics: V′ₛ · f_{ss} and the like belong to Q's; only iLQR drops them.",
     when=lambda given: given.second_order,
 )
-DDP_FOR_ILQR = slip(
+DDP_FOR_ILQR = fork(
     "ddp-for-ilqr",
     "iLQR takes the dynamics as linear: their second derivatives, which DDP adds, are left out.",
     when=lambda given: not given.second_order,
@@ -59,25 +59,27 @@ def solve(given: Given, work: Work) -> None:
         known[f"f_{code}"] = matrices.matrix(
             [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
         )
-    Q = {"Q_s": work.answer("a", work.step(DDP_S, **known))}
-    Q["Q_a"] = work.answer("b", work.step(DDP_A, **known))
+    Q = {"Q_s": work.answer(work.step(DDP_S, **known))}
+    Q["Q_a"] = work.answer(work.step(DDP_A, **known))
     curved = given.second_order != (work.makes(ILQR_FOR_DDP) or work.makes(DDP_FOR_ILQR))
     known["components"] = tuple(range(1, len(texts) + 1)) if curved else ()
     if not curved:
         work.say("iLQR leaves out the sums with the second derivatives of $f$.")
-    for label, code, formula, rows, columns in (
-        ("c", "ss", DDP_SS, names, names), ("d", "as", DDP_AS, actions, names), ("e", "aa", DDP_AA, actions, actions),
-    ):  # fmt: skip
+    for code, formula, rows, columns in (
+        ("ss", DDP_SS, names, names),
+        ("as", DDP_AS, actions, names),
+        ("aa", DDP_AA, actions, actions),
+    ):
         known[f"r_{code}"] = _second(work, values, given.reward, "r", rows, columns)
         known[f"fi{code}"] = {
             index: _second(work, values, texts[index - 1], index, rows, columns) for index in known["components"]
         }
-        Q[f"Q_{code}"] = work.answer(label, work.step(formula, right=None if curved else ilqr(formula), **known))
+        Q[f"Q_{code}"] = work.answer(work.step(formula, right=None if curved else ilqr(formula), **known))
     if work.misconception is None and not _is_negative(Q["Q_aa"]):
         raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
     work.recall(DDP)
-    work.answer("f", work.step(DDP_k, **Q))
-    work.answer("g", work.step(DDP_K, **Q))
+    work.answer(work.step(DDP_k, **Q))
+    work.answer(work.step(DDP_K, **Q))
 
 
 @dynamics.at_operating_point()
@@ -137,10 +139,10 @@ def oracle(given: Given) -> Answers:
 
     hessian = np.array([_difference(gradient, values, name) for name in names])
     g, aa = gradient(values), hessian[n:, n:]
-    return {
-        "a": g[:n], "b": g[n:], "c": hessian[:n, :n], "d": hessian[n:, :n], "e": aa,
-        "f": -np.linalg.solve(aa, g[n:]), "g": -np.linalg.solve(aa, hessian[n:, :n]),
-    }  # fmt: skip
+    return (
+        g[:n], g[n:], hessian[:n, :n], hessian[n:, :n], aa,
+        -np.linalg.solve(aa, g[n:]), -np.linalg.solve(aa, hessian[n:, :n]),
+    )  # fmt: skip
 
 
 def _next(given: Given, values: Mapping[str, complex]) -> Callable[[Mapping[str, complex]], list[complex]]:

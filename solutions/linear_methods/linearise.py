@@ -23,14 +23,14 @@ def solve(given: Given, work: Work) -> None:
     """A, then B."""
     work.recall(LINEARISE)
     known = point(work, given)
-    work.answer("a", euler(work, given, EULER_A, jacobian(work, given, STATE_JACOBIAN, known)))
-    work.answer("b", euler(work, given, EULER_B, jacobian(work, given, INPUT_JACOBIAN, known)))
+    work.answer(euler(work, given, EULER_A, jacobian(work, given, STATE_JACOBIAN, known)))
+    work.answer(euler(work, given, EULER_B, jacobian(work, given, INPUT_JACOBIAN, known)))
 
 
 def oracle(given: Given) -> Answers:
     """Complex steps through the dynamics, or through their Euler step."""
     values, step = dynamics.numbers(given), after(given)
-    return {
-        "a": np.real(dynamics.complex_step(step, values, given.states)),
-        "b": dynamics.complex_step(step, values, tuple(given.action)),
-    }
+    return (
+        np.real(dynamics.complex_step(step, values, given.states)),
+        dynamics.complex_step(step, values, tuple(given.action)),
+    )

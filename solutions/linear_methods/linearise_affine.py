@@ -5,7 +5,7 @@ import numpy as np
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.linearisation import (
     AT_ZERO,
     SINE_FOR_COSINE,
@@ -31,7 +31,7 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-C_IS_RATES = slip(
+C_IS_RATES = fork(
     "c-is-the-rates",
     "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
 )
@@ -50,9 +50,9 @@ def solve(given: Given, work: Work) -> None:
     f = rates(work, given)
     f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=f)
     C = work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar)
-    C = work.answer("a", f if work.makes(C_IS_RATES) else C)
-    work.answer("b", work.step(AUGMENTED_A, Ai=A, Cc=C))
-    work.answer("c", work.step(AUGMENTED_B, Bi=B))
+    C = work.answer(f if work.makes(C_IS_RATES) else C)
+    work.answer(work.step(AUGMENTED_A, Ai=A, Cc=C))
+    work.answer(work.step(AUGMENTED_B, Bi=B))
 
 
 def oracle(given: Given) -> Answers:
@@ -63,8 +63,8 @@ def oracle(given: Given) -> Answers:
     n, m = B.shape
     operating = np.real([values[name] for name in (*given.states, *given.action)])
     C = np.real(step(values)) - np.hstack([A, B]) @ operating
-    return {
-        "a": C,
-        "b": np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]),
-        "c": np.vstack([B, np.zeros((1, m))]),
-    }
+    return (
+        C,
+        np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]),
+        np.vstack([B, np.zeros((1, m))]),
+    )

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     COST_TO_GO,
@@ -22,14 +22,13 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-SAME_TIME = slip(
+SAME_TIME = fork(
     "gain-from-same-time",
     "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
 )
 #: As for a single gain, but here matrices are given by time.
 TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
 MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, SAME_TIME, COST_TO_GO)
-_LABELS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def solve(given: Given, work: Work) -> None:
@@ -39,32 +38,28 @@ def solve(given: Given, work: Work) -> None:
     work.say(IN_COSTS)
     P = {last: work.step(LQR_TERMINAL, T=last, **known)}
     L = {}
-    labels = iter(_LABELS)
     for time in range(last - 1, -1, -1):
         gain = right = work.step(LQR_GAIN, t=time, Pt=P, **known)
         if work.makes(SAME_TIME):
             value = LQR_RICCATI.value({"t": time, "Pt": P, "Lt": {time: right}, **known})
             gain = work.step(LQR_GAIN, t=time, Pt={time + 1: value}, **known)
-        L = {time: work.answer(next(labels), gain)}
+        L = {time: work.answer(gain)}
         value = work.step(LQR_RICCATI, t=time, Pt=P, Lt={time: right} if work.makes(SAME_TIME) else L, **known)
-        given_ = work.answer(next(labels), -value if work.makes(COST_TO_GO) else value)
+        given_ = work.answer(-value if work.makes(COST_TO_GO) else value)
         P = P | {time: value if work.makes(COST_TO_GO) else given_}
-    work.answer(next(labels), work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+    work.answer(work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
 
 
 def oracle(given: Given) -> Answers:
     """The best plan for every unit state as one least-squares problem over all remaining actions at once."""
-    answers = {}
-    labels = iter(_LABELS)
+    answers = []
     m = given.actions
     gain: Array = np.zeros((m, len(given.start)))
     for time in range(given.horizon - 1, -1, -1):
         plan, worth = _best(given, time)
         gain = -plan[:m]
-        answers[next(labels)] = gain
-        answers[next(labels)] = worth
-    answers[next(labels)] = -gain @ np.array([at(entry) for entry in given.start])
-    return answers
+        answers += [gain, worth]
+    return [*answers, -gain @ np.array([at(entry) for entry in given.start])]
 
 
 def _best(given: Given, first: int) -> tuple[Array, Array]:

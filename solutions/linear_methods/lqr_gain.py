@@ -15,7 +15,7 @@ def solve(given: Given, work: Work) -> None:
     """One application; times are counted from t = 0."""
     work.say(IN_COSTS)
     known = {"At": {0: matrix(given.A)}, "Bt": {0: matrix(given.B)}, "Rt": {0: matrix(given.R)}}
-    work.answer("a", work.step(LQR_GAIN, t=0, Pt={1: matrix(given.P)}, **known))
+    work.answer(work.step(LQR_GAIN, t=0, Pt={1: matrix(given.P)}, **known))
 
 
 def oracle(given: Given) -> Answers:
@@ -39,4 +39,4 @@ def oracle(given: Given) -> Answers:
         slope = np.array([(worth(s, e) - worth(s, -e)) / 2 for e in unit])
         curve = np.array([[worth(s, e + f) - worth(s, e) - worth(s, f) + base for f in unit] for e in unit])
         gain[:, j] = -np.linalg.solve(curve, -slope)
-    return {"a": gain}
+    return (gain,)

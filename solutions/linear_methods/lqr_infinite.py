@@ -38,19 +38,19 @@ def solve(given: Given, work: Work) -> None:
     known = {name: matrices.given(getattr(given, name)) for name in "ABQR"}
     P = _value(work, **known)
     if work.makes(COST_TO_GO):
-        work.answer("a", -P)
+        work.answer(-P)
     else:
-        P = work.answer("a", P)
+        P = work.answer(P)
     by_time = {"At": {0: known["A"]}, "Bt": {0: known["B"]}, "Rt": {0: known["R"]}, "Pt": {1: P}}
     if all(isinstance(entry, fmpq) and entry.q > _LONG for entry in P.entries()):
         work.say("The gain follows from this $P$, and is rounded likewise.")
-        L = work.answer("b", _rounded(value_of(work.reading(LQR_GAIN), {"t": 0, **by_time})))
+        L = work.answer(_rounded(value_of(work.reading(LQR_GAIN), {"t": 0, **by_time})))
     else:
-        L = work.answer("b", work.step(LQR_GAIN, into=L_always, t=0, **by_time))
+        L = work.answer(work.step(LQR_GAIN, into=L_always, t=0, **by_time))
     closed = work.step(LQR_CLOSED_LOOP, Ai=known["A"], Bi=known["B"], Li=L)
     if closed.nrows() == 1 and work.misconception is None and not work.carried:
         work.say(f"$A − B L ≈ {decimal(closed[0, 0], 4)}$ is between $−1$ and $1$: stable, as it must be.")
-    work.answer("c", closed)
+    work.answer(closed)
 
 
 def _value(work: Work, A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -> AnyMatrix:
@@ -141,4 +141,4 @@ def oracle(given: Given) -> Answers:
         if np.allclose(after, S, rtol=1e-14, atol=1e-14):
             break
         S = after
-    return {"a": -S, "b": L, "c": A - B @ L}
+    return (-S, L, A - B @ L)

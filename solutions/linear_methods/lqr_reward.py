@@ -29,10 +29,10 @@ def solve(given: Given, work: Work) -> None:
     for time in range(given.horizon + 1):
         known["Ut"] = known["Ut"] | {time: work.step(LQR_ACTION, t=time, **known)}
         reward = linear_quadratic.number(work.step(LQR_REWARD, t=time, **known))
-        rewards[time] = work.answer("a", reward) if time == 0 else reward
+        rewards[time] = work.answer(reward) if time == 0 else reward
         if time < given.horizon:
             known["St"] = known["St"] | {time + 1: work.step(DYNAMICS, t=time, **known)}
-    work.answer("b", work.step(LQR_TOTAL, T=given.horizon, rt=rewards))
+    work.answer(work.step(LQR_TOTAL, T=given.horizon, rt=rewards))
 
 
 def oracle(given: Given) -> Answers:
@@ -48,4 +48,4 @@ def oracle(given: Given) -> Answers:
         weights[:n, :n], weights[n:, n:] = now["Q"], now["R"]
         rewards.append(-float(np.einsum("i,ij,j", both, weights, both)))
         state = np.hstack([now["A"], now["B"]]) @ both
-    return {"a": rewards[0], "b": sum(rewards)}
+    return (rewards[0], sum(rewards))

@@ -8,7 +8,7 @@ import numpy as np
 from rldrill.problems.policy_gradient.actor_critic import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,
@@ -20,7 +20,7 @@ from rldrill.solutions.sheet.policy_gradient import (
 from rldrill.solutions.softmax import by_number, chances, known_run, log_gradient, score
 from rldrill.solutions.work import Work
 
-STEP_SIZES_SWAPPED = slip(
+STEP_SIZES_SWAPPED = fork(
     "step-sizes-swapped",
     "α belongs to the critic, β to the actor; they were exchanged.",
     when=lambda given: given.alpha != given.beta,
@@ -35,21 +35,21 @@ def solve(given: Given, work: Work) -> None:
     alpha, beta = reversed(sizes) if work.makes(STEP_SIZES_SWAPPED) else sizes
     known = known_run(given) | {"alpha": alpha, "beta": beta}
     before = knowns.state_values(given.values, run.terminal)
-    known["delta"] = dict(enumerate(work.answer("a", _errors(work, known, before))))
+    known["delta"] = dict(enumerate(work.answer(_errors(work, known, before))))
 
     values = before
     last = known["T"] - 1
     for time in range(last):  # these steps stand in the working of (a) already
         values = values | {run.states[time]: work.value(CRITIC, t=time, V=values, **known)}
     values = values | {run.states[last]: work.step(CRITIC, t=last, V=values, **known)}
-    work.answer("b", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
     for time, (state, action) in enumerate(zip(run.states, run.actions, strict=False)):
         actions = tuple(given.features[state])
         known["pi"] = chances(work, known, state, actions)
         known["score"] = {(action, state): score(work, known, state, action, actions)}
         known |= by_number(tuple(work.step(ACTOR_CRITIC, t=time, **known)))
-    work.answer("c", tuple(known["theta_vector"]))
+    work.answer(tuple(known["theta_vector"]))
 
 
 def _errors(work: Work, known: Mapping[str, Any], values: Mapping[str, Value]) -> tuple[Value, ...]:
@@ -75,4 +75,4 @@ def oracle(given: Given) -> Answers:
         theta = theta + at(given.beta) * error * log_gradient(theta, given.features[state], action)
         values[state] += at(given.alpha) * error
         errors.append(error)
-    return {"a": errors, "b": [values[state] for state in given.visited], "c": theta}
+    return (errors, [values[state] for state in given.visited], theta)

@@ -40,12 +40,11 @@ def _compare(given: Given, ahead: Lookahead, work: Work) -> None:
         "gamma": exact(given.gamma),
         "V": knowns.values(ahead.values),
     }
-    labels = iter("abc")
-    known["Q"] = work.answer(next(labels), {pair: work.step(BELLMAN_Q, a=pair[1], **known) for pair in pairs})
+    known["Q"] = work.answer({pair: work.step(BELLMAN_Q, a=pair[1], **known) for pair in pairs})
     if ahead.policy is not None:
-        value = work.answer(next(labels), work.step(V_FROM_Q, pi=knowns.policy(ahead.policy), **known))
+        value = work.answer(work.step(V_FROM_Q, pi=knowns.policy(ahead.policy), **known))
         known["V"] = known["V"] | {state: value}
-    work.answer(next(labels), {pair: work.step(ADVANTAGE, a=pair[1], **known) for pair in pairs})
+    work.answer({pair: work.step(ADVANTAGE, a=pair[1], **known) for pair in pairs})
 
 
 def _estimate(given: Given, run: Run, work: Work) -> None:
@@ -57,11 +56,10 @@ def _estimate(given: Given, run: Run, work: Work) -> None:
         "V": knowns.state_values(run.values, run.trajectory.terminal),
     }
     errors = tuple(work.step(TD_ERROR, t=time, **known) for time in times)
-    labels = iter("ab")
     if not isinstance(run.lam, Parameter):
-        errors = work.answer(next(labels), errors)
+        errors = work.answer(errors)
     known["delta"] = dict(enumerate(errors))
-    work.answer(next(labels), tuple(work.step(GAE, t=time, **known) for time in times))
+    work.answer(tuple(work.step(GAE, t=time, **known) for time in times))
 
 
 def oracle(given: Given) -> Answers:
@@ -75,11 +73,11 @@ def oracle(given: Given) -> Answers:
             worth[row.action] += at(row.probability) * (at(row.reward) + gamma * at(ahead.values[row.next]))
         Q = np.array(list(worth.values()))
         if ahead.policy is None:
-            return {"a": Q, "b": Q - at(ahead.values[state])}
+            return (Q, Q - at(ahead.values[state]))
         V = sum(at(ahead.policy[state].get(action, 0)) * value for action, value in worth.items())
-        return {"a": Q, "b": V, "c": Q - V}
+        return (Q, V, Q - V)
     if given.run is None:
-        return {}
+        return ()
     return _estimates(given.run, gamma)
 
 
@@ -101,5 +99,5 @@ def _estimates(run: Run, gamma: float) -> Answers:
 
     estimates = [estimate(time) for time in range(end)]
     if isinstance(run.lam, Parameter):
-        return {"a": estimates}
-    return {"a": [advantage(time, 1) for time in range(end)], "b": estimates}
+        return (estimates,)
+    return ([advantage(time, 1) for time in range(end)], estimates)

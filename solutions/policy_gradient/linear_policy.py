@@ -4,18 +4,18 @@ import numpy as np
 
 from rldrill.problems.policy_gradient.linear_policy import Given
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
 from rldrill.solutions.softmax import action_features, by_number
 from rldrill.solutions.work import Work
 
-WRONG_ACTION = slip(
+WRONG_ACTION = fork(
     "features-of-the-wrong-action",
     "Every action is valued with its own features f(s, a); those of another action were used.",
     when=lambda given: any(len(row) > 1 for row in given.features.values()),
 )
-SMALLEST = slip(
+SMALLEST = fork(
     "smallest-for-greatest",
     "The greedy policy takes the action with the greatest value, not with the smallest.",
     when=WRONG_ACTION.when,
@@ -31,14 +31,12 @@ def solve(given: Given, work: Work) -> None:
         for state, row in given.features.items()
         for action in row
     }
-    values = work.answer(
-        "a", {(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=row, **known) for (s, a), row in read.items()}
-    )
+    values = work.answer({(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=row, **known) for (s, a), row in read.items()})
     if work.makes(SMALLEST):
         values = {pair: -value for pair, value in values.items()}
     actions = {state: tuple(row) for state, row in given.features.items()}
     policy = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
-    work.answer("b", policy)
+    work.answer(policy)
 
 
 def _next(action: str, actions: tuple[str, ...]) -> str:
@@ -55,4 +53,4 @@ def oracle(given: Given) -> Answers:
                 if value > values.max() - 1e-9}
         for state, values in worth.items()
     }  # fmt: skip
-    return {"a": np.concatenate(list(worth.values())), "b": best}
+    return (np.concatenate(list(worth.values())), best)

@@ -7,7 +7,7 @@ import numpy as np
 
 from rldrill.problems.policy_gradient.ppo_clip import Given
 from rldrill.solutions.exact import Value, exact, largest, sign, simplest
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.ratios import new_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
@@ -22,7 +22,7 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.work import Work
 
-WRONG_SIDE = slip(
+WRONG_SIDE = fork(
     "wrong-side-for-negative-advantage",
     "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
     when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
@@ -45,16 +45,16 @@ def solve(given: Given, work: Work) -> None:
         pair = sample.action, sample.state
         chances = {"new_chance": {pair: _new(given, time, work)}, "old_chance": {pair: exact(sample.old)}}
         ratios.append(work.step(PPO_RATIO, t=time, **known, **chances))
-    known["rho"] = _given(work, "a", ratios)
-    known["unclipped"] = _given(work, "b", [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
-    known["clipped"] = _given(work, "c", [work.step(PPO_CLIPPED, t=time, **known) for time in times])
+    known["rho"] = _given(work, ratios)
+    known["unclipped"] = _given(work, [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
+    known["clipped"] = _given(work, [work.step(PPO_CLIPPED, t=time, **known) for time in times])
     objective = {time: _objective(work, known, time) for time in times}
-    work.answer("d", work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
-    for time, label in zip(times, "efghijklmnopqrstuvwxyz", strict=False):
+    work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
+    for time in times:
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
         cut = sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0
         work.say(_reason(time, cut=cut, inside=sign(unclipped - clipped) == 0))
-        work.answer(label, cut)
+        work.answer(cut)
 
 
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
@@ -67,11 +67,11 @@ def _reason(time: int, *, cut: bool, inside: bool) -> str:
     return f"$L_{{{time}}}$ is the unclipped term, which still changes with $θ$."
 
 
-def _given(work: Work, label: str, values: Sequence[Value]) -> dict[int, Value]:
+def _given(work: Work, values: Sequence[Value]) -> dict[int, Value]:
     """Answer a number for every sample, and go on with what was answered."""
     if len(values) == 1:
-        return {0: work.answer(label, values[0])}
-    return dict(enumerate(work.answer(label, tuple(values))))
+        return {0: work.answer(values[0])}
+    return dict(enumerate(work.answer(tuple(values))))
 
 
 def _new(given: Given, time: int, work: Work) -> Value:
@@ -101,14 +101,14 @@ def oracle(given: Given) -> Answers:
     ratios = np.array([new_chance(sample) / at(sample.old) for sample in given.samples])
     advantages = np.array([at(sample.advantage) for sample in given.samples])
     worth = [objective(r, a) for r, a in zip(ratios, advantages, strict=True)]
-    answers: dict[str, Any] = {
-        "a": ratios,
-        "b": ratios * advantages,
-        "c": np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages,
-        "d": np.mean(worth),
-    }
+    answers: list[Any] = [
+        ratios,
+        ratios * advantages,
+        np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages,
+        np.mean(worth),
+    ]
     step = 1e-6
-    for ratio, advantage, label in zip(ratios, advantages, "efghijklmnopqrstuvwxyz", strict=False):
+    for ratio, advantage in zip(ratios, advantages, strict=True):
         moved = objective(ratio + step, advantage), objective(ratio - step, advantage)
-        answers[label] = bool(moved[0] == moved[1])
+        answers.append(bool(moved[0] == moved[1]))
     return answers

@@ -24,11 +24,11 @@ MISCONCEPTIONS = (FIRST_RETURN_EVERYWHERE, DESCENT, LOG_FORGOTTEN, REWARD_FOR_RE
 def solve(given: Given, work: Work) -> None:
     """All steps with the weights before the episode."""
     known = known_run(given)
-    G = dict(enumerate(work.answer("a", tuple(returns(work, known).values()))))
+    G = dict(enumerate(work.answer(tuple(returns(work, known).values()))))
     work.recall(REINFORCE)
     known |= scores(work, given, known)
-    gradient = Vector(work.answer("b", tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
-    work.answer("c", tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+    gradient = Vector(work.answer(tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
+    work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
 
 
 def oracle(given: Given) -> Answers:
@@ -36,4 +36,4 @@ def oracle(given: Given) -> Answers:
     G = discounted_returns([at(reward) for reward in given.trajectory.rewards], at(given.gamma))
     gradient = episode_gradient(given, G)
     theta = np.array([at(weight) for weight in given.theta])
-    return {"a": G, "b": gradient, "c": theta + at(given.alpha) * gradient}
+    return (G, gradient, theta + at(given.alpha) * gradient)

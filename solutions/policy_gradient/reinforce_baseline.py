@@ -27,10 +27,10 @@ def solve(given: Given, work: Work) -> None:
     known = known_run(given) | {"baseline": knowns.values(given.baseline)}
     known["G"] = returns(work, known)
     times = range(known["T"])
-    differences = work.answer("a", tuple(work.step(BASELINE, t=time, **known) for time in times))
+    differences = work.answer(tuple(work.step(BASELINE, t=time, **known) for time in times))
     known |= scores(work, given, known) | {"delta": dict(enumerate(differences))}
-    gradient = Vector(work.answer("b", tuple(work.step(REINFORCE_BASELINE, **known))))
-    work.answer("c", tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
+    gradient = Vector(work.answer(tuple(work.step(REINFORCE_BASELINE, **known))))
+    work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))
 
 
 def oracle(given: Given) -> Answers:
@@ -40,4 +40,4 @@ def oracle(given: Given) -> Answers:
     differences = G - [at(given.baseline[state]) for state in run.states[:-1]]
     gradient = episode_gradient(given, differences)
     theta = np.array([at(weight) for weight in given.theta])
-    return {"a": differences, "b": gradient, "c": theta + at(given.alpha) * gradient}
+    return (differences, gradient, theta + at(given.alpha) * gradient)

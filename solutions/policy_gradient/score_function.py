@@ -18,17 +18,16 @@ def solve(given: Given, work: Work) -> None:
     """One state, written s."""
     actions = tuple(given.features)
     known = action_features({"s": given.features})
-    labels = iter("abcdefghijklmnopqrstuvwxyz")
     probabilities: Mapping[str, Value]
     if given.theta is None:
         probabilities = {action: exact(chance) for action, chance in (given.policy or {}).items()}
     else:
         known |= by_number([exact(weight) for weight in given.theta])
         worked_out = chances(work, known, "s", actions)
-        probabilities = work.answer(next(labels), {action: worked_out[action, "s"] for action in actions})
+        probabilities = work.answer({action: worked_out[action, "s"] for action in actions})
     known["pi"] = {(action, "s"): chance for action, chance in probabilities.items()}
     for action in given.asked:
-        work.answer(next(labels), tuple(score(work, known, "s", action, actions)))
+        work.answer(tuple(score(work, known, "s", action, actions)))
 
 
 def oracle(given: Given) -> Answers:
@@ -36,9 +35,8 @@ def oracle(given: Given) -> Answers:
 
     Where only probabilities are given, the logarithms are differentiated at preferences that give them.
     """
-    labels = iter("abcdefghijklmnopqrstuvwxyz")
     features = np.array([[at(value) for value in row] for row in given.features.values()])
-    answers = {}
+    answers = []
     if given.theta is None:
         chance = np.array([at(number) for number in (given.policy or {}).values()])
         with np.errstate(divide="ignore"):
@@ -48,7 +46,7 @@ def oracle(given: Given) -> Answers:
         theta = np.array([at(weight) for weight in given.theta])
         present = np.zeros(len(features))
         preferences = features @ theta
-        answers[next(labels)] = np.exp(preferences - np.logaddexp.reduce(preferences))
+        answers.append(np.exp(preferences - np.logaddexp.reduce(preferences)))
     for action in given.asked:
-        answers[next(labels)] = log_gradient(theta, given.features, action, present)
+        answers.append(log_gradient(theta, given.features, action, present))
     return answers

@@ -17,9 +17,9 @@ def solve(given: Given, work: Work) -> None:
     actions = tuple(given.features)
     known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
     known |= {"s": "s", "choices": actions}
-    preferences = work.answer("a", {action: work.step(PREFERENCE, a=action, **known) for action in actions})
+    preferences = work.answer({action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
-    work.answer("b", {action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
+    work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
 
 
 def oracle(given: Given) -> Answers:
@@ -27,4 +27,4 @@ def oracle(given: Given) -> Answers:
     preferences = np.array([[at(value) for value in row] for row in given.features.values()]) @ np.array(
         [at(weight) for weight in given.theta]
     )
-    return {"a": preferences, "b": np.exp(preferences - np.logaddexp.reduce(preferences))}
+    return (preferences, np.exp(preferences - np.logaddexp.reduce(preferences)))

@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Pow, evaluate, factorial, log
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, number, punctuation, row, variable, word
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
     Counting,
@@ -128,6 +128,16 @@ def _may_stay(given: Any) -> bool:
 
 
 with evaluate(False):
+    NOT_NORMALISED = Misconception(
+        "not-normalised", "The posterior sums to 1: divide by p(z), the sum over all hypotheses."
+    )
+    BASE_RATE_IGNORED = Misconception(
+        "base-rate-ignored", "The prior counts: each likelihood is weighted with the probability of its hypothesis."
+    )
+    LIKELIHOOD_FOR_POSTERIOR = Misconception(
+        "likelihood-for-posterior",
+        "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
+    )
     BAYES = Formula(
         "bayes",
         p(h, z),
@@ -136,24 +146,11 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, section 2.2",
         hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these.",
         also=(likelihood(z, h) * p(h) / p(z),),
-    )
-    NOT_NORMALISED = misread(
-        BAYES,
-        "not-normalised",
-        likelihood(z, h) * p(h),
-        "The posterior sums to 1: divide by p(z), the sum over all hypotheses.",
-    )
-    BASE_RATE_IGNORED = misread(
-        BAYES,
-        "base-rate-ignored",
-        likelihood(z, h) / SumOver(likelihood(z, h1), h1, Hypotheses),
-        "The prior counts: each likelihood is weighted with the probability of its hypothesis.",
-    )
-    LIKELIHOOD_FOR_POSTERIOR = misread(
-        BAYES,
-        "likelihood-for-posterior",
-        likelihood(z, h),
-        "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
+        misread={
+            NOT_NORMALISED: likelihood(z, h) * p(h),
+            BASE_RATE_IGNORED: likelihood(z, h) / SumOver(likelihood(z, h1), h1, Hypotheses),
+            LIKELIHOOD_FOR_POSTERIOR: likelihood(z, h),
+        },
     )
 
     BAYES_TWO_STATES = Formula(
@@ -165,6 +162,15 @@ with evaluate(False):
         hint="The two products of likelihood and prior stand below the line, the one asked for above it.",
     )
 
+    MOTION_TRANSPOSED = Misconception(
+        "motion-transposed",
+        "p(s′|s, a) leads from s to s′: add up over where the robot comes from, not over where it goes.",
+    )
+    MOTION_AS_LIKELIHOOD = Misconception(
+        "motion-as-likelihood",
+        "An action is no measurement: nothing is weighed and normalised, probability flows from state to state.",
+        when=_may_stay,
+    )
     PREDICT = Formula(
         "predict",
         p(s1),
@@ -172,19 +178,10 @@ with evaluate(False):
         title="Belief after an action",
         source="Thrun, Burgard & Fox 2005, table 4.1, line 3",
         hint="Add up over all states that the robot may come from: to have been there, times to get here.",
-    )
-    MOTION_TRANSPOSED = misread(
-        PREDICT,
-        "motion-transposed",
-        SumOver(motion(s, s1, a) * p(s), s, States),
-        "p(s′|s, a) leads from s to s′: add up over where the robot comes from, not over where it goes.",
-    )
-    MOTION_AS_LIKELIHOOD = misread(
-        PREDICT,
-        "motion-as-likelihood",
-        motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
-        "An action is no measurement: nothing is weighed and normalised, probability flows from state to state.",
-        when=_may_stay,
+        misread={
+            MOTION_TRANSPOSED: SumOver(motion(s, s1, a) * p(s), s, States),
+            MOTION_AS_LIKELIHOOD: motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
+        },
     )
 
     KALMAN_MOVE_MEAN = Formula(
@@ -196,6 +193,9 @@ with evaluate(False):
         hint="Put the old mean and the command into the motion model, without noise.",
         place=Place.BEYOND,
     )
+    PROCESS_NOISE_FORGOTTEN = Misconception(
+        "process-noise-forgotten", "Every motion adds the variance of its own noise to the belief.", when=_is_noisy
+    )
     KALMAN_MOVE_COVARIANCE = Formula(
         "kalman-predict-covariance",
         covariance_bar(t),
@@ -205,13 +205,14 @@ with evaluate(False):
         hint="A motion makes the belief wider: the covariance of its noise is added.",
         note="$R$ is the covariance of the motion's noise, $Q$ that of the sensor's.",
         place=Place.BEYOND,
+        misread={
+            PROCESS_NOISE_FORGOTTEN: At(t) * covariance(t - 1) * Transposed(At(t)),
+        },
     )
-    PROCESS_NOISE_FORGOTTEN = misread(
-        KALMAN_MOVE_COVARIANCE,
-        "process-noise-forgotten",
-        At(t) * covariance(t - 1) * Transposed(At(t)),
-        "Every motion adds the variance of its own noise to the belief.",
-        when=_is_noisy,
+    VARIANCES_FOR_INVERSES = Misconception(
+        "variances-for-inverses",
+        "The more certain of the two counts more: weigh with the inverse of its variance, not with the variance.",
+        when=_on_a_line,
     )
     KALMAN_GAIN = Formula(
         "kalman-gain",
@@ -221,12 +222,13 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 3.1, line 4",
         hint="The gain is the share of the predicted variance in the sum of predicted and sensor variance.",
         place=Place.BEYOND,
+        misread={
+            VARIANCES_FOR_INVERSES: Qt(t) * Pow(covariance_bar(t) + Qt(t), -1),
+        },
     )
-    VARIANCES_FOR_INVERSES = misread(
-        KALMAN_GAIN,
-        "variances-for-inverses",
-        Qt(t) * Pow(covariance_bar(t) + Qt(t), -1),
-        "The more certain of the two counts more: weigh with the inverse of its variance, not with the variance.",
+    GAIN_ON_PREDICTION = Misconception(
+        "gain-on-prediction",
+        "The gain weighs the innovation z − μ̄: start from the predicted mean and go K of the way to the measurement.",
         when=_on_a_line,
     )
     KALMAN_MEAN = Formula(
@@ -237,13 +239,9 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, table 3.1, line 5",
         hint="Go the share K of the way from the predicted mean to the measurement.",
         place=Place.BEYOND,
-    )
-    GAIN_ON_PREDICTION = misread(
-        KALMAN_MEAN,
-        "gain-on-prediction",
-        read(t) + Kt(t) * (mean_bar(t) - read(t)),
-        "The gain weighs the innovation z − μ̄: start from the predicted mean and go K of the way to the measurement.",
-        when=_on_a_line,
+        misread={
+            GAIN_ON_PREDICTION: read(t) + Kt(t) * (mean_bar(t) - read(t)),
+        },
     )
     KALMAN_COVARIANCE = Formula(
         "kalman-covariance",
@@ -292,6 +290,11 @@ with evaluate(False):
         hint="Add the measurements and divide by how many there are.",
         place=Place.BEYOND,
     )
+    N_MINUS_1_FOR_N = Misconception(
+        "n-minus-1-for-n",
+        "Maximum likelihood divides by n; dividing by n − 1 makes the estimate unbiased.",
+        when=lambda given: given.sample is not None,
+    )
     GAUSSIAN_VARIANCE = Formula(
         "gaussian-variance",
         sigma2_hat,
@@ -300,12 +303,13 @@ with evaluate(False):
         source="Bishop 2006, eq. 1.56",
         hint="Average the squared distances from the mean.",
         place=Place.BEYOND,
+        misread={
+            N_MINUS_1_FOR_N: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
+        },
     )
-    N_MINUS_1_FOR_N = misread(
-        GAUSSIAN_VARIANCE,
-        "n-minus-1-for-n",
-        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n - 1, -1),
-        "Maximum likelihood divides by n; dividing by n − 1 makes the estimate unbiased.",
+    N_FOR_N_MINUS_1 = Misconception(
+        "n-for-n-minus-1",
+        "The unbiased estimate divides by n − 1; dividing by n is maximum likelihood.",
         when=lambda given: given.sample is not None,
     )
     SAMPLE_VARIANCE = Formula(
@@ -316,13 +320,9 @@ with evaluate(False):
         source="Bishop 2006, eq. 1.59",
         hint="Divide by n − 1: the mean was estimated from the same data.",
         place=Place.WORKING,
-    )
-    N_FOR_N_MINUS_1 = misread(
-        SAMPLE_VARIANCE,
-        "n-for-n-minus-1",
-        SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
-        "The unbiased estimate divides by n − 1; dividing by n is maximum likelihood.",
-        when=lambda given: given.sample is not None,
+        misread={
+            N_FOR_N_MINUS_1: SumOver((x(i) - mu_hat) ** 2, i, Counting(1, n)) * Pow(n, -1),
+        },
     )
     GAUSSIAN_MAP = Formula(
         "gaussian-mean-map",
@@ -397,6 +397,11 @@ with evaluate(False):
         hint="Every head has the probability θ, every tail 1 − θ, and the tosses are independent.",
         place=Place.WORKING,
     )
+    BEST_FIT = Misconception(
+        "best-fit-for-evidence",
+        "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
+        when=lambda given: any(model.theta is None for model in given.models.values()),
+    )
     EVIDENCE = Formula(
         "evidence",
         evidence(M),
@@ -410,13 +415,9 @@ with evaluate(False):
         also=(IntegralOver(with_theta(M) * density(theta, M), theta, Thetas),),
         note="For the prior $Beta(a, b)$.",
         place=Place.BEYOND,
-    )
-    BEST_FIT = misread(
-        EVIDENCE,
-        "best-fit-for-evidence",
-        (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
-        "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
-        when=lambda given: any(model.theta is None for model in given.models.values()),
+        misread={
+            BEST_FIT: (heads / (heads + tails)) ** heads * (tails / (heads + tails)) ** tails,
+        },
     )
     POSTERIOR_ODDS = Formula(
         "posterior-odds",
@@ -437,6 +438,11 @@ with evaluate(False):
         hint="Every head adds ln θ, every tail ln(1 − θ), with the θ of its coin.",
         place=Place.WORKING,
     )
+    BIC_SIGN = Misconception(
+        "sign", "The log-likelihood is taken −2 times, so that a better fit makes the BIC smaller."
+    )
+    BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs log n, not n.")
+    BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
     BIC = Formula(
         "bic",
         bic(M),
@@ -445,22 +451,9 @@ with evaluate(False):
         source="Hastie, Tibshirani & Friedman 2009, eq. 7.35",
         hint="k counts the free parameters, n the data; the smallest BIC wins.",
         note="With natural logarithms.",
-    )
-    BIC_SIGN = misread(
-        BIC,
-        "sign",
-        2 * log_likelihood + k * log(n),
-        "The log-likelihood is taken −2 times, so that a better fit makes the BIC smaller.",
-    )
-    BIC_WITHOUT_LOG = misread(
-        BIC,
-        "k-times-n",
-        -2 * log_likelihood + k * n,
-        "Each free parameter costs log n, not n.",
-    )
-    BIC_LOG_10 = misread(
-        BIC,
-        "log-base",
-        (-2 * log_likelihood + k * log(n)) / log(10),
-        "The logarithms of the BIC are natural, to the base e.",
+        misread={
+            BIC_SIGN: 2 * log_likelihood + k * log(n),
+            BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
+            BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
+        },
     )

@@ -6,7 +6,7 @@ from sympy import evaluate
 
 from rldrill.problems.mathematics import Math
 from rldrill.problems.models import Transition
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Actions,
     MaxOver,
@@ -57,6 +57,19 @@ with evaluate(False):
     WITHOUT_GAMMA = SumOver(P(s, a, s1) * (R(s, a, s1) + V(s1)), s1, Successors(s, a))
     GAMMA_ON_REWARD = SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + V(s1))), s1, Successors(s, a))
 
+    FORGOT_POLICY = Misconception(
+        "forgot-policy", "Each action counts with the probability π(a|s) with which the policy takes it."
+    )
+    DISCOUNTED_REWARD = Misconception(
+        "gamma-on-reward", "γ discounts the value of the next state only, not the reward on the way there."
+    )
+    FORGOT_GAMMA = Misconception(
+        "forgot-gamma", "The value of the next state is discounted by γ.", when=lambda given: given.gamma != 1
+    )
+    MAX_FOR_MEAN = Misconception(
+        "max-for-mean", "The value of a policy averages over its actions; only the optimal value takes the maximum."
+    )
+    TRANSPOSED = Misconception("transposed-model", "P is the probability to go from s to s′; it was read from s′ to s.")
     BELLMAN_V = Formula(
         "bellman-v",
         Vpi(s),
@@ -64,38 +77,30 @@ with evaluate(False):
         title="Bellman equation for V",
         source="Sutton & Barto 2018, eq. 3.14",
         hint="Average over the actions, then over where each leads: reward plus γ times the value there.",
-    )
-    FORGOT_POLICY = misread(
-        BELLMAN_V,
-        "forgot-policy",
-        SumOver(LOOKAHEAD_PI, a, Actions(s)),
-        "Each action counts with the probability π(a|s) with which the policy takes it.",
-    )
-    DISCOUNTED_REWARD = misread(
-        BELLMAN_V,
-        "gamma-on-reward",
-        SumOver(pi(a, s) * GAMMA_ON_REWARD, a, Actions(s)),
-        "γ discounts the value of the next state only, not the reward on the way there.",
-    )
-    FORGOT_GAMMA = misread(
-        BELLMAN_V,
-        "forgot-gamma",
-        SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
-        "The value of the next state is discounted by γ.",
-    )
-    MAX_FOR_MEAN = misread(
-        BELLMAN_V,
-        "max-for-mean",
-        MaxOver(LOOKAHEAD_PI, a, Actions(s)),
-        "The value of a policy averages over its actions; only the optimal value takes the maximum.",
-    )
-    TRANSPOSED = misread(
-        BELLMAN_V,
-        "transposed-model",
-        SumOver(pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)),
-        "P is the probability to go from s to s′; it was read from s′ to s.",
+        misread={
+            FORGOT_POLICY: SumOver(LOOKAHEAD_PI, a, Actions(s)),
+            DISCOUNTED_REWARD: SumOver(pi(a, s) * GAMMA_ON_REWARD, a, Actions(s)),
+            FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
+            MAX_FOR_MEAN: MaxOver(LOOKAHEAD_PI, a, Actions(s)),
+            TRANSPOSED: SumOver(
+                pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)
+            ),
+        },
     )
 
+    Q_REWARD_UNWEIGHTED = Misconception(
+        "reward-not-weighted",
+        "Each reward counts with the probability of its transition, as the value of the next state does.",
+        when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
+    )
+    Q_FORGOT_GAMMA = Misconception(
+        "forgot-gamma-in-q", "The value of the next state is discounted by γ.", when=lambda given: given.gamma != 1
+    )
+    OWN_VALUE = Misconception(
+        "own-value-for-next",
+        "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
+        when=lambda given: hasattr(given, "mdp") or given.state in given.values,
+    )
     BELLMAN_Q = Formula(
         "bellman-q",
         Qpi(s, a),
@@ -103,27 +108,16 @@ with evaluate(False):
         title="Bellman equation for Q",
         source="Sutton & Barto 2018, exercise 3.13",
         hint="The action is fixed: average only over where it leads.",
+        misread={
+            Q_REWARD_UNWEIGHTED: SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vpi(s1), s1, Successors(s, a)),
+            Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a)),
+            OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
+        },
     )
-    Q_REWARD_UNWEIGHTED = misread(
-        BELLMAN_Q,
-        "reward-not-weighted",
-        SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vpi(s1), s1, Successors(s, a)),
-        "Each reward counts with the probability of its transition, as the value of the next state does.",
-        when=lambda given: any(row.probability != 1 and row.reward for row in _rows(given)),
-    )
-    Q_FORGOT_GAMMA = misread(
-        BELLMAN_Q,
-        "forgot-gamma-in-q",
-        SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a)),
-        "The value of the next state is discounted by γ.",
-        when=lambda given: given.gamma != 1,
-    )
-    Q_OWN_VALUE = misread(
-        BELLMAN_Q,
-        "own-value-for-next",
-        SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
-        "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
-        when=lambda given: hasattr(given, "mdp") or given.state in given.values,
+    PLAIN_MEAN_OF_Q = Misconception(
+        "unweighted-mean",
+        "Each action value counts with the probability π(a|s), not with the same weight.",
+        when=lambda given: any(len(set(row.values())) > 1 for row in given.policy.values()),
     )
     V_FROM_Q = Formula(
         "v-from-q",
@@ -132,19 +126,13 @@ with evaluate(False):
         title="V from Q",
         source="Sutton & Barto 2018, exercise 3.12",
         hint="Average the action values with the policy's probabilities.",
+        misread={
+            MAX_FOR_MEAN: MaxOver(Qpi(s, a), a, Actions(s)),
+            PLAIN_MEAN_OF_Q: MeanOver(Qpi(s, a), a, Actions(s)),
+        },
     )
-    MAX_OF_Q = misread(
-        V_FROM_Q,
-        "max-for-mean",
-        MaxOver(Qpi(s, a), a, Actions(s)),
-        "The value of a policy averages over its actions; only the optimal value takes the maximum.",
-    )
-    PLAIN_MEAN_OF_Q = misread(
-        V_FROM_Q,
-        "unweighted-mean",
-        MeanOver(Qpi(s, a), a, Actions(s)),
-        "Each action value counts with the probability π(a|s), not with the same weight.",
-        when=lambda given: any(len(set(row.values())) > 1 for row in given.policy.values()),
+    RESIDUAL_SIGN = Misconception(
+        "sign-of-residual", "The residual is the right side of the equation minus V(s), not V(s) minus the right side."
     )
     BELLMAN_RESIDUAL = Formula(
         "bellman-residual",
@@ -155,26 +143,16 @@ with evaluate(False):
         hint="Work out the right side of the Bellman equation with the given V, and subtract what V says.",
         note="It is $0$ in every state exactly where $V = V^π$.",
         place=Place.WORKING,
+        misread={
+            RESIDUAL_SIGN: V(s) - SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)),
+            MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)) - V(s),
+            FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)) - V(s),
+        },
     )
-    RESIDUAL_SIGN = misread(
-        BELLMAN_RESIDUAL,
-        "sign-of-residual",
-        V(s) - SumOver(pi(a, s) * LOOKAHEAD, a, Actions(s)),
-        "The residual is the right side of the equation minus V(s), not V(s) minus the right side.",
-    )
-    RESIDUAL_MAX = misread(
-        BELLMAN_RESIDUAL,
-        "max-for-mean",
-        MaxOver(LOOKAHEAD, a, Actions(s)) - V(s),
-        "The value of a policy averages over its actions; only the optimal value takes the maximum.",
-        when=lambda given: any(chance not in (0, 1) for row in given.chances.values() for chance in row.values()),
-    )
-    RESIDUAL_FORGOT_GAMMA = misread(
-        BELLMAN_RESIDUAL,
-        "forgot-gamma",
-        SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)) - V(s),
-        "The value of the next state is discounted by γ.",
-        when=lambda given: given.gamma != 1,
+    RESIDUAL_MEAN = Misconception(
+        "mean-for-max",
+        "The optimal value takes the best action; it does not average over the actions.",
+        when=lambda given: any(len(actions) > 1 for actions in given.mdp.actions.values()),
     )
     BELLMAN_OPTIMALITY_RESIDUAL = Formula(
         "bellman-optimality-residual",
@@ -185,26 +163,11 @@ with evaluate(False):
         hint="Work out the right side of the optimality equation with the given V, and subtract what V says.",
         note="It is $0$ in every state exactly where $V = V^*$.",
         place=Place.WORKING,
-    )
-    OPTIMALITY_RESIDUAL_SIGN = misread(
-        BELLMAN_OPTIMALITY_RESIDUAL,
-        "sign-of-optimality-residual",
-        V(s) - MaxOver(LOOKAHEAD, a, Actions(s)),
-        "The residual is the right side of the equation minus V(s), not V(s) minus the right side.",
-    )
-    RESIDUAL_MEAN = misread(
-        BELLMAN_OPTIMALITY_RESIDUAL,
-        "mean-for-max",
-        MeanOver(LOOKAHEAD, a, Actions(s)) - V(s),
-        "The optimal value takes the best action; it does not average over the actions.",
-        when=lambda given: any(len(actions) > 1 for actions in given.mdp.actions.values()),
-    )
-    OPTIMALITY_RESIDUAL_FORGOT_GAMMA = misread(
-        BELLMAN_OPTIMALITY_RESIDUAL,
-        "forgot-gamma-in-optimality",
-        MaxOver(WITHOUT_GAMMA, a, Actions(s)) - V(s),
-        "The value of the next state is discounted by γ.",
-        when=lambda given: given.gamma != 1,
+        misread={
+            RESIDUAL_SIGN: V(s) - MaxOver(LOOKAHEAD, a, Actions(s)),
+            RESIDUAL_MEAN: MeanOver(LOOKAHEAD, a, Actions(s)) - V(s),
+            FORGOT_GAMMA: MaxOver(WITHOUT_GAMMA, a, Actions(s)) - V(s),
+        },
     )
     BELLMAN_OPTIMALITY_V = Formula(
         "bellman-optimality-v",
@@ -214,6 +177,15 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.19",
         hint="Take the best action: the greatest of the actions' averages.",
         also=(MaxOver(Qstar(s, a), a, Actions(s)),),
+    )
+    OPTIMAL_Q_BY_VALUE = Misconception(
+        "by-next-value-alone", "The reward on the way counts too: add γ times the best next value to it."
+    )
+    OPTIMAL_Q_BY_REWARD = Misconception(
+        "by-reward-alone", "What comes after the reward counts too: add γ times the best value in the next state."
+    )
+    OPTIMAL_Q_MEAN_FOR_MAX = Misconception(
+        "mean-for-max", "In the next state the best action is taken: the greatest of its values counts, not their mean."
     )
     BELLMAN_OPTIMALITY_Q = Formula(
         "bellman-optimality-q",
@@ -227,6 +199,25 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.20",
         hint="The first action is fixed; from the next state on the best action is taken.",
         note="It conditions on the state and on the action.",
+        misread={
+            OPTIMAL_Q_BY_VALUE: SumOver(P(s, a, s1) * MaxOver(Qstar(s1, a1), a1, Actions(s1)), s1, Successors(s, a)),
+            OPTIMAL_Q_BY_REWARD: SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)),
+            OPTIMAL_Q_MEAN_FOR_MAX: SumOver(
+                P(s, a, s1) * (R(s, a, s1) + gamma * MeanOver(Qstar(s1, a1), a1, Actions(s1))),
+                s1,
+                Successors(s, a),
+            ),
+        },
+    )
+    MEAN_OF_Q_STAR = Misconception(
+        "mean-for-max",
+        "The optimal policy takes the best action, so the optimal value is the greatest, not the mean.",
+        when=lambda given: not given.parameters(),
+    )
+    POLICY_FOR_MAX = Misconception(
+        "policy-for-max",
+        "The optimal value does not depend on the given policy: it is the greatest action value.",
+        when=lambda given: not given.parameters(),
     )
     V_STAR_FROM_Q = Formula(
         "optimal-v-from-q",
@@ -236,20 +227,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 3.6",
         hint="The optimal value of a state is that of its best action.",
         place=Place.WORKING,
-    )
-    MEAN_OF_Q_STAR = misread(
-        V_STAR_FROM_Q,
-        "mean-for-max",
-        MeanOver(Qstar(s, a), a, Actions(s)),
-        "The optimal policy takes the best action, so the optimal value is the greatest, not the mean.",
-        when=lambda given: not given.parameters(),
-    )
-    POLICY_FOR_MAX = misread(
-        V_STAR_FROM_Q,
-        "policy-for-max",
-        SumOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
-        "The optimal value does not depend on the given policy: it is the greatest action value.",
-        when=lambda given: not given.parameters(),
+        misread={
+            MEAN_OF_Q_STAR: MeanOver(Qstar(s, a), a, Actions(s)),
+            POLICY_FOR_MAX: SumOver(pi(a, s) * Qstar(s, a), a, Actions(s)),
+        },
     )
     Q_STAR_FROM_V = Formula(
         "optimal-q-from-v",
@@ -259,19 +240,13 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.17",
         hint="The first action is fixed; from the next state on, V* counts the best that can follow.",
         place=Place.WORKING,
+        misread={
+            Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),
+            OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s)), s1, Successors(s, a)),
+        },
     )
-    Q_STAR_FORGOT_GAMMA = misread(
-        Q_STAR_FROM_V,
-        "forgot-gamma-in-q",
-        SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),
-        "The value of the next state is discounted by γ.",
-        when=lambda given: given.gamma != 1,
-    )
-    Q_STAR_OWN_VALUE = misread(
-        Q_STAR_FROM_V,
-        "own-value-for-next",
-        SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s)), s1, Successors(s, a)),
-        "After the action the agent is in the next state s′: its value counts, not that of the state left behind.",
+    TAIL_LEFT_OUT = Misconception(
+        "tail-left-out", "To the reward of the next step comes the best total from the state that it leads to."
     )
     PRINCIPLE_OF_OPTIMALITY = Formula(
         "principle-of-optimality",
@@ -281,10 +256,7 @@ with evaluate(False):
         source="Bertsekas 2017, section 2.1",
         hint="Begin at the goal and go backwards: the best tail from the next state is already known.",
         note="Any part of an optimal policy is optimal for the subproblem that starts there.",
-    )
-    TAIL_LEFT_OUT = misread(
-        PRINCIPLE_OF_OPTIMALITY,
-        "tail-left-out",
-        MaxOver(EdgeReward(s, s1), s1, Successors(s)),
-        "To the reward of the next step comes the best total from the state that it leads to.",
+        misread={
+            TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        },
     )

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from sympy import cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable, word
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -34,6 +34,10 @@ rates, velocity = letter("rates", "ω", matrix=True), letter("velocity", "v", ma
 determinant = letter("detJ", row(word("det"), variable("J")))
 
 with evaluate(False):
+    ABSOLUTE_ANGLES = Misconception(
+        "absolute-for-relative-angles",
+        "A joint's angle counts from the link before: the angles of all joints up to the link are added.",
+    )
     LINK_ANGLE = Formula(
         "link-angle",
         phi(i),
@@ -42,12 +46,9 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.9.1",
         hint="Each joint turns everything behind it, so the angles of all joints before the link add up.",
         place=Place.BEYOND,
-    )
-    ABSOLUTE_ANGLES = misread(
-        LINK_ANGLE,
-        "absolute-for-relative-angles",
-        theta(i),
-        "A joint's angle counts from the link before: the angles of all joints up to the link are added.",
+        misread={
+            ABSOLUTE_ANGLES: theta(i),
+        },
     )
     FORWARD_X = Formula(
         "forward-kinematics-x",
@@ -114,6 +115,10 @@ a_link = quantity("alink", subscripted("a"))
 before, after = letter("before", "T", matrix=True), letter("after", Script(variable("T"), variable("i")), matrix=True)
 
 with evaluate(False):
+    CRAIGS = Misconception(
+        "modified-convention",
+        "Here the turn by θ comes first and the turn by α last; the other order is Craig's modified convention.",
+    )
     LINK_TRANSFORM = Formula(
         "denavit-hartenberg",
         T_i(i),
@@ -128,19 +133,18 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.8.2",
         hint="Turn by θ and shift by d along z, then shift by a and turn by α along the new x.",
         place=Place.BEYOND,
-    )  # fmt: skip
-    CRAIGS = misread(
-        LINK_TRANSFORM,
-        "modified-convention",
-        Blocks(
+    misread={CRAIGS: Blocks(
             4,
             cos(th(i)), -sin(th(i)), 0, a_link(i),
             sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)), -sin(al(i)) * d(i),
             sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)), cos(al(i)) * d(i),
             0, 0, 0, 1,
-        ),
-        "Here the turn by θ comes first and the turn by α last; the other order is Craig's modified convention.",
-    )  # fmt: skip
+        ),},)  # fmt: skip
+    WRONG_ORDER = Misconception(
+        "wrong-order",
+        "Each link's transform is given in the frame of the link before, so it is multiplied from the right.",
+        when=lambda given: len(given.links) > 1,
+    )
     CHAIN = Formula(
         "link-product",
         T_total,
@@ -150,13 +154,9 @@ with evaluate(False):
         hint="From the base outwards, each new link is multiplied from the right.",
         sign="←",
         place=Place.WORKING,
-    )
-    WRONG_ORDER = misread(
-        CHAIN,
-        "wrong-order",
-        after * before,
-        "Each link's transform is given in the frame of the link before, so it is multiplied from the right.",
-        when=lambda given: len(given.links) > 1,
+        misread={
+            WRONG_ORDER: after * before,
+        },
     )
 
 
@@ -188,6 +188,13 @@ with evaluate(False):
         note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
         place=Place.BEYOND,
     )
+    FIRST_ORDER = Misconception(
+        "first-order",
+        "The full gradient goes through the adaptation: dθ′/dθ = 1 − αc; leaving it out is first-order MAML.",
+    )
+    NOT_ADAPTED = Misconception(
+        "gradient-before-adaptation", "The outer loss is that of the adapted parameters θ′, not of the θ from before."
+    )
     MAML_OUTER = Formula(
         "maml-step",
         theta0,
@@ -198,16 +205,8 @@ with evaluate(False):
         sign="←",
         also=(theta0 - beta * SumOver(loss_gradient(i), i, Tasks),),
         place=Place.BEYOND,
-    )
-    FIRST_ORDER = misread(
-        MAML_OUTER,
-        "first-order",
-        theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
-        "The full gradient goes through the adaptation: dθ′/dθ = 1 − αc; leaving it out is first-order MAML.",
-    )
-    NOT_ADAPTED = misread(
-        MAML_OUTER,
-        "gradient-before-adaptation",
-        theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
-        "The outer loss is that of the adapted parameters θ′, not of the θ from before.",
+        misread={
+            FIRST_ORDER: theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
+            NOT_ADAPTED: theta0 - beta * SumOver(curvature(i) * (theta0 - optimum(i)), i, Tasks),
+        },
     )

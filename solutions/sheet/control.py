@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Expr, evaluate, exp, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     A,
     Actions,
@@ -42,6 +42,7 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 
 
 def _starred(head: str) -> Script:
@@ -103,6 +104,18 @@ with evaluate(False):
     _MAX_WITHOUT_GAMMA = r(t + 1) + MaxOver(Q(S(t + 1), a), a, Actions(S(t + 1)))
     _MEAN_TARGET = r(t + 1) + gamma * MeanOver(Q(S(t + 1), a), a, Actions(S(t + 1)))
 
+    MAX_FOR_TAKEN = Misconception(
+        "max-for-action-taken",
+        "Sarsa takes the value of the action taken in the next state; the greatest is Q-learning's.",
+    )
+    STATE_FOR_NEXT = Misconception(
+        "state-for-next-state",
+        "The next action is valued in the next state s′, where it is taken, not in the state that is left.",
+        when=_next_action_is_known_here,
+    )
+    SARSA_FORGOT_GAMMA = Misconception(
+        "forgot-gamma", "The value of the next pair of state and action is discounted by γ."
+    )
     SARSA = Formula(
         "sarsa",
         Q(S(t), A(t)),
@@ -111,27 +124,16 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.7",
         hint="The target takes the value of the action that is taken in the next state, best or not.",
         sign="←",
-    )
-    MAX_FOR_TAKEN = misread(
-        SARSA,
-        "max-for-action-taken",
-        _moved(_Q_LEARNING_TARGET),
-        "Sarsa takes the value of the action taken in the next state; the greatest is Q-learning's.",
-    )
-    STATE_FOR_NEXT = misread(
-        SARSA,
-        "state-for-next-state",
-        _moved(r(t + 1) + gamma * Q(S(t), A(t + 1))),
-        "The next action is valued in the next state s′, where it is taken, not in the state that is left.",
-        when=_next_action_is_known_here,
-    )
-    SARSA_FORGOT_GAMMA = misread(
-        SARSA,
-        "forgot-gamma",
-        _moved(_WITHOUT_GAMMA),
-        "The value of the next pair of state and action is discounted by γ.",
+        misread={
+            MAX_FOR_TAKEN: _moved(_Q_LEARNING_TARGET),
+            STATE_FOR_NEXT: _moved(r(t + 1) + gamma * Q(S(t), A(t + 1))),
+            SARSA_FORGOT_GAMMA: _moved(_WITHOUT_GAMMA),
+        },
     )
 
+    SARSA_TARGET_FORGOT_GAMMA = Misconception(
+        "sarsa-forgot-gamma", "In Sarsa's target too the value of the next pair of state and action is discounted by γ."
+    )
     SARSA_TARGET = Formula(
         "sarsa-target",
         y(t),
@@ -140,12 +142,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.7",
         hint="Reward plus γ times the value of the action that is taken in the next state, best or not.",
         place=Place.WORKING,
-    )
-    SARSA_TARGET_FORGOT_GAMMA = misread(
-        SARSA_TARGET,
-        "sarsa-forgot-gamma",
-        _WITHOUT_GAMMA,
-        "In Sarsa's target too the value of the next pair of state and action is discounted by γ.",
+        misread={
+            SARSA_TARGET_FORGOT_GAMMA: _WITHOUT_GAMMA,
+        },
     )
 
     TOWARDS_TARGET = Formula(
@@ -166,6 +165,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 12.7",
         hint="Sarsa's target minus the old value of the pair just left.",
     )
+    TRACE_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by the product γλ, not by γ alone.")
+    TRACE_WITHOUT_GAMMA = Misconception(
+        "decay-without-gamma", "Traces decay by the product γλ, not by λ alone.", when=lambda given: given.gamma != 1
+    )
     ACTION_TRACE = Formula(
         "action-eligibility-trace",
         e(s, a),
@@ -174,19 +177,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 12.7; 1998, section 7.5",
         hint="Let every trace decay by γλ, then add 1 to the trace of the pair just visited.",
         sign="←",
-    )
-    TRACE_WITHOUT_LAMBDA = misread(
-        ACTION_TRACE,
-        "decay-without-lambda",
-        gamma * e(s, a) + Indicator(s, S(t), a, A(t)),
-        "Traces decay by the product γλ, not by γ alone.",
-    )
-    TRACE_WITHOUT_GAMMA = misread(
-        ACTION_TRACE,
-        "decay-without-gamma",
-        lam * e(s, a) + Indicator(s, S(t), a, A(t)),
-        "Traces decay by the product γλ, not by λ alone.",
-        when=lambda given: given.gamma != 1,
+        misread={
+            TRACE_WITHOUT_LAMBDA: gamma * e(s, a) + Indicator(s, S(t), a, A(t)),
+            TRACE_WITHOUT_GAMMA: lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+        },
     )
     SARSA_LAMBDA = Formula(
         "sarsa-lambda",
@@ -199,6 +193,14 @@ with evaluate(False):
         note="For all pairs of state and action, after their traces.",
     )
 
+    TAKEN_FOR_MAX = Misconception(
+        "action-taken-for-max",
+        "Q-learning takes the greatest action value of the next state; the action taken there is Sarsa's.",
+        when=_last_action_is_known,
+    )
+    MEAN_FOR_MAX = Misconception(
+        "mean-for-max", "Q-learning takes the greatest action value of the next state, not the mean."
+    )
     Q_LEARNING = Formula(
         "q-learning",
         Q(S(t), A(t)),
@@ -207,27 +209,16 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.8",
         hint="The target takes the best action value of the next state, whatever is done there.",
         sign="←",
-    )
-    TAKEN_FOR_MAX = misread(
-        Q_LEARNING,
-        "action-taken-for-max",
-        _moved(_SARSA_TARGET),
-        "Q-learning takes the greatest action value of the next state; the action taken there is Sarsa's.",
-        when=_last_action_is_known,
-    )
-    MEAN_FOR_MAX = misread(
-        Q_LEARNING,
-        "mean-for-max",
-        _moved(_MEAN_TARGET),
-        "Q-learning takes the greatest action value of the next state, not the mean.",
-    )
-    FORGOT_GAMMA = misread(
-        Q_LEARNING,
-        "forgot-gamma",
-        _moved(_MAX_WITHOUT_GAMMA),
-        "The value of the next state is discounted by γ.",
+        misread={
+            TAKEN_FOR_MAX: _moved(_SARSA_TARGET),
+            MEAN_FOR_MAX: _moved(_MEAN_TARGET),
+            FORGOT_GAMMA: _moved(_MAX_WITHOUT_GAMMA),
+        },
     )
 
+    Q_LEARNING_TARGET_FORGOT_GAMMA = Misconception(
+        "q-learning-forgot-gamma", "In Q-learning's target too the value of the next state is discounted by γ."
+    )
     Q_LEARNING_TARGET = Formula(
         "q-learning-target",
         y(t),
@@ -236,14 +227,21 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.8",
         hint="Reward plus γ times the best action value of the next state, whatever is done there.",
         place=Place.WORKING,
-    )
-    Q_LEARNING_TARGET_FORGOT_GAMMA = misread(
-        Q_LEARNING_TARGET,
-        "q-learning-forgot-gamma",
-        _MAX_WITHOUT_GAMMA,
-        "In Q-learning's target too the value of the next state is discounted by γ.",
+        misread={
+            Q_LEARNING_TARGET_FORGOT_GAMMA: _MAX_WITHOUT_GAMMA,
+        },
     )
 
+    SHARE_FORGOTTEN = Misconception(
+        "share-of-epsilon-forgotten",
+        "Exploring picks among all actions, so the greedy action gets its share ε/|A| too, on top of 1 − ε.",
+        when=_not_tied,
+    )
+    SHARED_AMONG_OTHERS = Misconception(
+        "shared-among-the-others",
+        "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
+        when=_not_tied,
+    )
     EPSILON_GREEDY = Formula(
         "epsilon-greedy",
         pi(a, s),
@@ -251,22 +249,27 @@ with evaluate(False):
         title="ε-greedy policy",
         source="Sutton & Barto 2018, section 5.4",
         hint="Every action, the greedy one too, gets its share of ε; the greedy one gets 1 − ε on top.",
-    )
-    SHARE_FORGOTTEN = misread(
-        EPSILON_GREEDY,
-        "share-of-epsilon-forgotten",
-        Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / Size(Actions(s))),
-        "Exploring picks among all actions, so the greedy action gets its share ε/|A| too, on top of 1 − ε.",
-        when=_not_tied,
-    )
-    SHARED_AMONG_OTHERS = misread(
-        EPSILON_GREEDY,
-        "shared-among-the-others",
-        Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / (Size(Actions(s)) - 1)),
-        "Exploring picks among all |A| actions, the greedy one too, not among the other |A| − 1.",
-        when=_not_tied,
+        misread={
+            SHARE_FORGOTTEN: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / Size(Actions(s))),
+            SHARED_AMONG_OTHERS: Cases(Indicator(a, Best(s)), 1 - epsilon, epsilon / (Size(Actions(s)) - 1)),
+        },
     )
 
+    TIED_SHARE_FORGOTTEN = Misconception(
+        "share-of-epsilon-forgotten-in-a-tie",
+        "Exploring picks among all actions, so the tied best actions get their shares ε/|A| too.",
+        when=_tied,
+    )
+    TIED_SHARED_AMONG_OTHERS = Misconception(
+        "shared-among-those-not-best",
+        "Exploring picks among all |A| actions, the tied best ones too, not among the others only.",
+        when=lambda given: _tied(given) and len(given.best) < len(given.values),
+    )
+    NOT_SPLIT = Misconception(
+        "not-split-in-a-tie",
+        "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
+        when=_tied,
+    )
     EPSILON_GREEDY_TIED = Formula(
         "epsilon-greedy-tied",
         pi(a, s),
@@ -279,33 +282,33 @@ with evaluate(False):
         source="Sutton & Barto 2018, sections 2.2 and 5.4",
         hint="The best actions share 1 − ε evenly; on top, every action gets its share of ε.",
         place=Place.WORKING,
-    )
-    TIED_SHARE_FORGOTTEN = misread(
-        EPSILON_GREEDY_TIED,
-        "share-of-epsilon-forgotten-in-a-tie",
-        Cases(Member(a, Greedy(s)), (1 - epsilon) / Size(Greedy(s)), epsilon / Size(Actions(s))),
-        "Exploring picks among all actions, so the tied best actions get their shares ε/|A| too.",
-        when=_tied,
-    )
-    TIED_SHARED_AMONG_OTHERS = misread(
-        EPSILON_GREEDY_TIED,
-        "shared-among-those-not-best",
-        Cases(
-            Member(a, Greedy(s)),
-            (1 - epsilon) / Size(Greedy(s)),
-            epsilon / (Size(Actions(s)) - Size(Greedy(s))),
-        ),
-        "Exploring picks among all |A| actions, the tied best ones too, not among the others only.",
-        when=lambda given: _tied(given) and len(given.best) < len(given.values),
-    )
-    NOT_SPLIT = misread(
-        EPSILON_GREEDY_TIED,
-        "not-split-in-a-tie",
-        Cases(Member(a, Greedy(s)), 1 - epsilon + epsilon / Size(Actions(s)), epsilon / Size(Actions(s))),
-        "Tied best actions share the probability 1 − ε; each of them alone cannot have all of it.",
-        when=_tied,
+        misread={
+            TIED_SHARE_FORGOTTEN: Cases(
+                Member(a, Greedy(s)), (1 - epsilon) / Size(Greedy(s)), epsilon / Size(Actions(s))
+            ),
+            TIED_SHARED_AMONG_OTHERS: Cases(
+                Member(a, Greedy(s)),
+                (1 - epsilon) / Size(Greedy(s)),
+                epsilon / (Size(Actions(s)) - Size(Greedy(s))),
+            ),
+            NOT_SPLIT: Cases(
+                Member(a, Greedy(s)), 1 - epsilon + epsilon / Size(Actions(s)), epsilon / Size(Actions(s))
+            ),
+        },
     )
 
+    MAX_FOR_EXPECTATION = Misconception(
+        "max-for-expectation", "Expected Sarsa averages over the policy's actions; the greatest value is Q-learning's."
+    )
+    SAMPLE_FOR_EXPECTATION = Misconception(
+        "sample-for-expectation",
+        "Expected Sarsa averages over all actions of the policy; the one that was taken is Sarsa's.",
+        when=_last_action_is_known,
+    )
+    UNWEIGHTED_EXPECTATION = Misconception(
+        "unweighted-mean", "Each action value counts with the probability π(a|s′) of its action; a plain mean does not."
+    )
+    EXPECTED_FORGOT_GAMMA = Misconception("forgot-gamma", "The expected value of the next state is discounted by γ.")
     EXPECTED_SARSA = Formula(
         "expected-sarsa",
         Q(S(t), A(t)),
@@ -315,35 +318,20 @@ with evaluate(False):
         hint="The target averages the next state's action values, each with its probability under the policy.",
         sign="←",
         place=Place.BEYOND,
-    )
-    MAX_FOR_EXPECTATION = misread(
-        EXPECTED_SARSA,
-        "max-for-expectation",
-        _moved(_Q_LEARNING_TARGET),
-        "Expected Sarsa averages over the policy's actions; the greatest value is Q-learning's.",
-    )
-    SAMPLE_FOR_EXPECTATION = misread(
-        EXPECTED_SARSA,
-        "sample-for-expectation",
-        _moved(_SARSA_TARGET),
-        "Expected Sarsa averages over all actions of the policy; the one that was taken is Sarsa's.",
-        when=_last_action_is_known,
-    )
-    UNWEIGHTED_EXPECTATION = misread(
-        EXPECTED_SARSA,
-        "unweighted-mean",
-        _moved(_MEAN_TARGET),
-        "Each action value counts with the probability π(a|s′) of its action; a plain mean does not.",
-    )
-    EXPECTED_FORGOT_GAMMA = misread(
-        EXPECTED_SARSA,
-        "forgot-gamma",
-        _moved(r(t + 1) + SumOver(pi(a, S(t + 1)) * Q(S(t + 1), a), a, Actions(S(t + 1)))),
-        "The expected value of the next state is discounted by γ.",
+        misread={
+            MAX_FOR_EXPECTATION: _moved(_Q_LEARNING_TARGET),
+            SAMPLE_FOR_EXPECTATION: _moved(_SARSA_TARGET),
+            UNWEIGHTED_EXPECTATION: _moved(_MEAN_TARGET),
+            EXPECTED_FORGOT_GAMMA: _moved(r(t + 1) + SumOver(pi(a, S(t + 1)) * Q(S(t + 1), a), a, Actions(S(t + 1)))),
+        },
     )
 
     _SELECT = ArgMaxOver(Qi(i, S(t + 1), a), a, Actions(S(t + 1)))
 
+    OTHER_TABLE_SELECTS = Misconception(
+        "other-table-selects",
+        "The table that is updated selects the action; the other one only says what that action is worth.",
+    )
     DOUBLE_Q_ACTION = Formula(
         "double-q-action",
         Selected(t + 1),
@@ -352,12 +340,13 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.10",
         hint="The table that is updated selects its best action of the next state.",
         place=Place.WORKING,
+        misread={
+            OTHER_TABLE_SELECTS: ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
+        },
     )
-    OTHER_TABLE_SELECTS = misread(
-        DOUBLE_Q_ACTION,
-        "other-table-selects",
-        ArgMaxOver(Qi(j, S(t + 1), a), a, Actions(S(t + 1))),
-        "The table that is updated selects the action; the other one only says what that action is worth.",
+    SAME_TABLE_EVALUATES = Misconception(
+        "same-table-evaluates",
+        "The selected action is valued by the other table; with the same table it is plain Q-learning.",
     )
     DOUBLE_Q_LEARNING = Formula(
         "double-q-learning",
@@ -371,23 +360,26 @@ with evaluate(False):
         note="$i$ is the table that is updated, $j$ the other one.",
         place=Place.BEYOND,
         hidden=True,
-    )
-    SAME_TABLE_EVALUATES = misread(
-        DOUBLE_Q_LEARNING,
-        "same-table-evaluates",
-        Qi(i, S(t), A(t)) + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
-        "The selected action is valued by the other table; with the same table it is plain Q-learning.",
-    )
-    DOUBLE_FORGOT_GAMMA = misread(
-        DOUBLE_Q_LEARNING,
-        "forgot-gamma",
-        Qi(i, S(t), A(t)) + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
-        "The value of the next state is discounted by γ.",
+        misread={
+            SAME_TABLE_EVALUATES: Qi(i, S(t), A(t))
+            + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+            FORGOT_GAMMA: Qi(i, S(t), A(t)) + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+        },
     )
 
     _STEPS = Counting(0, T - 1)
     _EPISODES = Counting(1, n)
 
+    RATIO_INVERTED = Misconception(
+        "ratio-inverted",
+        "The target policy π stands above the line and the behaviour policy b, which acted, below it.",
+        when=lambda given: given.target_takes_all,
+    )
+    RATIOS_ADDED = Misconception(
+        "ratios-added",
+        "An episode has the product of its actions' probabilities, so their ratios are multiplied, not added.",
+        when=lambda given: any(len(episode.rewards) > 1 for episode in given.episodes),
+    )
     IMPORTANCE_RATIO = Formula(
         "importance-ratio",
         rho(i),
@@ -396,20 +388,17 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 5.3",
         hint="For every action taken divide its target probability by its behaviour probability, and multiply.",
         place=Place.BEYOND,
+        misread={
+            RATIO_INVERTED: ProductOver(behaviour(A(t), S(t)) / pi(A(t), S(t)), t, _STEPS),
+            RATIOS_ADDED: SumOver(pi(A(t), S(t)) / behaviour(A(t), S(t)), t, _STEPS),
+        },
     )
-    RATIO_INVERTED = misread(
-        IMPORTANCE_RATIO,
-        "ratio-inverted",
-        ProductOver(behaviour(A(t), S(t)) / pi(A(t), S(t)), t, _STEPS),
-        "The target policy π stands above the line and the behaviour policy b, which acted, below it.",
-        when=lambda given: given.target_takes_all,
+    WEIGHTED_FOR_ORDINARY = Misconception(
+        "weighted-for-ordinary",
+        "The ordinary estimate divides by the number of episodes; the sum of the ratios is the weighted one's.",
     )
-    RATIOS_ADDED = misread(
-        IMPORTANCE_RATIO,
-        "ratios-added",
-        SumOver(pi(A(t), S(t)) / behaviour(A(t), S(t)), t, _STEPS),
-        "An episode has the product of its actions' probabilities, so their ratios are multiplied, not added.",
-        when=lambda given: any(len(episode.rewards) > 1 for episode in given.episodes),
+    RATIOS_FORGOTTEN = Misconception(
+        "ratios-forgotten", "A plain mean estimates the value of the behaviour policy b; the ratios correct for that."
     )
     ORDINARY_IMPORTANCE_SAMPLING = Formula(
         "ordinary-importance-sampling",
@@ -419,18 +408,15 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 5.5",
         hint="Weight every episode's return with its ratio, add, and divide by the number of episodes.",
         place=Place.BEYOND,
+        misread={
+            WEIGHTED_FOR_ORDINARY: SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
+            RATIOS_FORGOTTEN: SumOver(Ri(i), i, _EPISODES) / n,
+        },
     )
-    WEIGHTED_FOR_ORDINARY = misread(
-        ORDINARY_IMPORTANCE_SAMPLING,
-        "weighted-for-ordinary",
-        SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
-        "The ordinary estimate divides by the number of episodes; the sum of the ratios is the weighted one's.",
-    )
-    RATIOS_FORGOTTEN = misread(
-        ORDINARY_IMPORTANCE_SAMPLING,
-        "ratios-forgotten",
-        SumOver(Ri(i), i, _EPISODES) / n,
-        "A plain mean estimates the value of the behaviour policy b; the ratios correct for that.",
+    ORDINARY_FOR_WEIGHTED = Misconception(
+        "ordinary-for-weighted",
+        "The weighted estimate divides by the sum of the ratios; the number of episodes is the ordinary one's.",
+        when=lambda given: len(given.episodes) > 1,
     )
     WEIGHTED_IMPORTANCE_SAMPLING = Formula(
         "weighted-importance-sampling",
@@ -440,17 +426,18 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 5.6",
         hint="Weight every episode's return with its ratio, add, and divide by the sum of the ratios.",
         place=Place.BEYOND,
-    )
-    ORDINARY_FOR_WEIGHTED = misread(
-        WEIGHTED_IMPORTANCE_SAMPLING,
-        "ordinary-for-weighted",
-        SumOver(rho(i) * Ri(i), i, _EPISODES) / n,
-        "The weighted estimate divides by the sum of the ratios; the number of episodes is the ordinary one's.",
-        when=lambda given: len(given.episodes) > 1,
+        misread={
+            ORDINARY_FOR_WEIGHTED: SumOver(rho(i) * Ri(i), i, _EPISODES) / n,
+        },
     )
 
     _EARNED = SumOver(r(i) * Indicator(A(i), a), i, Counting(1, n))
 
+    ALL_PULLS_COUNTED = Misconception(
+        "all-pulls-counted",
+        "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
+        when=lambda given: given.kind != "gradient",
+    )
     ARM_ESTIMATE = Formula(
         "arm-estimate",
         Q(a),
@@ -459,13 +446,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.1",
         hint="Add the rewards of this arm's own pulls, and divide by how many those were.",
         place=Place.WORKING,
-    )
-    ALL_PULLS_COUNTED = misread(
-        ARM_ESTIMATE,
-        "all-pulls-counted",
-        _EARNED / n,
-        "Each arm's rewards are divided by the number of its own pulls, not of all pulls.",
-        when=lambda given: given.kind != "gradient",
+        misread={
+            ALL_PULLS_COUNTED: _EARNED / n,
+        },
     )
     GREEDY_ARM = Formula(
         "greedy-arm",
@@ -476,6 +459,16 @@ with evaluate(False):
         hint="Take the arm whose estimate is greatest.",
         place=Place.WORKING,
     )
+    TIME_FOR_LOG = Misconception(
+        "t-for-ln-t",
+        "Under the root stands the logarithm ln t, not the time t itself.",
+        when=lambda given: given.kind == "ucb",
+    )
+    OWN_COUNT_FORGOTTEN = Misconception(
+        "own-count-forgotten",
+        "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
+        when=lambda given: given.kind == "ucb",
+    )
     UCB = Formula(
         "ucb",
         U(a),
@@ -484,20 +477,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.10",
         hint="To the estimate add c times the root of ln t divided by how often this arm was pulled.",
         place=Place.BEYOND,
-    )
-    TIME_FOR_LOG = misread(
-        UCB,
-        "t-for-ln-t",
-        Q(a) + c * sqrt(t / N(a)),
-        "Under the root stands the logarithm ln t, not the time t itself.",
-        when=lambda given: given.kind == "ucb",
-    )
-    OWN_COUNT_FORGOTTEN = misread(
-        UCB,
-        "own-count-forgotten",
-        Q(a) + c * sqrt(log(t)),
-        "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
-        when=lambda given: given.kind == "ucb",
+        misread={
+            TIME_FOR_LOG: Q(a) + c * sqrt(t / N(a)),
+            OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
+        },
     )
     UCB_ARM = Formula(
         "ucb-arm",
@@ -509,6 +492,11 @@ with evaluate(False):
         place=Place.WORKING,
     )
 
+    BANDIT_WITHOUT_EXP = Misconception(
+        "normalised-without-exp",
+        "The preferences are exponentiated before they are normalised.",
+        when=lambda given: given.kind == "gradient" and sum(given.preferences.values()) != 0,
+    )
     GRADIENT_BANDIT_POLICY = Formula(
         "gradient-bandit-policy",
         pi(a),
@@ -517,13 +505,9 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.11",
         hint="Exponentiate every arm's preference, then divide by the sum of them all.",
         place=Place.BEYOND,
-    )
-    BANDIT_WITHOUT_EXP = misread(
-        GRADIENT_BANDIT_POLICY,
-        "normalised-without-exp",
-        H(a) / SumOver(H(b), b, Choices),
-        "The preferences are exponentiated before they are normalised.",
-        when=lambda given: given.kind == "gradient" and sum(given.preferences.values()) != 0,
+        misread={
+            BANDIT_WITHOUT_EXP: H(a) / SumOver(H(b), b, Choices),
+        },
     )
     REWARD_BASELINE = Formula(
         "reward-baseline",
@@ -533,6 +517,16 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 2.8",
         hint="The baseline is the mean of all rewards so far, whichever arm earned them.",
         place=Place.WORKING,
+    )
+    BASELINE_FORGOTTEN = Misconception(
+        "baseline-forgotten",
+        "What counts is how far the reward is above or below the baseline, not the reward itself.",
+        when=lambda given: given.kind == "gradient",
+    )
+    OTHERS_UNCHANGED = Misconception(
+        "others-unchanged",
+        "The preferences of the arms that were not pulled move too, the other way.",
+        when=lambda given: given.kind == "gradient",
     )
     GRADIENT_BANDIT = Formula(
         "gradient-bandit",
@@ -548,22 +542,12 @@ with evaluate(False):
         sign="←",
         note="$r̄_n$ is the mean of the rewards so far.",
         place=Place.BEYOND,
-    )
-    BASELINE_FORGOTTEN = misread(
-        GRADIENT_BANDIT,
-        "baseline-forgotten",
-        Cases(
-            Indicator(a, A(n + 1)),
-            H(a) + alpha * r(n + 1) * (1 - pi(a)),
-            H(a) - alpha * r(n + 1) * pi(a),
-        ),
-        "What counts is how far the reward is above or below the baseline, not the reward itself.",
-        when=lambda given: given.kind == "gradient",
-    )
-    OTHERS_UNCHANGED = misread(
-        GRADIENT_BANDIT,
-        "others-unchanged",
-        Cases(Indicator(a, A(n + 1)), H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)), H(a)),
-        "The preferences of the arms that were not pulled move too, the other way.",
-        when=lambda given: given.kind == "gradient",
+        misread={
+            BASELINE_FORGOTTEN: Cases(
+                Indicator(a, A(n + 1)),
+                H(a) + alpha * r(n + 1) * (1 - pi(a)),
+                H(a) - alpha * r(n + 1) * pi(a),
+            ),
+            OTHERS_UNCHANGED: Cases(Indicator(a, A(n + 1)), H(a) + alpha * (r(n + 1) - rbar(n)) * (1 - pi(a)), H(a)),
+        },
     )

@@ -3,7 +3,7 @@
 from sympy import Abs, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Actions,
     ArgMaxOver,
@@ -12,7 +12,6 @@ from rldrill.solutions.formula.notation import (
     P,
     Q,
     Qpi,
-    Qstar,
     R,
     States,
     Successors,
@@ -20,7 +19,6 @@ from rldrill.solutions.formula.notation import (
     V,
     Vpi,
     a,
-    a1,
     called,
     gamma,
     letter,
@@ -29,8 +27,7 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
-from rldrill.solutions.sheet import bellman
-from rldrill.solutions.sheet.bellman import LOOKAHEAD, WITHOUT_GAMMA
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, LOOKAHEAD, WITHOUT_GAMMA
 
 
 def _values(mark: Math) -> Math:
@@ -61,6 +58,11 @@ with evaluate(False):
     _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
 
+    EVALUATION_MAX_FOR_MEAN = Misconception(
+        "max-for-mean",
+        "Evaluation averages over the policy's actions; only value iteration takes the maximum.",
+        when=lambda given: not given.parameters() and any(len(some) > 1 for some in given.mdp.actions.values()),
+    )
     POLICY_EVALUATION = Formula(
         "policy-evaluation",
         V(s),
@@ -69,21 +71,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 4.5",
         hint="Average over the actions, then over where each leads, with the values that are current.",
         sign="←",
-    )
-    EVALUATION_FORGOT_GAMMA = misread(
-        POLICY_EVALUATION,
-        "forgot-gamma",
-        SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
-        "The value of the next state is discounted by γ.",
-        when=lambda given: given.gamma != 1,
-    )
-    EVALUATION_MAX_FOR_MEAN = misread(
-        POLICY_EVALUATION,
-        "max-for-mean",
-        MaxOver(LOOKAHEAD, a, Actions(s)),
-        "Evaluation averages over the policy's actions; only value iteration takes the maximum.",
-        # Which action is best may depend on what is left open; and where there is no choice, there is no maximum.
-        when=lambda given: not given.parameters() and any(len(some) > 1 for some in given.mdp.actions.values()),
+        misread={
+            FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
+            EVALUATION_MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
+        },
     )
 
     POLICY_IMPROVEMENT_THEOREM = Formula(
@@ -105,6 +96,12 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 4.3",
         hint="Write one equation for every state, with the policy's action in it, and solve them together.",
     )
+    IMPROVEMENT_BY_VALUE = Misconception(
+        "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."
+    )
+    IMPROVEMENT_BY_REWARD = Misconception(
+        "by-reward-alone", "What comes after the reward counts too: compare reward plus γ times the next value."
+    )
     POLICY_IMPROVEMENT = Formula(
         "policy-iteration-improvement",
         pi(s),
@@ -113,20 +110,15 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 4.9",
         hint="In every state take the action whose average of reward plus γ times the old policy's value is greatest.",
         also=(ArgMaxOver(Qpi(s, a), a, Actions(s)),),
-    )
-    IMPROVEMENT_BY_VALUE = misread(
-        POLICY_IMPROVEMENT,
-        "by-next-value-alone",
-        ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
-        "The reward on the way counts too: compare reward plus γ times the next value.",
-    )
-    IMPROVEMENT_BY_REWARD = misread(
-        POLICY_IMPROVEMENT,
-        "by-reward-alone",
-        ArgMaxOver(_REWARD, a, Actions(s)),
-        "What comes after the reward counts too: compare reward plus γ times the next value.",
+        misread={
+            IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+            IMPROVEMENT_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+        },
     )
 
+    MEAN_FOR_MAX = Misconception(
+        "mean-for-max", "Value iteration keeps the best action's value; it does not average over the actions."
+    )
     VALUE_ITERATION = Formula(
         "value-iteration",
         V(s),
@@ -135,20 +127,18 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 4.10",
         hint="For every state: work out each action's average with the old values, and keep the greatest.",
         sign="←",
-    )
-    MEAN_FOR_MAX = misread(
-        VALUE_ITERATION,
-        "mean-for-max",
-        MeanOver(LOOKAHEAD, a, Actions(s)),
-        "Value iteration keeps the best action's value; it does not average over the actions.",
-    )
-    FORGOT_GAMMA = misread(
-        VALUE_ITERATION,
-        "forgot-gamma",
-        MaxOver(WITHOUT_GAMMA, a, Actions(s)),
-        "The value of the next state is discounted by γ.",
+        misread={
+            MEAN_FOR_MAX: MeanOver(LOOKAHEAD, a, Actions(s)),
+            FORGOT_GAMMA: MaxOver(WITHOUT_GAMMA, a, Actions(s)),
+        },
     )
 
+    GREEDY_BY_VALUE = Misconception(
+        "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."
+    )
+    GREEDY_BY_REWARD = Misconception(
+        "by-reward-alone", "What comes after the reward counts too: compare reward plus γ times the next value."
+    )
     GREEDY_FROM_V = Formula(
         "greedy-from-v",
         pi_star(s),
@@ -156,19 +146,12 @@ with evaluate(False):
         title="Optimal policy given V",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="Take the action whose average of reward plus γ times the next value is greatest.",
+        misread={
+            GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+            GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+        },
     )
-    GREEDY_BY_VALUE = misread(
-        GREEDY_FROM_V,
-        "by-next-value-alone",
-        ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
-        "The reward on the way counts too: compare reward plus γ times the next value.",
-    )
-    GREEDY_BY_REWARD = misread(
-        GREEDY_FROM_V,
-        "by-reward-alone",
-        ArgMaxOver(_REWARD, a, Actions(s)),
-        "What comes after the reward counts too: compare reward plus γ times the next value.",
-    )
+    SMALLEST_Q = Misconception("smallest-q", "Q is a return, so the greatest is best; only costs are minimised.")
     GREEDY_FROM_Q = Formula(
         "greedy-from-q",
         pi_star(s),
@@ -176,38 +159,17 @@ with evaluate(False):
         title="Optimal policy given Q",
         source="Sutton & Barto 2018, section 3.6",
         hint="In every state take the action with the greatest value; no model is needed.",
-    )
-    SMALLEST_Q = misread(
-        GREEDY_FROM_Q,
-        "smallest-q",
-        ArgMaxOver(-Q(s, a), a, Actions(s)),
-        "Q is a return, so the greatest is best; only costs are minimised.",
+        misread={
+            SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s)),
+        },
     )
 
     # Misreadings of the optimality equation for Q, as somebody makes them who looks for the best action.
-    OPTIMAL_Q_BY_VALUE = misread(
-        bellman.BELLMAN_OPTIMALITY_Q,
-        "by-next-value-alone",
-        SumOver(P(s, a, s1) * MaxOver(Qstar(s1, a1), a1, Actions(s1)), s1, Successors(s, a)),
-        "The reward on the way counts too: add γ times the best next value to it.",
+    SUM_FOR_MAX = Misconception(
+        "sum-for-max",
+        "The distance of two value functions is their greatest difference in any one state, not the sum over all.",
+        when=lambda given: len(given.start) > 1,
     )
-    OPTIMAL_Q_BY_REWARD = misread(
-        bellman.BELLMAN_OPTIMALITY_Q,
-        "by-reward-alone",
-        _REWARD,
-        "What comes after the reward counts too: add γ times the best value in the next state.",
-    )
-    OPTIMAL_Q_MEAN_FOR_MAX = misread(
-        bellman.BELLMAN_OPTIMALITY_Q,
-        "mean-for-max",
-        SumOver(
-            P(s, a, s1) * (R(s, a, s1) + gamma * MeanOver(Qstar(s1, a1), a1, Actions(s1))),
-            s1,
-            Successors(s, a),
-        ),
-        "In the next state the best action is taken: the greatest of its values counts, not their mean.",
-    )
-
     MAX_NORM = Formula(
         "max-norm",
         Norm(),
@@ -216,13 +178,16 @@ with evaluate(False):
         source="Puterman 1994, chapter 6",
         hint="Take the greatest difference of all states, without its sign.",
         place=Place.WORKING,
+        misread={
+            SUM_FOR_MAX: SumOver(Abs(First(s) - Second(s)), s, States),
+        },
     )
-    SUM_FOR_MAX = misread(
-        MAX_NORM,
-        "sum-for-max",
-        SumOver(Abs(First(s) - Second(s)), s, States),
-        "The distance of two value functions is their greatest difference in any one state, not the sum over all.",
-        when=lambda given: len(given.start) > 1,
+    FORGOT_DISTANCE = Misconception(
+        "forgot-initial-distance",
+        "γᵏ says by how much the error shrinks; it is multiplied with the error at the start.",
+    )
+    ONE_POWER_SHORT = Misconception(
+        "one-power-short", "V₀ has seen no sweep, so the first one shrinks the error already: k sweeps give γᵏ."
     )
     CONTRACTION = Formula(
         "contraction",
@@ -233,18 +198,15 @@ with evaluate(False):
         hint="Every sweep shrinks the greatest error to at most γ times what it was.",
         sign="≤",
         place=Place.BEYOND,
+        misread={
+            FORGOT_DISTANCE: gamma**k,
+            ONE_POWER_SHORT: gamma ** (k - 1) * Distance(0),
+        },
     )
-    FORGOT_DISTANCE = misread(
-        CONTRACTION,
-        "forgot-initial-distance",
-        gamma**k,
-        "γᵏ says by how much the error shrinks; it is multiplied with the error at the start.",
-    )
-    ONE_POWER_SHORT = misread(
-        CONTRACTION,
-        "one-power-short",
-        gamma ** (k - 1) * Distance(0),
-        "V₀ has seen no sweep, so the first one shrinks the error already: k sweeps give γᵏ.",
+    CHANGE_FOR_ERROR = Misconception(
+        "change-for-error",
+        "Later sweeps change the values too, by γ, γ², … times as much: together that is the change divided by 1 − γ.",
+        when=lambda given: given.optimum is None,
     )
     ERROR_FROM_CHANGE = Formula(
         "contraction-first-sweep",
@@ -255,11 +217,7 @@ with evaluate(False):
         hint="The error at the start is at most what the first sweep changed, divided by 1 − γ.",
         sign="≤",
         place=Place.BEYOND,
-    )
-    CHANGE_FOR_ERROR = misread(
-        ERROR_FROM_CHANGE,
-        "change-for-error",
-        Change(0),
-        "Later sweeps change the values too, by γ, γ², … times as much: together that is the change divided by 1 − γ.",
-        when=lambda given: given.optimum is None,
+        misread={
+            CHANGE_FOR_ERROR: Change(0),
+        },
     )

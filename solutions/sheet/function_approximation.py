@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Integer, Rational, evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     A,
     ArgMaxOver,
@@ -76,6 +76,17 @@ with evaluate(False):
         hint="Subtract coordinate by coordinate, square, add, and take the root.",
         place=Place.WORKING,
     )
+    HALF_FORGOTTEN = Misconception("half-forgotten", "The squared distance is divided by 2σ², not by σ².")
+    SIGMA_NOT_SQUARED = Misconception(
+        "sigma-not-squared",
+        "The squared distance is divided by 2σ²: the width σ is squared, too.",
+        when=lambda given: given.sigma != 1,
+    )
+    NORM_NOT_SQUARED = Misconception(
+        "norm-not-squared",
+        "It is the square of the distance that stands in the exponent.",
+        when=lambda given: not _distances(given) <= {0, 1},
+    )
     RBF = Formula(
         "rbf",
         phi(i, s),
@@ -85,26 +96,23 @@ with evaluate(False):
         hint="The squared distance from the centre, divided by 2σ², goes into the exponent with a minus sign.",
         note="The sheet writes $φ_i(s, a)$, but only $s$ counts; for several actions the features are stacked, one "
         "block for each action.",
+        misread={
+            HALF_FORGOTTEN: exp(-(1 / sigma**2) * distance(i) ** 2),
+            SIGMA_NOT_SQUARED: exp(-(1 / (2 * sigma)) * distance(i) ** 2),
+            NORM_NOT_SQUARED: exp(-(1 / (2 * sigma**2)) * distance(i)),
+        },
     )
-    HALF_FORGOTTEN = misread(
-        RBF,
-        "half-forgotten",
-        exp(-(1 / sigma**2) * distance(i) ** 2),
-        "The squared distance is divided by 2σ², not by σ².",
+    NOT_CLAMPED = Misconception(
+        "not-clamped-at-0",
+        "Beyond the distance b from its centre a feature is 0, not negative.",
+        when=lambda given: any(square > given.width**2 for square in _distances(given)),
     )
-    SIGMA_NOT_SQUARED = misread(
-        RBF,
-        "sigma-not-squared",
-        exp(-(1 / (2 * sigma)) * distance(i) ** 2),
-        "The squared distance is divided by 2σ²: the width σ is squared, too.",
-        when=lambda given: given.sigma != 1,
-    )
-    NORM_NOT_SQUARED = misread(
-        RBF,
-        "norm-not-squared",
-        exp(-(1 / (2 * sigma**2)) * distance(i)),
-        "It is the square of the distance that stands in the exponent.",
-        when=lambda given: not _distances(given) <= {0, 1},
+    WIDTH_FORGOTTEN = Misconception(
+        "width-forgotten",
+        "The distance is divided by the width b before it is subtracted from 1.",
+        when=lambda given: (
+            given.width != 1 and any(0 < square < max(given.width, 1) ** 2 for square in _distances(given))
+        ),
     )
     PIECEWISE_LINEAR_RBF = Formula(
         "piecewise-linear-rbf",
@@ -113,22 +121,11 @@ with evaluate(False):
         title="Piecewise linear RBF",
         source="Lecture sheet; triangular kernel",
         hint="From 1 at the centre it falls in a straight line to 0 at the distance b, and stays there.",
+        misread={
+            NOT_CLAMPED: 1 - distance(i) / width,
+            WIDTH_FORGOTTEN: Greatest(Zero, 1 - distance(i)),
+        },
     )
-    NOT_CLAMPED = misread(
-        PIECEWISE_LINEAR_RBF,
-        "not-clamped-at-0",
-        1 - distance(i) / width,
-        "Beyond the distance b from its centre a feature is 0, not negative.",
-        when=lambda given: any(square > given.width**2 for square in _distances(given)),
-    )
-    WIDTH_FORGOTTEN = misread(
-        PIECEWISE_LINEAR_RBF,
-        "width-forgotten",
-        Greatest(Zero, 1 - distance(i)),
-        "The distance is divided by the width b before it is subtracted from 1.",
-        when=lambda given: given.width != 1 and any(0 < square < max(given.width, 1) ** 2
-                                                    for square in _distances(given)),
-    )  # fmt: skip
 
     LINEAR_VALUE = Formula(
         "linear-value",
@@ -168,6 +165,16 @@ with evaluate(False):
         hint="Reward plus the discounted estimate for the next state, minus the estimate for this one.",
         place=Place.WORKING,
     )
+    THROUGH_THE_TARGET = Misconception(
+        "gradient-through-the-target",
+        "The target counts as a constant: only the estimate for the state that is left is differentiated.",
+        when=lambda given: not given.actions and _goes_on(given),
+    )
+    FEATURES_OF_NEXT = Misconception(
+        "features-of-the-next-state",
+        "The weights move along the features of the state that is left, not of the next one.",
+        when=lambda given: not given.actions,
+    )
     SEMI_GRADIENT_TD = Formula(
         "semi-gradient-td",
         theta_vector,
@@ -180,20 +187,10 @@ with evaluate(False):
         note="The target is treated as a constant, although it depends on $θ$, too.",
         place=Place.BEYOND,
         hidden=True,
-    )
-    THROUGH_THE_TARGET = misread(
-        SEMI_GRADIENT_TD,
-        "gradient-through-the-target",
-        theta_vector + alpha * delta(t) * (phi_vector(S(t)) - gamma * phi_vector(S(t + 1))),
-        "The target counts as a constant: only the estimate for the state that is left is differentiated.",
-        when=lambda given: not given.actions and _goes_on(given),
-    )
-    FEATURES_OF_NEXT = misread(
-        SEMI_GRADIENT_TD,
-        "features-of-the-next-state",
-        theta_vector + alpha * delta(t) * phi_vector(S(t + 1)),
-        "The weights move along the features of the state that is left, not of the next one.",
-        when=lambda given: not given.actions,
+        misread={
+            THROUGH_THE_TARGET: theta_vector + alpha * delta(t) * (phi_vector(S(t)) - gamma * phi_vector(S(t + 1))),
+            FEATURES_OF_NEXT: theta_vector + alpha * delta(t) * phi_vector(S(t + 1)),
+        },
     )
     SARSA_ERROR_APPROXIMATE = Formula(
         "sarsa-error-approximate",
@@ -204,6 +201,16 @@ with evaluate(False):
         hint="Reward plus the discounted estimate for the next pair, minus the estimate for this one.",
         place=Place.WORKING,
     )
+    SARSA_THROUGH_THE_TARGET = Misconception(
+        "sarsa-gradient-through-the-target",
+        "The target counts as a constant: only the estimate for the pair that is left is differentiated.",
+        when=lambda given: given.actions and _goes_on(given),
+    )
+    SARSA_FEATURES_OF_NEXT = Misconception(
+        "features-of-the-next-pair",
+        "The weights move along the features of the pair that is left, not of the next one.",
+        when=lambda given: bool(given.actions),
+    )
     SEMI_GRADIENT_SARSA = Formula(
         "semi-gradient-sarsa",
         theta_vector,
@@ -213,18 +220,9 @@ with evaluate(False):
         hint="Move the weights along the features of the pair of state and action that is left.",
         sign="←",
         place=Place.BEYOND,
-    )
-    SARSA_THROUGH_THE_TARGET = misread(
-        SEMI_GRADIENT_SARSA,
-        "sarsa-gradient-through-the-target",
-        theta_vector + alpha * delta(t) * (phi_vector(S(t), A(t)) - gamma * phi_vector(S(t + 1), A(t + 1))),
-        "The target counts as a constant: only the estimate for the pair that is left is differentiated.",
-        when=lambda given: given.actions and _goes_on(given),
-    )
-    SARSA_FEATURES_OF_NEXT = misread(
-        SEMI_GRADIENT_SARSA,
-        "features-of-the-next-pair",
-        theta_vector + alpha * delta(t) * phi_vector(S(t + 1), A(t + 1)),
-        "The weights move along the features of the pair that is left, not of the next one.",
-        when=lambda given: bool(given.actions),
+        misread={
+            SARSA_THROUGH_THE_TARGET: theta_vector
+            + alpha * delta(t) * (phi_vector(S(t), A(t)) - gamma * phi_vector(S(t + 1), A(t + 1))),
+            SARSA_FEATURES_OF_NEXT: theta_vector + alpha * delta(t) * phi_vector(S(t + 1), A(t + 1)),
+        },
     )

@@ -4,7 +4,7 @@ from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, listed, operator, relation, row, variable, word
 from rldrill.problems.pictures import Timeline
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
@@ -80,6 +80,14 @@ with evaluate(False):
 
     _SEEN = N(S(t - 1), S(t), S(t + 1))
 
+    JOINT_FOR_CONDITIONAL = Misconception(
+        "joint-for-conditional",
+        "That is the joint probability of all three states; given the history, divide by the history's own total.",
+    )
+    HISTORY_LEFT_OUT = Misconception(
+        "history-left-out-below",
+        "Below the line only the rows with the same whole history count, not all rows with the same present state.",
+    )
     RELATIVE_FREQUENCY = Formula(
         "relative-frequency",
         Pr(S(t + 1), S(t - 1), S(t)),
@@ -88,22 +96,25 @@ with evaluate(False):
         source="Thrun, Burgard & Fox 2005, section 2.2",
         hint="Divide by the total of the rows with the same history, not by the total of the table.",
         place=Place.WORKING,
-    )
-    JOINT_FOR_CONDITIONAL = misread(
-        RELATIVE_FREQUENCY,
-        "joint-for-conditional",
-        _SEEN * Pow(SumOver(SumOver(SumOver(N(h, s, s1), s1, States), s, States), h, States), -1),
-        "That is the joint probability of all three states; given the history, divide by the history's own total.",
-    )
-    HISTORY_LEFT_OUT = misread(
-        RELATIVE_FREQUENCY,
-        "history-left-out-below",
-        _SEEN * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
-        "Below the line only the rows with the same whole history count, not all rows with the same present state.",
+        misread={
+            JOINT_FOR_CONDITIONAL: _SEEN
+            * Pow(SumOver(SumOver(SumOver(N(h, s, s1), s1, States), s, States), h, States), -1),
+            HISTORY_LEFT_OUT: _SEEN * Pow(SumOver(SumOver(N(h, S(t), s1), s1, States), h, States), -1),
+        },
     )
 
     _ALL = Counting(0, T - t - 1, INFINITY)
 
+    FIRST_DISCOUNTED = Misconception(
+        "first-reward-discounted", "The first reward after time t is not discounted: its factor is γ⁰ = 1."
+    )
+    STARTS_EARLY = Misconception(
+        "starts-at-r-t", "The return from time t begins with the reward that comes after it, at t + 1."
+    )
+    UNDISCOUNTED = Misconception("no-discount", "Later rewards are discounted by powers of γ.")
+    LINEAR_DISCOUNT = Misconception(
+        "gamma-times-i", "The discount of a reward i steps later is the power γ^i, not the product γ·i."
+    )
     RETURN = Formula(
         "return",
         G(t),
@@ -112,29 +123,15 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.8",
         hint="Add the rewards after time t; each further step back costs one more factor γ.",
         also=(r(t + 1) + gamma * r(t + 2) + gamma**2 * r(t + 3) + DOTS,),
-    )
-    FIRST_DISCOUNTED = misread(
-        RETURN,
-        "first-reward-discounted",
-        SumOver(gamma ** (i + 1) * r(t + 1 + i), i, _ALL),
-        "The first reward after time t is not discounted: its factor is γ⁰ = 1.",
-    )
-    STARTS_EARLY = misread(
-        RETURN,
-        "starts-at-r-t",
-        SumOver(gamma**i * r(t + i), i, _ALL),
-        "The return from time t begins with the reward that comes after it, at t + 1.",
-    )
-    UNDISCOUNTED = misread(
-        RETURN, "no-discount", SumOver(r(t + 1 + i), i, _ALL), "Later rewards are discounted by powers of γ."
-    )
-    LINEAR_DISCOUNT = misread(
-        RETURN,
-        "gamma-times-i",
-        SumOver(gamma * i * r(t + 1 + i), i, _ALL),
-        "The discount of a reward i steps later is the power γ^i, not the product γ·i.",
+        misread={
+            FIRST_DISCOUNTED: SumOver(gamma ** (i + 1) * r(t + 1 + i), i, _ALL),
+            STARTS_EARLY: SumOver(gamma**i * r(t + i), i, _ALL),
+            UNDISCOUNTED: SumOver(r(t + 1 + i), i, _ALL),
+            LINEAR_DISCOUNT: SumOver(gamma * i * r(t + 1 + i), i, _ALL),
+        },
     )
 
+    RECURSION_UNDISCOUNTED = Misconception("no-discount", "The return that follows is discounted by γ.")
     RETURN_RECURSIVE = Formula(
         "return-recursive",
         G(t),
@@ -142,13 +139,23 @@ with evaluate(False):
         title="Return, recursively",
         source="Sutton & Barto 2018, eq. 3.9",
         hint="Begin with the last return, which is the last reward, and go back in time.",
-    )
-    RECURSION_UNDISCOUNTED = misread(
-        RETURN_RECURSIVE, "no-discount", r(t + 1) + G(t + 1), "The return that follows is discounted by γ."
+        misread={
+            RECURSION_UNDISCOUNTED: r(t + 1) + G(t + 1),
+        },
     )
 
     _FIRST = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 
+    TAIL_FORGOTTEN = Misconception(
+        "tail-forgotten",
+        "The rewards go on for ever after the first ones; their return belongs to the sum.",
+        when=lambda given: bool(given.first),
+    )
+    TAIL_UNDISCOUNTED = Misconception(
+        "tail-not-discounted",
+        "The return from n steps later is discounted by γⁿ before it is added.",
+        when=lambda given: bool(given.first),
+    )
     RETURN_UNROLLED = Formula(
         "return-unrolled",
         G(t),
@@ -157,22 +164,20 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.9, applied n times",
         hint="The return from n steps later is worth γⁿ of itself now.",
         place=Place.WORKING,
-    )
-    TAIL_FORGOTTEN = misread(
-        RETURN_UNROLLED,
-        "tail-forgotten",
-        _FIRST,
-        "The rewards go on for ever after the first ones; their return belongs to the sum.",
-        when=lambda given: bool(given.first),
-    )
-    TAIL_UNDISCOUNTED = misread(
-        RETURN_UNROLLED,
-        "tail-not-discounted",
-        _FIRST + G(t + n),
-        "The return from n steps later is discounted by γⁿ before it is added.",
-        when=lambda given: bool(given.first),
+        misread={
+            TAIL_FORGOTTEN: _FIRST,
+            TAIL_UNDISCOUNTED: _FIRST + G(t + n),
+        },
     )
 
+    PLUS_FOR_MINUS = Misconception(
+        "plus-for-minus", "The geometric series 1 + q + q² + … sums to 1/(1 − q), not to 1/(1 + q)."
+    )
+    ROUND_OF_ONE = Misconception(
+        "round-of-one",
+        "A round of n rewards comes again after n steps, so the series runs in γⁿ, not in γ.",
+        when=lambda given: len(given.repeated) > 1,
+    )
     GEOMETRIC_SERIES = Formula(
         "geometric-series",
         G(t),
@@ -181,21 +186,19 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 3.10, for n rewards in turn",
         hint="Add up one round; every further round is worth γⁿ times the one before, so divide by 1 − γⁿ.",
         place=Place.BEYOND,
-    )
-    PLUS_FOR_MINUS = misread(
-        GEOMETRIC_SERIES,
-        "plus-for-minus",
-        _FIRST * Pow(1 + gamma**n, -1),
-        "The geometric series 1 + q + q² + … sums to 1/(1 − q), not to 1/(1 + q).",
-    )
-    ROUND_OF_ONE = misread(
-        GEOMETRIC_SERIES,
-        "round-of-one",
-        _FIRST * Pow(1 - gamma, -1),
-        "A round of n rewards comes again after n steps, so the series runs in γⁿ, not in γ.",
-        when=lambda given: len(given.repeated) > 1,
+        misread={
+            PLUS_FOR_MINUS: _FIRST * Pow(1 + gamma**n, -1),
+            ROUND_OF_ONE: _FIRST * Pow(1 - gamma, -1),
+        },
     )
 
+    UNWEIGHTED = Misconception(
+        "unweighted-mean", "The episodes are not equally probable: each return counts with its episode's probability."
+    )
+    BEST_EPISODE = Misconception(
+        "maximum-for-mean",
+        "The expected return averages over what can happen; it is not the luckiest episode's return.",
+    )
     GOAL = Formula(
         "goal",
         expected_return,
@@ -204,20 +207,23 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 3.3",
         hint="Every episode τ that can happen counts with its probability.",
         note="The agent looks for the policy $π$ that maximises it from the start state $s_0$.",
-    )
-    UNWEIGHTED = misread(
-        GOAL,
-        "unweighted-mean",
-        MeanOver(EpisodeReturn(tau), tau, Episodes),
-        "The episodes are not equally probable: each return counts with its episode's probability.",
-    )
-    BEST_EPISODE = misread(
-        GOAL,
-        "maximum-for-mean",
-        MaxOver(EpisodeReturn(tau), tau, Episodes),
-        "The expected return averages over what can happen; it is not the luckiest episode's return.",
+        misread={
+            UNWEIGHTED: MeanOver(EpisodeReturn(tau), tau, Episodes),
+            BEST_EPISODE: MaxOver(EpisodeReturn(tau), tau, Episodes),
+        },
     )
 
+    START_DROPPED = Misconception(
+        "start-probability-dropped",
+        "An episode is only as probable as its start state to begin with.",
+        when=lambda given: len(given.start) > 1,
+    )
+    POLICY_DROPPED = Misconception(
+        "policy-probability-dropped",
+        "Each action on the way counts with the probability with which the policy takes it.",
+        when=lambda given: given.chooses,
+    )
+    LAST_BRANCH_DROPPED = Misconception("last-branch-dropped", "The last step of an episode has its probability too.")
     EPISODE_PROBABILITY = Formula(
         "episode-probability",
         EpisodePr(tau),
@@ -226,24 +232,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 5.5",
         hint="Multiply along the branch: the start, then for every step the action and where it leads.",
         place=Place.WORKING,
-    )
-    START_DROPPED = misread(
-        EPISODE_PROBABILITY,
-        "start-probability-dropped",
-        ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
-        "An episode is only as probable as its start state to begin with.",
-        when=lambda given: len(given.start) > 1,
-    )
-    POLICY_DROPPED = misread(
-        EPISODE_PROBABILITY,
-        "policy-probability-dropped",
-        Start(S(0)) * ProductOver(P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
-        "Each action on the way counts with the probability with which the policy takes it.",
-        when=lambda given: given.chooses,
-    )
-    LAST_BRANCH_DROPPED = misread(
-        EPISODE_PROBABILITY,
-        "last-branch-dropped",
-        Start(S(0)) * ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 2)),
-        "The last step of an episode has its probability too.",
+        misread={
+            START_DROPPED: ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
+            POLICY_DROPPED: Start(S(0)) * ProductOver(P(S(t), A(t), S(t + 1)), t, Counting(0, T - 1)),
+            LAST_BRANCH_DROPPED: Start(S(0))
+            * ProductOver(pi(A(t), S(t)) * P(S(t), A(t), S(t + 1)), t, Counting(0, T - 2)),
+        },
     )

@@ -6,7 +6,7 @@ from sympy import Pow, evaluate, sqrt
 
 from rldrill.problems.exact import dot
 from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     INFINITY,
     Actions,
@@ -80,6 +80,15 @@ def several_violated(given: Any) -> bool:
 with evaluate(False):
     _DISCOUNTED = SumOver(gamma**t * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY))
 
+    FEATURES_UNDISCOUNTED = Misconception("undiscounted", "The features at time t count with γᵗ.")
+    FEATURES_EARLY = Misconception(
+        "gamma-one-step-early", "The features of the first state are not discounted: γ⁰ = 1."
+    )
+    FEATURES_SUMMED = Misconception(
+        "sum-for-mean",
+        "An expectation is estimated by the mean of the trajectories, not by their sum.",
+        when=lambda given: len(given.trajectories) > 1,
+    )
     FEATURE_EXPECTATIONS = Formula(
         "feature-expectations",
         mu(j),
@@ -87,27 +96,15 @@ with evaluate(False):
         title="Feature expectations",
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
-    )
-    FEATURES_UNDISCOUNTED = misread(
-        FEATURE_EXPECTATIONS,
-        "undiscounted",
-        SampleMean(SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories),
-        "The features at time t count with γᵗ.",
-    )
-    FEATURES_EARLY = misread(
-        FEATURE_EXPECTATIONS,
-        "gamma-one-step-early",
-        SampleMean(
-            SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
-        ),
-        "The features of the first state are not discounted: γ⁰ = 1.",
-    )
-    FEATURES_SUMMED = misread(
-        FEATURE_EXPECTATIONS,
-        "sum-for-mean",
-        SumOver(_DISCOUNTED, tau, Trajectories),
-        "An expectation is estimated by the mean of the trajectories, not by their sum.",
-        when=lambda given: len(given.trajectories) > 1,
+        misread={
+            FEATURES_UNDISCOUNTED: SampleMean(
+                SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
+            ),
+            FEATURES_EARLY: SampleMean(
+                SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
+            ),
+            FEATURES_SUMMED: SumOver(_DISCOUNTED, tau, Trajectories),
+        },
     )
     FEATURES_FROM = Formula(
         "feature-expectations-from",
@@ -119,6 +116,11 @@ with evaluate(False):
         hint="It is a Bellman equation with the feature in place of the reward, one system for every feature.",
         place=Place.BEYOND,
     )
+    START_IGNORED = Misconception(
+        "start-ignored",
+        "The states count with the probabilities with which an episode starts there, not all alike.",
+        when=lambda given: len(set(given.start_chances.values())) > 1,
+    )
     FEATURES_FROM_START = Formula(
         "feature-expectations-start",
         mu(j),
@@ -127,13 +129,9 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 2",
         hint="Average over the states in which an episode may start, with their probabilities.",
         place=Place.WORKING,
-    )
-    START_IGNORED = misread(
-        FEATURES_FROM_START,
-        "start-ignored",
-        MeanOver(mu_of(j, s), s, States),
-        "The states count with the probabilities with which an episode starts there, not all alike.",
-        when=lambda given: len(set(given.start_chances.values())) > 1,
+        misread={
+            START_IGNORED: MeanOver(mu_of(j, s), s, States),
+        },
     )
 
     REWARD_OF_FEATURES = Formula(
@@ -154,6 +152,11 @@ with evaluate(False):
         hint="The expert must be better than every policy by the margin, or the slack ξ has to make up for it.",
         sign="≥",
     )
+    SUM_FOR_MAXIMUM = Misconception(
+        "sum-for-maximum",
+        "One slack ξ serves all constraints: it is the largest violation, not their sum.",
+        when=several_violated,
+    )
     SLACK = Formula(
         "slack",
         xi,
@@ -163,13 +166,9 @@ with evaluate(False):
         hint="One ξ serves all constraints, so it is as large as the worst violation, and 0 if there is none.",
         note="The policies include the expert's own, with the margin 0.",
         place=Place.BEYOND,
-    )
-    SUM_FOR_MAXIMUM = misread(
-        SLACK,
-        "sum-for-maximum",
-        SumOver(worth(policy) + margin(policy) - worth_expert, policy, Violated),
-        "One slack ξ serves all constraints: it is the largest violation, not their sum.",
-        when=several_violated,
+        misread={
+            SUM_FOR_MAXIMUM: SumOver(worth(policy) + margin(policy) - worth_expert, policy, Violated),
+        },
     )
 
     APPRENTICESHIP = Formula(

@@ -18,7 +18,7 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.formula import Formula, Place, misread, slip
+from rldrill.solutions.formula.formula import Formula, Misconception, Place, fork
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -53,7 +53,7 @@ Ut = _matrix("Ut", "a")
 rt = quantity("rt", _reward_layout)
 J = letter("J")
 
-COST_TO_GO = slip(
+COST_TO_GO = fork(
     "cost-to-go-given",
     "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
 )
@@ -65,6 +65,11 @@ IN_COSTS = (
 )
 
 with evaluate(False):
+    ACTION_FIRST = Misconception(
+        "action-before-dynamics",
+        "A acts on the state alone: the next state is A s + B a, not A (s + B a).",
+        when=lambda given: any(_unit(len(A)) != A for A in given.A),
+    )
     DYNAMICS = Formula(
         "dynamics",
         St(t + 1),
@@ -72,14 +77,12 @@ with evaluate(False):
         title="Linear dynamics",
         source="Bertsekas 2017, section 3.1",
         hint="A acts on the state and B on the action; add the two.",
+        misread={
+            ACTION_FIRST: At(t) * (St(t) + Bt(t) * Ut(t)),
+        },
     )
-    ACTION_FIRST = misread(
-        DYNAMICS,
-        "action-before-dynamics",
-        At(t) * (St(t) + Bt(t) * Ut(t)),
-        "A acts on the state alone: the next state is A s + B a, not A (s + B a).",
-        when=lambda given: any(_unit(len(A)) != A for A in given.A),
-    )
+    COST_FOR_REWARD = Misconception("cost-for-reward", "A reward is the cost with a minus sign: −(sᵀQs + aᵀRa).")
+    REWARD_WITHOUT_R = Misconception("forgot-r", "The action has its price too: aᵀRa belongs in the bracket.")
     LQR_REWARD = Formula(
         "lqr-reward",
         rt(t),
@@ -87,18 +90,10 @@ with evaluate(False):
         title="LQR reward",
         source="Bertsekas 2017, section 3.1, with the sign of a reward",
         hint="Work out the price of the state and that of the action, add them, and change the sign.",
-    )
-    COST_FOR_REWARD = misread(
-        LQR_REWARD,
-        "cost-for-reward",
-        Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t),
-        "A reward is the cost with a minus sign: −(sᵀQs + aᵀRa).",
-    )
-    REWARD_WITHOUT_R = misread(
-        LQR_REWARD,
-        "forgot-r",
-        -Transposed(St(t)) * Qt(t) * St(t),
-        "The action has its price too: aᵀRa belongs in the bracket.",
+        misread={
+            COST_FOR_REWARD: Transposed(St(t)) * Qt(t) * St(t) + Transposed(Ut(t)) * Rt(t) * Ut(t),
+            REWARD_WITHOUT_R: -Transposed(St(t)) * Qt(t) * St(t),
+        },
     )
     LQR_TOTAL = Formula(
         "lqr-total",
@@ -116,6 +111,14 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1",
         hint="Multiply the gain with the state, and change the sign.",
     )
+    POSITIVE_S = Misconception(
+        "cost-to-go-for-value",
+        "The sheet's P is the matrix of the value, so negative; the positive cost-to-go S belongs in (R + BᵀSB)⁻¹BᵀSA.",
+    )
+    FORGOT_R = Misconception("forgot-r", "The price R of the action belongs in the bracket: BᵀPB − R.")
+    TRANSPOSED_A = Misconception(
+        "transposed-a", "A stands untransposed at the end; only B is transposed.", when=lambda given: len(given.A) > 1
+    )
     LQR_GAIN = Formula(
         "lqr-gain",
         Lt(t),
@@ -124,25 +127,20 @@ with evaluate(False):
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="Work out Bᵀ P first; it stands in the bracket and behind it.",
         note="$P$ is the matrix of the value $V(s) = s^⊤ P s$, negative semidefinite. Cost-to-go: $S = −P$.",
+        misread={
+            POSITIVE_S: Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
+            * -Transposed(Bt(t))
+            * Pt(t + 1)
+            * At(t),
+            FORGOT_R: Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * At(t),
+            TRANSPOSED_A: Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1)
+            * Transposed(Bt(t))
+            * Pt(t + 1)
+            * Transposed(At(t)),
+        },
     )
-    POSITIVE_S = misread(
-        LQR_GAIN,
-        "cost-to-go-for-value",
-        Pow(-Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * -Transposed(Bt(t)) * Pt(t + 1) * At(t),
-        "The sheet's P is the matrix of the value, so negative; the positive cost-to-go S belongs in (R + BᵀSB)⁻¹BᵀSA.",
-    )
-    FORGOT_R = misread(
-        LQR_GAIN,
-        "forgot-r",
-        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * At(t),
-        "The price R of the action belongs in the bracket: BᵀPB − R.",
-    )
-    TRANSPOSED_A = misread(
-        LQR_GAIN,
-        "transposed-a",
-        Pow(Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t), -1) * Transposed(Bt(t)) * Pt(t + 1) * Transposed(At(t)),
-        "A stands untransposed at the end; only B is transposed.",
-        when=lambda given: len(given.A) > 1,  # a scalar is its own transpose
+    NO_TERMINAL = Misconception(
+        "no-terminal-value", "The state at the last time T is rewarded too: P_T is −Q_T, not 0."
     )
     LQR_TERMINAL = Formula(
         "lqr-terminal",
@@ -151,12 +149,9 @@ with evaluate(False):
         title="Value matrix at the end",
         source="Bertsekas 2017, section 3.1, with P = −K",
         hint="At the last time no action is worth its price, so the value is the reward of the state alone.",
-    )
-    NO_TERMINAL = misread(
-        LQR_TERMINAL,
-        "no-terminal-value",
-        Qt(T) - Qt(T),
-        "The state at the last time T is rewarded too: P_T is −Q_T, not 0.",
+        misread={
+            NO_TERMINAL: Qt(T) - Qt(T),
+        },
     )
     LQR_RICCATI = Formula(
         "lqr-riccati",
@@ -208,6 +203,9 @@ with evaluate(False):
         note="It is then $B^2 P^2 + β P − Q R = 0$.",
         place=Place.BEYOND,
     )
+    OTHER_ROOT = Misconception(
+        "other-root", "The value sᵀPs is never positive, so P is the negative root, which makes A − BL stable."
+    )
     LQR_ROOT = Formula(
         "lqr-infinite",
         p1,
@@ -217,12 +215,9 @@ with evaluate(False):
         hint="The roots have opposite signs; the value of a state is never positive.",
         note="$S = −P$ is the positive root of $B^2 S^2 − β S − Q R = 0$.",
         place=Place.BEYOND,
-    )
-    OTHER_ROOT = misread(
-        LQR_ROOT,
-        "other-root",
-        -(beta - sqrt(beta**2 + 4 * b1**2 * q1 * r1)) / (2 * b1**2),
-        "The value sᵀPs is never positive, so P is the negative root, which makes A − BL stable.",
+        misread={
+            OTHER_ROOT: -(beta - sqrt(beta**2 + 4 * b1**2 * q1 * r1)) / (2 * b1**2),
+        },
     )
     LQR_MODES = Formula(
         "lqr-modes",
@@ -320,6 +315,11 @@ with evaluate(False):
         source="Åström & Murray 2008, section 5.4",
         hint="Row i belongs to the component of f, column j to the action.",
     )
+    FORGOT_IDENTITY = Misconception(
+        "forgot-identity",
+        "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
+        when=lambda given: given.step is not None,
+    )
     EULER_A = Formula(
         "linearise-euler-a",
         Ad,
@@ -328,13 +328,9 @@ with evaluate(False):
         source="LaValle 2006, section 14.3.2",
         hint="Differentiate s + Δt f(s, a) by s: the first term gives the identity.",
         place=Place.BEYOND,
-    )
-    FORGOT_IDENTITY = misread(
-        EULER_A,
-        "forgot-identity",
-        dt * Ai,
-        "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A.",
-        when=lambda given: given.step is not None,
+        misread={
+            FORGOT_IDENTITY: dt * Ai,
+        },
     )
     EULER_B = Formula(
         "linearise-euler-b",
@@ -363,6 +359,7 @@ with evaluate(False):
         hint="The state moves by Δt times its rate.",
         place=Place.WORKING,
     )
+    C_IS_F = Misconception("c-is-f", "C is what is left at s = 0 and a = 0: A s̄ and B ā are taken off f(s̄, ā).")
     AFFINE_TERM = Formula(
         "linearise-affine",
         Cc,
@@ -370,12 +367,9 @@ with evaluate(False):
         title="Linearisation: constant C",
         source="Åström & Murray 2008, section 5.4, multiplied out",
         hint="Multiply the linearisation out and collect what holds neither s nor a.",
-    )
-    C_IS_F = misread(
-        AFFINE_TERM,
-        "c-is-f",
-        f_bar,
-        "C is what is left at s = 0 and a = 0: A s̄ and B ā are taken off f(s̄, ā).",
+        misread={
+            C_IS_F: f_bar,
+        },
     )
     AUGMENTED_A = Formula(
         "linearise-augmented-a",
@@ -508,6 +502,7 @@ with evaluate(False):
         hint="It must be negative (definite), or Q has no maximum.",
         place=Place.BEYOND,
     )
+    K_WITH_PLUS = Misconception("uphill-sign", "At the maximum Qₐ + Qₐₐ δa = 0, so k = −Qₐₐ⁻¹ Qₐ: with its minus sign.")
     DDP_k = Formula(
         "ddp-k",
         kd,
@@ -516,12 +511,9 @@ with evaluate(False):
         source=_DDP,
         hint="The maximum of the quadratic Q in a, at the old state.",
         place=Place.BEYOND,
-    )
-    K_WITH_PLUS = misread(
-        DDP_k,
-        "uphill-sign",
-        Pow(Q_aa, -1) * Q_a,
-        "At the maximum Qₐ + Qₐₐ δa = 0, so k = −Qₐₐ⁻¹ Qₐ: with its minus sign.",
+        misread={
+            K_WITH_PLUS: Pow(Q_aa, -1) * Q_a,
+        },
     )
     DDP_K = Formula(
         "ddp-gain",

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
     A,
@@ -116,6 +116,19 @@ with evaluate(False):
         note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
         "left out, as it mostly is.",
     )
+    FIRST_RETURN_EVERYWHERE = Misconception(
+        "first-return-everywhere",
+        "Each score is weighted with the return from its own step on; rewards before it say nothing about the action.",
+        when=_several_steps,
+    )
+    LOG_FORGOTTEN = Misconception(
+        "log-forgotten", "It is the gradient of log π that is weighted, not that of π itself: ∇ log π = ∇π/π."
+    )
+    REWARD_FOR_RETURN = Misconception(
+        "reward-for-return",
+        "The score is weighted with the whole discounted return from its step on, not with the next reward alone.",
+        when=_several_steps,
+    )
     REINFORCE_ESTIMATE = Formula(
         "reinforce-estimate",
         gradient,
@@ -125,26 +138,14 @@ with evaluate(False):
         hint="Multiply the score of each step with the return from that step on, and add.",
         sign="≈",
         place=Place.WORKING,
+        misread={
+            FIRST_RETURN_EVERYWHERE: SumOver(_LOG_GRADIENT * G_t(0), t, _EPISODE),
+            LOG_FORGOTTEN: SumOver(pi(A(t), S(t)) * _LOG_GRADIENT * G_t(t), t, _EPISODE),
+            REWARD_FOR_RETURN: SumOver(_LOG_GRADIENT * r(t + 1), t, _EPISODE),
+        },
     )
-    FIRST_RETURN_EVERYWHERE = misread(
-        REINFORCE_ESTIMATE,
-        "first-return-everywhere",
-        SumOver(_LOG_GRADIENT * G_t(0), t, _EPISODE),
-        "Each score is weighted with the return from its own step on; rewards before it say nothing about the action.",
-        when=_several_steps,
-    )
-    LOG_FORGOTTEN = misread(
-        REINFORCE_ESTIMATE,
-        "log-forgotten",
-        SumOver(pi(A(t), S(t)) * _LOG_GRADIENT * G_t(t), t, _EPISODE),
-        "It is the gradient of log π that is weighted, not that of π itself: ∇ log π = ∇π/π.",
-    )
-    REWARD_FOR_RETURN = misread(
-        REINFORCE_ESTIMATE,
-        "reward-for-return",
-        SumOver(_LOG_GRADIENT * r(t + 1), t, _EPISODE),
-        "The score is weighted with the whole discounted return from its step on, not with the next reward alone.",
-        when=_several_steps,
+    DESCENT = Misconception(
+        "descent", "The expected return is maximised: the step goes up the gradient, with a plus sign."
     )
     GRADIENT_ASCENT = Formula(
         "gradient-ascent",
@@ -154,14 +155,12 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 13.1",
         hint="The return is to grow, so take a step α along the gradient.",
         sign="←",
-    )
-    DESCENT = misread(
-        GRADIENT_ASCENT,
-        "descent",
-        theta_vector - alpha * gradient,
-        "The expected return is maximised: the step goes up the gradient, with a plus sign.",
+        misread={
+            DESCENT: theta_vector - alpha * gradient,
+        },
     )
 
+    WEIGHTS_FORGOTTEN = Misconception("weights-forgotten", "Each feature counts with its own weight θᵢ.")
     LINEAR_ACTION_VALUE = Formula(
         "linear-action-value",
         Qhat(s, a),
@@ -171,12 +170,9 @@ with evaluate(False):
         hint="Multiply each weight with the action's own feature, and add.",
         also=(theta(1) * f(1, s, a) + DOTS + theta(n) * f(n, s, a),),
         place=Place.WORKING,
-    )
-    WEIGHTS_FORGOTTEN = misread(
-        LINEAR_ACTION_VALUE,
-        "weights-forgotten",
-        SumOver(f(i, s, a), i, Features),
-        "Each feature counts with its own weight θᵢ.",
+        misread={
+            WEIGHTS_FORGOTTEN: SumOver(f(i, s, a), i, Features),
+        },
     )
     LINEAR_POLICY = Formula(
         "linear-policy",
@@ -196,6 +192,10 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 13.3",
         hint="Multiply each weight with the action's own feature, and add.",
     )
+    NOT_NORMALISED = Misconception("not-normalised", "Probabilities sum to 1: divide by the sum over all actions.")
+    WITHOUT_EXP = Misconception(
+        "normalised-without-exp", "The preferences are exponentiated before they are normalised."
+    )
     SOFTMAX_POLICY = Formula(
         "softmax-policy",
         pi(a, s),
@@ -203,20 +203,20 @@ with evaluate(False):
         title="Softmax policy",
         source="Sutton & Barto 2018, eq. 13.2",
         hint="Exponentiate every action's preference, then divide by the sum of them all.",
-    )
-    NOT_NORMALISED = misread(
-        SOFTMAX_POLICY,
-        "not-normalised",
-        exp(H(s, a)),
-        "Probabilities sum to 1: divide by the sum over all actions.",
-    )
-    WITHOUT_EXP = misread(
-        SOFTMAX_POLICY,
-        "normalised-without-exp",
-        H(s, a) / SumOver(H(s, b), b, Choices),
-        "The preferences are exponentiated before they are normalised.",
+        misread={
+            NOT_NORMALISED: exp(H(s, a)),
+            WITHOUT_EXP: H(s, a) / SumOver(H(s, b), b, Choices),
+        },
     )
 
+    FEATURES_ALONE = Misconception(
+        "features-alone",
+        "The features expected under the policy are subtracted: they come from the softmax's denominator.",
+    )
+    EXPECTED_ADDED = Misconception(
+        "expected-features-added",
+        "The expected features are subtracted: the denominator of the softmax enters log π with a minus sign.",
+    )
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
@@ -225,20 +225,17 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 13.9",
         hint="The action's own features minus the features expected under the policy.",
         note="For preferences that are linear in features, $h(s, a) = θ^⊤ f(s, a)$.",
-    )
-    FEATURES_ALONE = misread(
-        SCORE_FUNCTION,
-        "features-alone",
-        f_vector(s, a),
-        "The features expected under the policy are subtracted: they come from the softmax's denominator.",
-    )
-    EXPECTED_ADDED = misread(
-        SCORE_FUNCTION,
-        "expected-features-added",
-        f_vector(s, a) + SumOver(pi(b, s) * f_vector(s, b), b, Choices),
-        "The expected features are subtracted: the denominator of the softmax enters log π with a minus sign.",
+        misread={
+            FEATURES_ALONE: f_vector(s, a),
+            EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(b, s) * f_vector(s, b), b, Choices),
+        },
     )
 
+    NEXT_VALUE_FORGOTTEN = Misconception(
+        "next-value-forgotten",
+        "The critic's target is the reward plus γ times the value of the next state.",
+        when=lambda given: any(state not in given.trajectory.terminal for state in given.trajectory.states[1:]),
+    )
     TD_ERROR = Formula(
         "td-error",
         delta(t),
@@ -246,13 +243,9 @@ with evaluate(False):
         title="TD error",
         source="Sutton & Barto 2018, eq. 6.5",
         hint="Reward plus the discounted value of the next state, minus the value of the state that is left.",
-    )
-    NEXT_VALUE_FORGOTTEN = misread(
-        TD_ERROR,
-        "next-value-forgotten",
-        r(t + 1) - V(S(t)),
-        "The critic's target is the reward plus γ times the value of the next state.",
-        when=lambda given: any(state not in given.trajectory.terminal for state in given.trajectory.states[1:]),
+        misread={
+            NEXT_VALUE_FORGOTTEN: r(t + 1) - V(S(t)),
+        },
     )
     CRITIC = Formula(
         "critic",
@@ -263,6 +256,9 @@ with evaluate(False):
         hint="The critic learns by TD(0): its value moves by α times the TD error.",
         sign="←",
     )
+    WEIGHTED_BY_REWARD = Misconception(
+        "actor-weighted-by-reward", "The actor's step is weighted with the critic's TD error, not with the reward."
+    )
     ACTOR_CRITIC = Formula(
         "actor-critic",
         theta_vector,
@@ -272,12 +268,16 @@ with evaluate(False):
         hint="The actor follows the score of the action taken, weighted with the critic's TD error.",
         sign="←",
         note="The critic learns by TD, $V(s_t) ← V(s_t) + αδ_t$; the TD error stands for the advantage.",
+        misread={
+            WEIGHTED_BY_REWARD: theta_vector + beta * r(t + 1) * _LOG_GRADIENT,
+        },
     )
-    WEIGHTED_BY_REWARD = misread(
-        ACTOR_CRITIC,
-        "actor-weighted-by-reward",
-        theta_vector + beta * r(t + 1) * _LOG_GRADIENT,
-        "The actor's step is weighted with the critic's TD error, not with the reward.",
+    BASELINE_ADDED = Misconception(
+        "baseline-added",
+        "The baseline is subtracted from the return: what counts is how much better it was than usual.",
+    )
+    BASELINE_FORGOTTEN = Misconception(
+        "baseline-forgotten", "The return is taken relative to the baseline: Gₜ − b(sₜ)."
     )
     BASELINE = Formula(
         "baseline",
@@ -286,18 +286,13 @@ with evaluate(False):
         title="Return relative to a baseline",
         source="Sutton & Barto 2018, section 13.4",
         hint="What counts is how much better the return was than the state's baseline.",
+        misread={
+            BASELINE_ADDED: G_t(t) + b_of(S(t)),
+            BASELINE_FORGOTTEN: G_t(t),
+        },
     )
-    BASELINE_ADDED = misread(
-        BASELINE,
-        "baseline-added",
-        G_t(t) + b_of(S(t)),
-        "The baseline is subtracted from the return: what counts is how much better it was than usual.",
-    )
-    BASELINE_FORGOTTEN = misread(
-        BASELINE,
-        "baseline-forgotten",
-        G_t(t),
-        "The return is taken relative to the baseline: Gₜ − b(sₜ).",
+    BASELINE_ON_THE_POLICY = Misconception(
+        "baseline-on-the-policy", "The baseline is subtracted from the return Gₜ, not from the gradient of log π."
     )
     REINFORCE_BASELINE = Formula(
         "reinforce-baseline",
@@ -309,12 +304,19 @@ with evaluate(False):
         sign="≈",
         also=(SumOver(_LOG_GRADIENT * (G_t(t) - b_of(S(t))), t, _EPISODE),),
         place=Place.WORKING,
+        misread={
+            BASELINE_ON_THE_POLICY: SumOver((_LOG_GRADIENT - b_of(S(t)) * ones) * G_t(t), t, _EPISODE),
+        },
     )
-    BASELINE_ON_THE_POLICY = misread(
-        REINFORCE_BASELINE,
-        "baseline-on-the-policy",
-        SumOver((_LOG_GRADIENT - b_of(S(t)) * ones) * G_t(t), t, _EPISODE),
-        "The baseline is subtracted from the return Gₜ, not from the gradient of log π.",
+    ADVANTAGE_SIGN = Misconception(
+        "sign-of-advantage",
+        "A good action has a positive advantage: its own value minus the state's.",
+        when=lambda given: given.lookahead is not None,
+    )
+    NEXT_STATES_VALUE = Misconception(
+        "value-of-next-state",
+        "The action value is compared with V(s) of the state itself, not with the value of what follows.",
+        when=lambda given: given.lookahead is not None,
     )
     ADVANTAGE = Formula(
         "advantage",
@@ -323,20 +325,20 @@ with evaluate(False):
         title="Advantage",
         source="Sutton & Barto 2018, section 13.4; Schulman et al. 2016, section 2",
         hint="How much better the action is than what the policy does on average in this state.",
+        misread={
+            ADVANTAGE_SIGN: V(s) - Q(s, a),
+            NEXT_STATES_VALUE: Q(s, a) - SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a)),
+        },
     )
-    ADVANTAGE_SIGN = misread(
-        ADVANTAGE,
-        "sign-of-advantage",
-        V(s) - Q(s, a),
-        "A good action has a positive advantage: its own value minus the state's.",
-        when=lambda given: given.lookahead is not None,
+    GAE_WITHOUT_LAMBDA = Misconception(
+        "lambda-forgotten",
+        "Each further TD error gets a factor γλ; with γ alone it is the Monte Carlo estimate.",
+        when=lambda given: _has_later_errors(given) and given.run.lam != 1,
     )
-    NEXT_STATES_VALUE = misread(
-        ADVANTAGE,
-        "value-of-next-state",
-        Q(s, a) - SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a)),
-        "The action value is compared with V(s) of the state itself, not with the value of what follows.",
-        when=lambda given: given.lookahead is not None,
+    GAE_WITHOUT_GAMMA = Misconception(
+        "gamma-forgotten",
+        "Each further TD error gets a factor γλ, not λ alone.",
+        when=lambda given: _has_later_errors(given) and given.gamma != 1,
     )
     GAE = Formula(
         "gae",
@@ -347,22 +349,15 @@ with evaluate(False):
         hint="Add the TD errors from this step on, each with a further factor γλ.",
         note="$λ = 0$ gives the TD error, $λ = 1$ the return minus $V(s_t)$.",
         place=Place.BEYOND,
-    )
-    GAE_WITHOUT_LAMBDA = misread(
-        GAE,
-        "lambda-forgotten",
-        SumOver(gamma**i * delta(t + i), i, Counting(0, T - t - 1)),
-        "Each further TD error gets a factor γλ; with γ alone it is the Monte Carlo estimate.",
-        when=lambda given: _has_later_errors(given) and given.run.lam != 1,
-    )
-    GAE_WITHOUT_GAMMA = misread(
-        GAE,
-        "gamma-forgotten",
-        SumOver(lam**i * delta(t + i), i, Counting(0, T - t - 1)),
-        "Each further TD error gets a factor γλ, not λ alone.",
-        when=lambda given: _has_later_errors(given) and given.gamma != 1,
+        misread={
+            GAE_WITHOUT_LAMBDA: SumOver(gamma**i * delta(t + i), i, Counting(0, T - t - 1)),
+            GAE_WITHOUT_GAMMA: SumOver(lam**i * delta(t + i), i, Counting(0, T - t - 1)),
+        },
     )
 
+    RATIO_INVERTED = Misconception(
+        "ratio-inverted", "The new policy stands above, the old one, which collected the data, below."
+    )
     PPO_RATIO = Formula(
         "ppo-ratio",
         rho(t),
@@ -370,12 +365,9 @@ with evaluate(False):
         title="Probability ratio",
         source="Schulman et al. 2017, section 3",
         hint="How much more likely the new policy makes the action than the policy that took it.",
-    )
-    RATIO_INVERTED = misread(
-        PPO_RATIO,
-        "ratio-inverted",
-        old_chance(A(t), S(t)) / new_chance(A(t), S(t)),
-        "The new policy stands above, the old one, which collected the data, below.",
+        misread={
+            RATIO_INVERTED: old_chance(A(t), S(t)) / new_chance(A(t), S(t)),
+        },
     )
     PPO_UNCLIPPED = Formula(
         "ppo-unclipped",
@@ -395,6 +387,11 @@ with evaluate(False):
         hint="Bring the ratio between 1 − ε and 1 + ε, then multiply with the advantage.",
         place=Place.WORKING,
     )
+    CLIP_WITHOUT_MIN = Misconception(
+        "clip-without-min",
+        "The objective is the smaller of the unclipped and the clipped term, not always the clipped one.",
+        when=lambda given: any(keeps_the_worse(sample, given) for sample in given.samples),
+    )
     PPO = Formula(
         "ppo",
         L_t(t),
@@ -404,13 +401,9 @@ with evaluate(False):
         hint="The smaller of the two terms: the objective never looks better than without clipping.",
         also=(Least(rho(t) * A_t(t), Clipped(rho(t), 1 - epsilon, 1 + epsilon) * A_t(t)),),
         hidden=True,
-    )
-    CLIP_WITHOUT_MIN = misread(
-        PPO,
-        "clip-without-min",
-        clipped(t),
-        "The objective is the smaller of the unclipped and the clipped term, not always the clipped one.",
-        when=lambda given: any(keeps_the_worse(sample, given) for sample in given.samples),
+        misread={
+            CLIP_WITHOUT_MIN: clipped(t),
+        },
     )
     PPO_BATCH = Formula(
         "ppo-batch",

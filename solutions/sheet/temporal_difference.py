@@ -3,7 +3,7 @@
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Script, variable
-from rldrill.solutions.formula.formula import Formula, Place, misread
+from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
@@ -27,6 +27,7 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 
 #: The λ-return, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
@@ -37,6 +38,14 @@ Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
 
 with evaluate(False):
+    FORGOT_ALPHA = Misconception(
+        "forgot-alpha", "The value moves only a step α towards the λ-return; without α it is replaced by it."
+    )
+    NOT_SUBTRACTED = Misconception(
+        "old-value-not-subtracted",
+        "α multiplies the difference between the λ-return and the old value, so the old value is subtracted in it.",
+    )
+    NOT_KEPT = Misconception("old-value-not-kept", "What α multiplies is the change: it is added to the old value.")
     TD_LAMBDA = Formula(
         "td-lambda",
         V(S(t)),
@@ -45,29 +54,31 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 12.4, for a table",
         hint="Move the old value a step α towards the λ-return.",
         sign="←",
-    )
-    FORGOT_ALPHA = misread(
-        TD_LAMBDA,
-        "forgot-alpha",
-        V(S(t)) + (Glam(t) - V(S(t))),
-        "The value moves only a step α towards the λ-return; without α it is replaced by it.",
-    )
-    NOT_SUBTRACTED = misread(
-        TD_LAMBDA,
-        "old-value-not-subtracted",
-        V(S(t)) + alpha * Glam(t),
-        "α multiplies the difference between the λ-return and the old value, so the old value is subtracted in it.",
-    )
-    NOT_KEPT = misread(
-        TD_LAMBDA,
-        "old-value-not-kept",
-        alpha * (Glam(t) - V(S(t))),
-        "What α multiplies is the change: it is added to the old value.",
+        misread={
+            FORGOT_ALPHA: V(S(t)) + (Glam(t) - V(S(t))),
+            NOT_SUBTRACTED: V(S(t)) + alpha * Glam(t),
+            NOT_KEPT: alpha * (Glam(t) - V(S(t))),
+        },
     )
 
     _WEIGHTED = SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, T - t - 1))
     _CLOSING = lam ** (T - t - 1) * G(t)
 
+    FORGOT_ONE_MINUS_LAMBDA = Misconception(
+        "forgot-one-minus-lambda", "The factor 1 − λ makes the weights sum to 1.", when=lambda given: given.bootstraps
+    )
+    FORGOT_CLOSING = Misconception(
+        "closing-return-left-out", "The sum does not stop before the end: the full return has the weight λᵀ⁻ᵗ⁻¹."
+    )
+    CLOSING_LIKE_OTHERS = Misconception(
+        "closing-weight-forgotten",
+        "The full return stands for all longer n-step returns too, so its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
+    )
+    POWER_ONE_LATE = Misconception(
+        "power-one-late",
+        "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
+        when=lambda given: given.bootstraps,
+    )
     LAMBDA_RETURN = Formula(
         "lambda-return",
         Glam(t),
@@ -77,36 +88,26 @@ with evaluate(False):
         hint="Weight the n-step returns with (1 − λ)λⁿ⁻¹; the full return gets all the weight that is left.",
         also=((1 - lam) * SumOver(lam ** (n - 1) * Gn(t, n), n, Counting(1, INFINITY)),),
         note="From the end $T$ of the episode on every n-step return is the return; they weigh $λ^{T−t−1}$.",
-    )
-    FORGOT_ONE_MINUS_LAMBDA = misread(
-        LAMBDA_RETURN,
-        "forgot-one-minus-lambda",
-        _WEIGHTED + _CLOSING,
-        "The factor 1 − λ makes the weights sum to 1.",
-        when=lambda given: given.bootstraps,
-    )
-    FORGOT_CLOSING = misread(
-        LAMBDA_RETURN,
-        "closing-return-left-out",
-        (1 - lam) * _WEIGHTED,
-        "The sum does not stop before the end: the full return has the weight λᵀ⁻ᵗ⁻¹.",
-    )
-    CLOSING_LIKE_OTHERS = misread(
-        LAMBDA_RETURN,
-        "closing-weight-forgotten",
-        (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING,
-        "The full return stands for all longer n-step returns too, so its weight is λᵀ⁻ᵗ⁻¹ without the factor 1 − λ.",
-    )
-    POWER_ONE_LATE = misread(
-        LAMBDA_RETURN,
-        "power-one-late",
-        (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING,
-        "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
-        when=lambda given: given.bootstraps,
+        misread={
+            FORGOT_ONE_MINUS_LAMBDA: _WEIGHTED + _CLOSING,
+            FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
+            CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING,
+            POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING,
+        },
     )
 
     _REWARDS = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 
+    BOOTSTRAP_UNDISCOUNTED = Misconception(
+        "bootstrap-not-discounted", "The value at the end of the n steps is discounted too, by γⁿ."
+    )
+    BOOTSTRAP_ONE_SHORT = Misconception(
+        "bootstrap-one-power-short",
+        "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
+    )
+    ONE_REWARD_TOO_MANY = Misconception(
+        "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
+    )
     N_STEP_RETURN = Formula(
         "n-step-return",
         Gn(t, n),
@@ -115,29 +116,26 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 7.1",
         hint="n rewards, each discounted, then the value of the state reached after n steps, times γⁿ.",
         also=(r(t + 1) + DOTS + gamma ** (n - 1) * r(t + n) + gamma**n * V(S(t + n)),),
-    )
-    BOOTSTRAP_UNDISCOUNTED = misread(
-        N_STEP_RETURN,
-        "bootstrap-not-discounted",
-        _REWARDS + V(S(t + n)),
-        "The value at the end of the n steps is discounted too, by γⁿ.",
-    )
-    BOOTSTRAP_ONE_SHORT = misread(
-        N_STEP_RETURN,
-        "bootstrap-one-power-short",
-        _REWARDS + gamma ** (n - 1) * V(S(t + n)),
-        "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
-    )
-    ONE_REWARD_TOO_MANY = misread(
-        N_STEP_RETURN,
-        "one-reward-too-many",
-        SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
-        "n steps earn n rewards; the next reward is already inside the value.",
+        misread={
+            BOOTSTRAP_UNDISCOUNTED: _REWARDS + V(S(t + n)),
+            BOOTSTRAP_ONE_SHORT: _REWARDS + gamma ** (n - 1) * V(S(t + n)),
+            ONE_REWARD_TOO_MANY: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
+        },
     )
 
     _DECAYED = gamma * lam * e(s)
     _VISIT = Indicator(s, S(t))
 
+    DECAY_WITHOUT_GAMMA = Misconception("decay-without-gamma", "Traces decay by γλ, not by λ alone.")
+    DECAY_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by γλ, not by γ alone.")
+    REPLACING = Misconception(
+        "replacing-trace",
+        "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
+        when=lambda given: len(set(given.states)) < len(given.states),
+    )
+    INCREMENT_FIRST = Misconception(
+        "increment-before-decay", "The trace decays first, and 1 is added after that: the newest visit counts in full."
+    )
     ELIGIBILITY_TRACE = Formula(
         "eligibility-trace",
         e(s),
@@ -146,27 +144,19 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 12.5, for a table",
         hint="Every trace decays by γλ; then that of the visited state grows by 1.",
         sign="←",
-    )
-    DECAY_WITHOUT_GAMMA = misread(
-        ELIGIBILITY_TRACE, "decay-without-gamma", lam * e(s) + _VISIT, "Traces decay by γλ, not by λ alone."
-    )
-    DECAY_WITHOUT_LAMBDA = misread(
-        ELIGIBILITY_TRACE, "decay-without-lambda", gamma * e(s) + _VISIT, "Traces decay by γλ, not by γ alone."
-    )
-    REPLACING = misread(
-        ELIGIBILITY_TRACE,
-        "replacing-trace",
-        _DECAYED * (1 - _VISIT) + _VISIT,
-        "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
-        when=lambda given: len(set(given.states)) < len(given.states),
-    )
-    INCREMENT_FIRST = misread(
-        ELIGIBILITY_TRACE,
-        "increment-before-decay",
-        gamma * lam * (e(s) + _VISIT),
-        "The trace decays first, and 1 is added after that: the newest visit counts in full.",
+        misread={
+            DECAY_WITHOUT_GAMMA: lam * e(s) + _VISIT,
+            DECAY_WITHOUT_LAMBDA: gamma * e(s) + _VISIT,
+            REPLACING: _DECAYED * (1 - _VISIT) + _VISIT,
+            INCREMENT_FIRST: gamma * lam * (e(s) + _VISIT),
+        },
     )
 
+    LITERAL_VALUE = Misconception(
+        "own-value-in-td-error",
+        "The TD error belongs to the transition: the value subtracted in it is that of the state that was left.",
+        when=lambda given: len(given.visited) > 1,
+    )
     TD_LAMBDA_BACKWARD = Formula(
         "td-lambda-backward",
         V(s),
@@ -176,15 +166,15 @@ with evaluate(False):
         hint="One TD error, that of the transition, goes to every state in proportion to its trace.",
         sign="←",
         note="For all $s$. Some sheets print $V(s)$ inside the TD error; it belongs to the state that was left, $s_t$.",
-    )
-    LITERAL_VALUE = misread(
-        TD_LAMBDA_BACKWARD,
-        "own-value-in-td-error",
-        V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
-        "The TD error belongs to the transition: the value subtracted in it is that of the state that was left.",
-        when=lambda given: len(given.visited) > 1,
+        misread={
+            LITERAL_VALUE: V(s) + alpha * e(s) * (r(t + 1) + gamma * V(S(t + 1)) - V(s)),
+        },
     )
 
+    TARGET_ONLY = Misconception("alpha-on-target-only", "α multiplies the whole TD error, the old value inside it too.")
+    WRONG_SIGN = Misconception(
+        "sign-of-td-error", "The TD error is target minus old value, so that the value moves towards the target."
+    )
     TD_ZERO = Formula(
         "td-zero",
         V(S(t)),
@@ -193,24 +183,11 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 6.2",
         hint="Move the old value a step α towards the one-step target.",
         sign="←",
-    )
-    FORGOT_GAMMA = misread(
-        TD_ZERO,
-        "forgot-gamma",
-        V(S(t)) + alpha * (r(t + 1) + V(S(t + 1)) - V(S(t))),
-        "The value of the next state is discounted by γ.",
-    )
-    TARGET_ONLY = misread(
-        TD_ZERO,
-        "alpha-on-target-only",
-        V(S(t)) + alpha * (r(t + 1) + gamma * V(S(t + 1))) - V(S(t)),
-        "α multiplies the whole TD error, the old value inside it too.",
-    )
-    WRONG_SIGN = misread(
-        TD_ZERO,
-        "sign-of-td-error",
-        V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
-        "The TD error is target minus old value, so that the value moves towards the target.",
+        misread={
+            FORGOT_GAMMA: V(S(t)) + alpha * (r(t + 1) + V(S(t + 1)) - V(S(t))),
+            TARGET_ONLY: V(S(t)) + alpha * (r(t + 1) + gamma * V(S(t + 1))) - V(S(t)),
+            WRONG_SIGN: V(S(t)) + alpha * (V(S(t)) - (r(t + 1) + gamma * V(S(t + 1)))),
+        },
     )
 
     MONTE_CARLO = Formula(
@@ -233,6 +210,16 @@ with evaluate(False):
         sign="←",
         place=Place.WORKING,
     )
+    NOT_COUNTED = Misconception(
+        "one-over-n-minus-1",
+        "The visit that is being averaged in counts too: divide by n(s) after it.",
+        when=lambda given: given.alpha is None and given.visited_before,
+    )
+    COUNTED_TWICE = Misconception(
+        "one-over-n-plus-1",
+        "n(s) counts this visit already, so nothing is added to it.",
+        when=lambda given: given.alpha is None,
+    )
     SAMPLE_AVERAGE = Formula(
         "sample-average",
         V(S(t)),
@@ -242,22 +229,27 @@ with evaluate(False):
         hint="Count the visit first; then the step size is one over the number of visits.",
         sign="←",
         note="The Monte Carlo update with $α = 1/n(s)$; $n(s)$ counts the visits of $s$, this one included.",
-    )
-    NOT_COUNTED = misread(
-        SAMPLE_AVERAGE,
-        "one-over-n-minus-1",
-        V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
-        "The visit that is being averaged in counts too: divide by n(s) after it.",
-        when=lambda given: given.alpha is None and given.visited_before,
-    )
-    COUNTED_TWICE = misread(
-        SAMPLE_AVERAGE,
-        "one-over-n-plus-1",
-        V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
-        "n(s) counts this visit already, so nothing is added to it.",
-        when=lambda given: given.alpha is None,
+        misread={
+            NOT_COUNTED: V(S(t)) + Pow(N(S(t)) - 1, -1) * (G(t) - V(S(t))),
+            COUNTED_TWICE: V(S(t)) + Pow(N(S(t)) + 1, -1) * (G(t) - V(S(t))),
+        },
     )
 
+    OLDEST_FIRST = Misconception(
+        "weights-reversed",
+        "The newest return has the greatest weight, α; the older one is, the more often it was weakened by 1 − α.",
+        when=lambda given: given.alpha is not None and len(given.visits) > 1,
+    )
+    ONE_POWER_MORE = Misconception(
+        "weakened-once-too-often",
+        "The newest return has not been weakened yet: its weight is α.",
+        when=lambda given: given.alpha is not None,
+    )
+    EQUAL_WEIGHTS = Misconception(
+        "equal-weights",
+        "Only the sample average weights all returns alike; a constant step size favours the newest.",
+        when=lambda given: given.alpha is not None,
+    )
     RECENCY_WEIGHT = Formula(
         "recency-weight",
         w(i),
@@ -266,29 +258,18 @@ with evaluate(False):
         source="Sutton & Barto 2018, eq. 2.6",
         hint="A return enters with weight α, and every later return weakens it by the factor 1 − α.",
         place=Place.WORKING,
-    )
-    OLDEST_FIRST = misread(
-        RECENCY_WEIGHT,
-        "weights-reversed",
-        alpha * (1 - alpha) ** (i - 1),
-        "The newest return has the greatest weight, α; the older one is, the more often it was weakened by 1 − α.",
-        when=lambda given: given.alpha is not None and len(given.visits) > 1,
-    )
-    ONE_POWER_MORE = misread(
-        RECENCY_WEIGHT,
-        "weakened-once-too-often",
-        alpha * (1 - alpha) ** (n - i + 1),
-        "The newest return has not been weakened yet: its weight is α.",
-        when=lambda given: given.alpha is not None,
-    )
-    EQUAL_WEIGHTS = misread(
-        RECENCY_WEIGHT,
-        "equal-weights",
-        Pow(n, -1),
-        "Only the sample average weights all returns alike; a constant step size favours the newest.",
-        when=lambda given: given.alpha is not None,
+        misread={
+            OLDEST_FIRST: alpha * (1 - alpha) ** (i - 1),
+            ONE_POWER_MORE: alpha * (1 - alpha) ** (n - i + 1),
+            EQUAL_WEIGHTS: Pow(n, -1),
+        },
     )
 
+    START_FORGOTTEN = Misconception(
+        "first-value-forgotten",
+        "With a constant step size the first value never leaves the average: its weight is (1 − α)ⁿ.",
+        when=lambda given: given.alpha is not None,
+    )
     CONSTANT_STEP_SIZE = Formula(
         "constant-step-size",
         Vn(n),
@@ -299,13 +280,9 @@ with evaluate(False):
         also=((1 - alpha) ** n * Vn(0) + SumOver(alpha * (1 - alpha) ** (n - i) * G(i), i, Counting(1, n)),),
         place=Place.BEYOND,
         hidden=True,
-    )
-    START_FORGOTTEN = misread(
-        CONSTANT_STEP_SIZE,
-        "first-value-forgotten",
-        SumOver(w(i) * G(i), i, Counting(1, n)),
-        "With a constant step size the first value never leaves the average: its weight is (1 − α)ⁿ.",
-        when=lambda given: given.alpha is not None,
+        misread={
+            START_FORGOTTEN: SumOver(w(i) * G(i), i, Counting(1, n)),
+        },
     )
 
     BATCH_MONTE_CARLO = Formula(

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.temporal_difference.batch_td_and_mc import Given, Observed, run_text
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
@@ -18,12 +18,12 @@ def _leads_on(given: Given) -> bool:
     return any(len(episode.states) > 1 for episode in given.episodes)
 
 
-TD_FOR_MC = slip(
+TD_FOR_MC = fork(
     "td-for-monte-carlo",
     "Batch Monte Carlo averages the whole returns that were seen after a state; it builds on no other state's value.",
     when=_leads_on,
 )
-MC_FOR_TD = slip(
+MC_FOR_TD = fork(
     "monte-carlo-for-td",
     "Batch TD(0) builds on the value of the next state, so what other episodes say about that state counts too.",
     when=_leads_on,
@@ -37,8 +37,8 @@ END = "–"
 def solve(given: Given, work: Work) -> None:
     """Both answers; who takes one method for the other gives its answer twice."""
     known = _known(given)
-    work.answer("a", _td(given, work, known) if work.makes(TD_FOR_MC) else _monte_carlo(given, work, known))
-    work.answer("b", _monte_carlo(given, work, known) if work.makes(MC_FOR_TD) else _td(given, work, known))
+    work.answer(_td(given, work, known) if work.makes(TD_FOR_MC) else _monte_carlo(given, work, known))
+    work.answer(_monte_carlo(given, work, known) if work.makes(MC_FOR_TD) else _td(given, work, known))
 
 
 def _known(given: Given) -> dict[str, Any]:
@@ -102,4 +102,4 @@ def oracle(given: Given) -> Answers:
         returns.append([discounts[: len(earned) - t] @ earned[t:] for t in range(len(earned))])
     X, following = np.vstack(rows), np.vstack(after)
     fit = np.linalg.lstsq(X, np.concatenate(returns), rcond=None)[0]
-    return {"a": fit, "b": np.linalg.solve(X.T @ (X - gamma * following), X.T @ np.concatenate(rewards))}
+    return (fit, np.linalg.solve(X.T @ (X - gamma * following), X.T @ np.concatenate(rewards)))

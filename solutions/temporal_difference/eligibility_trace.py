@@ -20,22 +20,21 @@ MISCONCEPTIONS = (DECAY_WITHOUT_GAMMA, DECAY_WITHOUT_LAMBDA, REPLACING, INCREMEN
 def solve(given: Given, work: Work) -> None:
     """One step for every time and every state that was visited by then; the other traces are still 0."""
     known = {"S": dict(enumerate(given.states)), "gamma": exact(given.gamma), "lam": exact(given.lam)}
-    labels = dict(zip(given.asked, "abcdefghijklmnopqrstuvwxyz", strict=False))
     traces = dict.fromkeys(given.visited, ZERO)
     for time in range(given.asked[-1] + 1):
         work.say(f"At $t = {time}$:")
         reached = dict.fromkeys(given.states[: time + 1])
         traces = traces | {s: work.step(ELIGIBILITY_TRACE, s=s, t=time, e=traces, **known) for s in reached}
-        if time in labels:
-            traces = work.answer(labels[time], traces)
+        if time in given.asked:
+            traces = work.answer(traces)
 
 
 def oracle(given: Given) -> Answers:
     """Every visit on its own: what is left of its 1 after as many steps, summed."""
     decay = at(given.gamma) * at(given.lam)
-    answers = {}
-    for label, time in zip("abcdefghijklmnopqrstuvwxyz", given.asked, strict=False):
+    answers = []
+    for time in given.asked:
         left = decay ** np.arange(time, -1, -1)
         visits = np.array([[state == visited for visited in given.states[: time + 1]] for state in given.visited])
-        answers[label] = visits @ left
+        answers.append(visits @ left)
     return answers

@@ -5,18 +5,18 @@ import numpy as np
 from rldrill.problems.temporal_difference.monte_carlo import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
 from rldrill.solutions.work import Work
 
-OTHER_VISITS = slip(
+OTHER_VISITS = fork(
     "other-visits",
     "First-visit Monte Carlo updates a state once in an episode, every-visit Monte Carlo once for each of its visits.",
     when=lambda given: given.revisits,
 )
-REWARD_BEFORE = slip(
+REWARD_BEFORE = fork(
     "reward-before-the-state",
     "The reward that comes with the arrival in a state was earned before it; the return begins with the next reward.",
     when=lambda given: len(given.trajectory.rewards) > 1,
@@ -32,7 +32,7 @@ def solve(given: Given, work: Work) -> None:
     returns = _returns(given, work, known["r"], gamma)
     if given.in_parts:
         single = len(run.rewards) == 1
-        carried = work.answer("a", returns[0] if single else returns)
+        carried = work.answer(returns[0] if single else returns)
         returns = (carried,) if single else carried
     G = dict(enumerate(returns))
     if work.makes(REWARD_BEFORE):  # r_t + γ R_t is the return from one step earlier
@@ -42,7 +42,7 @@ def solve(given: Given, work: Work) -> None:
     for time in given.counted(other if work.makes(OTHER_VISITS) else given.visits):
         value = work.step(MONTE_CARLO, t=time, V=values, G=G, alpha=exact(given.alpha), S=known["S"])
         values = values | {run.states[time]: value}
-    work.answer("b" if given.in_parts else "a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def _returns(given: Given, work: Work, rewards: dict[int, Value], gamma: Value) -> tuple[Value, ...]:
@@ -65,4 +65,4 @@ def oracle(given: Given) -> Answers:
         own = own[:1] if given.visits == "first" else own
         weights = alpha * (1 - alpha) ** np.arange(len(own) - 1, -1, -1)
         after.append((1 - alpha) ** len(own) * at(given.values[state]) + weights @ own)
-    return {"a": returns, "b": after} if given.in_parts else {"a": after}
+    return (returns, after) if given.in_parts else (after,)

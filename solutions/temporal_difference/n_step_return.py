@@ -23,18 +23,18 @@ def solve(given: Given, work: Work) -> None:
         "V": knowns.state_values(given.values, given.trajectory.terminal),
         "gamma": exact(given.gamma),
     }
-    for part, (time, steps) in zip("abcdefghijklmnopqrstuvwxyz", given.asked, strict=False):
-        work.answer(part, work.step(N_STEP_RETURN, t=time, n=steps, **known))
+    for time, steps in given.asked:
+        work.answer(work.step(N_STEP_RETURN, t=time, n=steps, **known))
 
 
 def oracle(given: Given) -> Answers:
     """Backwards from the bootstrap: worth = reward + γ · worth."""
     run = given.trajectory
-    answers = {}
-    for part, (time, steps) in zip("abcdefghijklmnopqrstuvwxyz", given.asked, strict=False):
+    answers = []
+    for time, steps in given.asked:
         last = run.states[time + steps]
         worth = 0.0 if last in run.terminal else at(given.values[last])
         for reward in reversed(run.rewards[time : time + steps]):
             worth = at(reward) + at(given.gamma) * worth
-        answers[part] = worth
+        answers.append(worth)
     return answers

@@ -39,17 +39,17 @@ def _averaged(given: Given, work: Work) -> None:
     for visit, state in S.items():
         counts = counts | {state: work.step(VISIT_COUNT, t=visit, S=S, count=counts)}
         values = values | {state: work.step(SAMPLE_AVERAGE, t=visit, S=S, count=counts, G=G, V=values)}
-    work.answer("a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def _weighted(given: Given, work: Work) -> None:
     count, alpha = len(given.visits), exact(given.alpha or 0)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
-    carried = work.answer("a", weights[0] if count == 1 else weights)
+    carried = work.answer(weights[0] if count == 1 else weights)
     w = dict(enumerate((carried,) if count == 1 else carried, start=1))
     G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
     start = exact(given.values[given.visited[0]])
-    work.answer("b", work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start}))
+    work.answer(work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start}))
 
 
 def oracle(given: Given) -> Answers:
@@ -60,10 +60,10 @@ def oracle(given: Given) -> Answers:
             count = given.counts[state]
             new = [at(value) for visited, value in given.visits if visited == state]
             means.append(np.mean([at(given.values[state])] * count + new))
-        return {"a": means}
+        return (means,)
     start, returns = at(given.values[given.visited[0]]), np.array([at(value) for _, value in given.visits])
     weights = [_updated(0.0, unit, at(given.alpha)) for unit in np.eye(len(returns))]
-    return {"a": weights, "b": _updated(start, returns, at(given.alpha))}
+    return (weights, _updated(start, returns, at(given.alpha)))
 
 
 def _updated(value: float, returns: Array, alpha: float) -> float:

@@ -5,17 +5,17 @@ import numpy as np
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.temporal_difference import ELIGIBILITY_TRACE, LITERAL_VALUE, TD_LAMBDA_BACKWARD
 from rldrill.solutions.work import Work
 
-VISITED_ONLY = slip(
+VISITED_ONLY = fork(
     "only-visited-state-updated",
     "Every state with a trace learns from the TD error, not only the one that was just left.",
     when=lambda given: len(given.visited) > 1,
 )
-TRACE_LATE = slip(
+TRACE_LATE = fork(
     "trace-updated-after-value",
     "The traces are updated before the values: the state that was just left must be counted in its own trace.",
 )
@@ -36,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
         used = before if work.makes(TRACE_LATE) else traces
         updated = (state,) if work.makes(VISITED_ONLY) else reached
         values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=used, **known) for s in updated}
-    work.answer("a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def oracle(given: Given) -> Answers:
@@ -49,4 +49,4 @@ def oracle(given: Given) -> Answers:
         error = at(reward) + at(given.gamma) * V[run.states[time + 1]] - V[run.states[time]]
         change = at(given.alpha) * error * (visits[:, : time + 1] @ decay ** np.arange(time, -1, -1))
         V |= {state: V[state] + step for state, step in zip(states, change, strict=True)}
-    return {"a": [V[state] for state in states]}
+    return ([V[state] for state in states],)

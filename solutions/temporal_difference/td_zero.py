@@ -3,12 +3,13 @@
 from rldrill.problems.temporal_difference.td_zero import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.temporal_difference import FORGOT_GAMMA, TARGET_ONLY, TD_ZERO, WRONG_SIGN
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
-STALE = slip(
+STALE = fork(
     "stale-values",
     "Each update uses the values that are current then, changed ones included; the old ones were kept.",
     when=lambda given: len(given.trajectory.rewards) > len(given.visited),
@@ -24,7 +25,7 @@ def solve(given: Given, work: Work) -> None:
     for time, state in enumerate(given.trajectory.states[:-1]):
         current = before if work.makes(STALE) else values
         values = values | {state: work.step(TD_ZERO, t=time, V=current, **known)}
-    work.answer("a", {state: values[state] for state in given.visited})
+    work.answer({state: values[state] for state in given.visited})
 
 
 def oracle(given: Given) -> Answers:
@@ -34,4 +35,4 @@ def oracle(given: Given) -> Answers:
     for state, after, reward in zip(run.states, run.states[1:], run.rewards, strict=False):
         target = at(reward) + at(given.gamma) * values[after]
         values[state] = (1 - at(given.alpha)) * values[state] + at(given.alpha) * target
-    return {"a": [values[state] for state in given.visited]}
+    return ([values[state] for state in given.visited],)

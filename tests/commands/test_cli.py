@@ -168,7 +168,7 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
     from dataclasses import replace
 
     def broken(family):  # type: ignore[no-untyped-def]
-        return replace(real(family), oracle=lambda _: {"a": [1e9]})
+        return replace(real(family), oracle=lambda _: ([1e9],))
 
     monkeypatch.setattr("rldrill.audit.solver", broken)
     (finding, *_) = audit(["td-zero"], number=2)

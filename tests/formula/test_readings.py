@@ -10,14 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Expr
 
-from rldrill.problems.catalogue import families, family
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.notation import ArgMaxOver, Quantity
 from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.sheet import formulas
-from rldrill.solutions.solution import solver
 from rldrill.solutions.vector import Vector
 
 STATES = ("cool", "warm", "hot")
@@ -99,10 +97,9 @@ def _value(expression: Expr, code: str, number: Any, matrix: Any) -> Any:
 
 
 READINGS = {key: formula.right for key, formula in formulas().items()} | {
-    f"{name}: {misconception.name}": misconception.reads
-    for name in families()
-    for misconception in solver(family(name)).misconceptions
-    if misconception.reads is not None
+    f"{key}: {misconception.name}": reads
+    for key, formula in formulas().items()
+    for misconception, reads in formula.misread.items()
 }
 
 

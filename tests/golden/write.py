@@ -28,10 +28,10 @@ MEASURED = range(15)
 def pinned(exercise: Exercise) -> dict[str, Any]:
     """What is pinned of a problem: its givens and its exact answers."""
     expected = solver(exercise.problem.family).oracle(exercise.problem.given)
-    for part in exercise.parts:
+    for part, other in zip(exercise.parts, expected, strict=True):
         answer = exercise.solution.answers[part.label]
-        if not agrees(part, answer, expected[part.label]):
-            sys.exit(f"{exercise.id} ({part.label}): {answer} is not {expected[part.label]}, which the oracle has.")
+        if not agrees(part, answer, other):
+            sys.exit(f"{exercise.id} ({part.label}): {answer} is not {other}, which the oracle has.")
     data = exercise.data()
     return {"given": data["given"], "answers": {part["part"]: part["answer"]["exact"] for part in data["parts"]}}
 
