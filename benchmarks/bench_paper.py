@@ -2,9 +2,10 @@
 
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from rldrill.formula_sheet import sheet_source
-from rldrill.paper import PAPERS, pdf
-from rldrill.worksheet import plan, worksheet_source
+from rldrill.exam.planning import plan
+from rldrill.print.formula_sheet import sheet_source
+from rldrill.print.paper import PAPERS, pdf
+from rldrill.print.worksheet import worksheet_source
 
 
 def bench_worksheet_of_eight(benchmark: BenchmarkFixture) -> None:

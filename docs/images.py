@@ -1,12 +1,13 @@
-"""Write the README's images anew: pages of a worksheet, and the formula sheet. Run it after a change of layout."""
+"""Write the README's images again: pages of a worksheet, and the formula sheet. Run it after a change of layout."""
 
 from pathlib import Path
 
 import typst
 
-from rldrill.formula_sheet import sheet_source
-from rldrill.paper import PAPERS
-from rldrill.worksheet import plan, worksheet_source
+from rldrill.exam.planning import plan
+from rldrill.print.formula_sheet import sheet_source
+from rldrill.print.paper import PAPERS
+from rldrill.print.worksheet import worksheet_source
 
 A4 = PAPERS["a4"]
 FAMILIES = ("return", "policy-evaluation", "forward-kinematics")

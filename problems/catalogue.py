@@ -56,7 +56,7 @@ def family(name: str) -> Family:
     for topic, names in topics().items():
         if wanted in names:
             return Family.load(topic, wanted)
-    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; see 'rldrill list'.")
+    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; rldrill.families() and 'rldrill list' tell.")
 
 
 def selection(names: tuple[str, ...] | list[str]) -> tuple[Family, ...]:

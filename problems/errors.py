@@ -21,3 +21,7 @@ class NothingToGrade(UserError):
     """The files hold no answers (exit code 4)."""
 
     exit_code = 4
+
+
+class BrokenFamily(Exception):
+    """A family that is not complete, or contradicts itself; the sentence tells its author what to do."""

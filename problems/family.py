@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
-from rldrill.problems.errors import FileError
+from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
@@ -79,7 +79,7 @@ class Family:
         """Load a family from its module.
 
         Raises:
-            TypeError: the module lacks something that a family must have.
+            BrokenFamily: the module lacks something that a family must have.
         """
         module = importlib.import_module(f"rldrill.problems.{topic}.{name.replace('-', '_')}")
         return cls(
@@ -121,7 +121,7 @@ def _demanded(module: ModuleType, name: str) -> Any:
     try:
         return getattr(module, name)
     except AttributeError:
-        raise TypeError(f"{module.__file__}: a family must have {name}") from None
+        raise BrokenFamily(f"{module.__file__}: a family must have {name}; add it.") from None
 
 
 @dataclass(frozen=True)

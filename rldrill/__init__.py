@@ -1,21 +1,48 @@
 """rldrill drills the formulas of Reinforcement Learning and Robot Learning.
 
-The library behind the commands: ``draw`` and ``load`` give an ``Exercise``, which can be shown, solved
-and checked. Nothing heavy is imported before one of them is used.
+The library behind the commands: ``families`` names what there is; ``draw`` and ``load`` give an ``Exercise``,
+which can be shown, solved, checked and graded. Nothing heavy is imported before one of them is used.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rldrill.exercise import Exercise, draw, load, read
+    from rldrill.graded import Graded, GradedPart
+    from rldrill.problems.catalogue import families
+    from rldrill.problems.errors import UserError
+    from rldrill.solutions.answers.judging import Outcome, Verdict
 
 __version__ = "0.1.0"
-__all__ = ["Exercise", "draw", "load", "read"]
+__all__ = [
+    "Exercise",
+    "Graded",
+    "GradedPart",
+    "Outcome",
+    "UserError",
+    "Verdict",
+    "draw",
+    "families",
+    "load",
+    "read",
+]
+
+_HOMES = {
+    "exercise": ("Exercise", "draw", "load", "read"),
+    "graded": ("Graded", "GradedPart"),
+    "problems.catalogue": ("families",),
+    "problems.errors": ("UserError",),
+    "solutions.answers.judging": ("Outcome", "Verdict"),
+}
 
 
 def __getattr__(name: str) -> Any:
-    if name in __all__:
-        from rldrill import exercise
-
-        return getattr(exercise, name)
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f"rldrill.{home}"), name)
     raise AttributeError(f"module 'rldrill' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

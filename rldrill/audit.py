@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from rldrill.exam.selection import MAX_DRAWN
 from rldrill.problems.catalogue import selection
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Family
 from rldrill.problems.parts import Part, Policy
-from rldrill.selection import MAX_DRAWN
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw

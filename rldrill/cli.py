@@ -8,7 +8,7 @@ from io import TextIOWrapper
 import typer
 
 from rldrill.commands import audit, generate, list_, quiz, sheet, show, solve, verify, worksheet
-from rldrill.problems.errors import UserError
+from rldrill.problems.errors import BrokenFamily, UserError
 
 INTERNAL_ERROR = 70
 
@@ -48,6 +48,8 @@ def main() -> None:
         app()
     except UserError as error:
         fail(str(error), error.exit_code)
+    except BrokenFamily as error:
+        fail(str(error), INTERNAL_ERROR)
     except OSError as error:
         if error.filename is None and error.errno is None:
             raise

@@ -1,16 +1,26 @@
 """The library: a problem with its solution, drawn or brought, that can be shown, solved and checked."""
 
-from collections.abc import Mapping
+import reprlib
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
+from rldrill.files import DATA_SUFFIXES
+from rldrill.graded import Graded, grade
+from rldrill.problem_file import FORMAT, read_problem
 from rldrill.problems.catalogue import family as family_of
-from rldrill.problems.document import Block, Document, Equation, Heading, Paragraph
+from rldrill.problems.document import Block, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
-from rldrill.problems.parts import Choice, Part
+from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
+from rldrill.render.markdown import markdown
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.page import Page
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
@@ -19,14 +29,15 @@ from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
 from rldrill.solutions.work import Drawn, Note, Recalled, Result, Step
-
-#: The version of the JSON that ``data`` gives and that problem files have.
-FORMAT = 1
+from rldrill.typed import typed
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Exercise:
-    """A problem together with its solution."""
+    """A problem together with its solution.
+
+    What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
+    """
 
     solution: Solution
 
@@ -45,38 +56,80 @@ class Exercise:
         """What is asked."""
         return self.problem.parts
 
+    def __repr__(self) -> str:
+        name = self.id or f"of the family {self.problem.family.name}"
+        return f"<Exercise {name}: {', '.join(f'({part.label})' for part in self.parts)}>"
+
+    def _repr_markdown_(self) -> str:
+        asked = [Paragraph(text) for part in self.parts for text in _asked(part)]
+        return markdown((Heading(self.problem.family.title), *self.question(), *asked))
+
     def solve(self) -> Mapping[str, Any]:
-        """The exact answer of every part: sympy and flint numbers, in tuples and dictionaries."""
+        """The exact answer of every part, to calculate with: flint and sympy numbers, in tuples and dictionaries."""
         return self.solution.answers
 
-    def check(self, text: str, part: str = "a", earlier: Mapping[str, Any] | None = None) -> Verdict:
-        """Judge a typed answer.
+    def answers(self) -> dict[str, Any]:
+        """The exact answer of every part, to read: fractions, and text where a number is not rational.
+
+        A table is a dictionary, a vector a tuple, a matrix a tuple of its rows; a policy holds the best action of
+        every state, or a tuple of those that are equally good. ``check`` and ``grade`` take them as they are.
+        """
+        return {part.label: _readable(part.kind, self.solution.answers[part.label]) for part in self.parts}
+
+    def check(self, answer: object, part: str = "a") -> Verdict:
+        """Judge an answer to one part, for itself.
 
         Args:
-            text: what was typed, such as ``3/4`` or ``cool: 7/2, warm: 2.5``.
+            answer: what was typed, such as ``3/4`` or ``cool: 7/2, warm: 2.5``; or a number, a list or a table.
             part: the part that it answers.
-            earlier: ``Verdict.value`` of the answers to earlier parts, for follow-through.
+
+        Raises:
+            UsageError: the problem has no such part, or the answer is nothing that could be typed.
+        """
+        label = self._part(part).label
+        if answer is None:
+            raise UsageError("The answer is missing; give a text or a number.")
+        return judge(self.solution, label, typed(answer, "The answer"))
+
+    def grade(self, answers: Mapping[str, object]) -> Graded:
+        """Judge a whole submission; a later part is also judged with the person's own answers to earlier parts.
+
+        Args:
+            answers: for the labels of parts what was typed, or numbers, lists and tables; blank is missing.
+
+        Raises:
+            UsageError: the problem has no such part, or an answer is nothing that could be typed.
+        """
+        if not isinstance(answers, Mapping):
+            raise _refused("answers", "a dictionary such as {'a': '3/4'}", answers)
+        texts = {
+            self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
+        }
+        return grade(self.solution, texts)
+
+    def _part(self, label: str) -> Part:
+        for part in self.parts:
+            if part.label == label:
+                return part
+        known = ", ".join(part.label for part in self.parts)
+        raise UsageError(f"There is no part {str(label)[:20]!r}; this problem has {known}.")
+
+    def question(self) -> Page:
+        """What is printed before the parts."""
+        return Page(self.problem.question.blocks)
+
+    def working(self, part: str | None = None) -> Page:
+        """The working, whole or of one part.
 
         Raises:
             UsageError: the problem has no such part.
         """
-        if part not in {known.label for known in self.parts}:
-            labels = ", ".join(known.label for known in self.parts)
-            raise UsageError(f"There is no part {part[:20]!r}; this problem has {labels}.")
-        return judge(self.solution, part, text, earlier)
-
-    def question(self) -> Document:
-        """What is printed before the parts."""
-        return self.problem.question.blocks
-
-    def working(self, part: str | None = None) -> Document:
-        """The working as a page, whole or of one part."""
         if part is None and len(self.parts) > 1:
-            return tuple(
+            return Page(
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
         blocks: list[Block] = []
-        for line in self.solution.lines if part is None else self.solution.lines_of(part):
+        for line in self.solution.lines if part is None else self.solution.lines_of(self._part(part).label):
             if isinstance(line, Step | Recalled):
                 blocks.append(line.equation())
             elif isinstance(line, Note):
@@ -85,30 +138,38 @@ class Exercise:
                 blocks.append(line.picture)
             elif isinstance(line, Result):
                 blocks.extend(line.equations())
-        return tuple(blocks)
+        return Page(blocks)
 
     def answer(self, part: Part) -> Equation | Paragraph:
         """The exact answer of a part, typeset, as a block; a table has a line for each of its keys."""
         return answer_kind(part.kind).block(self.solution.answers[part.label])
 
     def formulas(self, part: str | None = None) -> tuple[Formula, ...]:
-        """The formulas of the sheet that the working uses; their equations and hints are the hint."""
-        return self.solution.formulas(part)
+        """The formulas of the sheet that the working uses; their equations and hints are the hint.
 
-    def hint(self, part: str | None = None) -> Document:
-        """The formulas that are needed, and a sentence on each; two sentences where none is."""
+        Raises:
+            UsageError: the problem has no such part.
+        """
+        return self.solution.formulas(None if part is None else self._part(part).label)
+
+    def hint(self, part: str | None = None) -> Page:
+        """The formulas that are needed, and a sentence on each; two sentences where none is.
+
+        Raises:
+            UsageError: the problem has no such part.
+        """
         formulas = self.formulas(part)
         if not formulas:
-            return (
-                Paragraph("No formula is needed here: go by what is given."),
-                Paragraph("Rule out one answer after the other."),
+            return Page(
+                (
+                    Paragraph("No formula is needed here: go by what is given."),
+                    Paragraph("Rule out one answer after the other."),
+                )
             )
-        return tuple(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
+        return Page(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
 
     def data(self, *, answers: bool = True) -> dict[str, Any]:
         """The problem as JSON has it; with ``answers`` also the exact answers and the steps."""
-        from rldrill.render.unicode import unicode, unicode_text
-
         result: dict[str, Any] = {"format": FORMAT, "id": self.id, **self.problem.data()}
         result["level"] = self.problem.level
         result["question"] = [unicode_text(block) for block in self.question()]
@@ -136,13 +197,40 @@ class Exercise:
         return result
 
 
+def _asked(part: Part) -> Iterator[str]:
+    """The lines that ask for a part: the sentence, then what there is to choose from."""
+    yield f"({part.label}) {part.ask}"
+    if isinstance(part.kind, Choice):
+        yield from (f"({letter}) {option}" for letter, option in part.kind.options.items())
+
+
+def _readable(kind: Kind, value: Any) -> Any:
+    data = answer_kind(kind).data(value)
+    return _map(data, str if isinstance(kind, Policy | Choice | YesNo) else _number)
+
+
+def _map(data: Any, write: Callable[[str], Any]) -> Any:
+    if isinstance(data, dict):
+        return {key: _map(item, write) for key, item in data.items()}
+    return tuple(_map(item, write) for item in data) if isinstance(data, list) else write(data)
+
+
+def _number(text: str) -> Fraction | str:
+    try:
+        return Fraction(text)
+    except ValueError:
+        return text
+
+
 def draw(family: str, level: int = 1, seed: int = 0) -> Exercise:
     """Draw a problem; the same arguments give the same problem, to the letter, everywhere.
 
     Raises:
-        UsageError: there is no such family or level.
+        UsageError: there is no such family or level, or the seed is no whole number in range.
     """
-    return Exercise(drawing.draw(family, level, seed))
+    if not isinstance(family, str):
+        raise _refused("family", "the name of a family such as 'td-zero'", family)
+    return Exercise(drawing.draw(family, _whole("level", level), _whole("seed", seed)))
 
 
 def load(id_or_path: str | Path) -> Exercise:
@@ -152,15 +240,15 @@ def load(id_or_path: str | Path) -> Exercise:
         UsageError: it is neither an ID nor a file.
         FileError: the file is unreadable or inconsistent.
     """
+    if not isinstance(id_or_path, str | Path):
+        raise _refused("id_or_path", "a problem ID such as 'td-zero/2/7' or the path of a problem file", id_or_path)
     text = str(id_or_path)
     if looks_like_id(text):
         return Exercise(drawing.by_id(text))
-    if Path(text).suffix.lower() not in (".toml", ".json"):
+    if Path(text).suffix.lower() not in DATA_SUFFIXES:
         raise UsageError(
             f"{text[:60]!r} is neither a problem ID (such as value-iteration/2/7) nor a problem file (.toml or .json)."
         )
-    from rldrill.files import read_problem
-
     return read(read_problem(Path(id_or_path)), where=text)
 
 
@@ -171,7 +259,9 @@ def read(data: object, where: str = "the problem") -> Exercise:
         FileError: the data does not fit, or the problem has no answer.
     """
     if not isinstance(data, dict) or not isinstance(data.get("family"), str) or "given" not in data:
-        raise FileError(f"{where}: a problem file needs 'family' and '[given]'; 'rldrill show ID --json' writes one.")
+        raise FileError(
+            f"{where}: a problem needs 'family' and 'given'; 'rldrill show ID --json' and Exercise.data() write both."
+        )
     family = family_of(data["family"])
     try:
         problem = Problem(family, family.read(data["given"]))
@@ -180,3 +270,13 @@ def read(data: object, where: str = "the problem") -> Exercise:
         raise FileError(f"{where}: {error}") from None
     except NoSolution as error:
         raise FileError(f"{where}: this problem has no answer: {error}.") from None
+
+
+def _whole(name: str, value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise _refused(name, "a whole number", value)
+    return int(value)
+
+
+def _refused(name: str, wanted: str, value: object) -> UsageError:
+    return UsageError(f"{name} must be {wanted}, not {' '.join(reprlib.repr(value).split())}.")

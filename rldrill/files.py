@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from rldrill.exercise import FORMAT
 from rldrill.problems.errors import FileError
 
 #: What the names of files that hold data end in.
@@ -17,33 +16,8 @@ _DEEPEST = 32  # levels of brackets; a problem file needs six
 _DIGITS = 40
 _TOO_DEEP = f"it nests deeper than {_DEEPEST} brackets; write it flatter."
 _TOO_LONG = f"a whole number has more than {_DIGITS} digits; shorten it."
-_IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
 _TOML_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)\)$")
 _NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
-
-
-def read_problem(path: str | Path) -> dict[str, Any]:
-    """The family and the givens that a problem file (TOML or JSON) holds.
-
-    What ``rldrill show ID --json`` writes beside them is passed over.
-
-    Raises:
-        FileError: the file cannot be read, or is not a problem file.
-    """
-    data = read_data(path)
-    where = shown(path)
-    if not isinstance(data, dict):
-        raise FileError(f"{where}: a problem file is a table with 'family' and 'given', not {_kind(data)}.")
-    version = data.get("format", FORMAT)
-    if type(version) is not int or version != FORMAT:
-        raise FileError(
-            f"{where}: its format is {_brief(version)}, and this release reads format {FORMAT}; "
-            "write the file again with this release's 'rldrill show ID --json'."
-        )
-    unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
-    if unknown:
-        raise FileError(f"{where}: {_brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
-    return {key: data[key] for key in ("family", "given") if key in data}
 
 
 def read_data(path: str | Path) -> object:
@@ -140,7 +114,7 @@ def _parsed(read: Callable[[str], object], text: str, where: str, line: int | No
             place = f"{where}, at its end"
         else:
             place = f"{where}, line {error.line + (line or 1) - 1}, column {error.column}"
-        raise FileError(f"{place}: the syntax is broken ({error}); mend it there.") from None
+        raise FileError(f"{place}: the syntax is broken ({error}); fix it there.") from None
     except RecursionError:
         raise FileError(f"{here}: {_TOO_DEEP}") from None
     except _RefusedError as error:
@@ -181,7 +155,7 @@ def _distinct(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     result: dict[str, Any] = {}
     for key, value in pairs:
         if key in result:
-            raise _RefusedError(f"the key {_brief(key)} stands twice in one object; keep one of them.")
+            raise _RefusedError(f"the key {brief(key)} stands twice in one object; keep one of them.")
         result[key] = value
     return result
 
@@ -205,7 +179,7 @@ def _check_item(item: object) -> None:
         try:
             item.encode()
         except UnicodeEncodeError:
-            raise _RefusedError(f"{_brief(item)} holds half a character; type it anew.") from None
+            raise _RefusedError(f"{brief(item)} holds half a character; retype it.") from None
 
 
 def _children(item: object) -> Iterator[object]:
@@ -225,11 +199,12 @@ def shown(path: str | Path) -> str:
     return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in str(path))
 
 
-def _brief(value: object) -> str:
+def brief(value: object) -> str:
     """A scalar as it is quoted in a sentence."""
-    text = repr(value) if isinstance(value, str | int | float) else _kind(value)
+    text = repr(value) if isinstance(value, str | int | float) else kind_of(value)
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _kind(value: object) -> str:
+def kind_of(value: object) -> str:
+    """What a value is called in a sentence."""
     return {dict: "a table", list: "a list", str: "a text", type(None): "nothing"}.get(type(value), "a single value")

@@ -7,6 +7,7 @@ from functools import cache, cached_property
 from types import ModuleType
 from typing import Any
 
+from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.formula.formula import Formula, Misconception, _forked
@@ -32,7 +33,7 @@ def solver(family: Family) -> Solver:
     """The solver of a family.
 
     Raises:
-        TypeError: its module lacks something that a solver must have.
+        BrokenFamily: its module lacks something that a solver must have.
     """
     module = importlib.import_module(f"rldrill.solutions.{family.topic}.{family.name.replace('-', '_')}")
     return Solver(
@@ -47,7 +48,7 @@ def _demanded(module: ModuleType, name: str) -> Any:
     try:
         return getattr(module, name)
     except AttributeError:
-        raise TypeError(f"{module.__file__}: a solver must have {name}") from None
+        raise BrokenFamily(f"{module.__file__}: a solver must have {name}; add it.") from None
 
 
 @dataclass(frozen=True)

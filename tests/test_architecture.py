@@ -1,13 +1,15 @@
-"""The rooms: imports go one way, every family has its twin, and nothing lies astray."""
+"""The rooms: imports go one way, every family has its twin, and nothing is left over."""
 
 import ast
+import re
+from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
 from pathlib import Path
 from statistics import median
 
 import pytest
 
-from rldrill import expected
+from rldrill.exam import expected
 from rldrill.problems.catalogue import families, family, topics
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import minutes, whole
@@ -18,15 +20,86 @@ ROOT = Path(__file__).parent.parent
 NOT_TOPICS = {"formula", "sheet", "answers", "__pycache__"}
 
 
+#: What each room of rldrill/ may import, beside itself; docs/architecture.md has the same table.
+MAY_IMPORT = {
+    "render": {"problems"},
+    "library": {"problems", "solutions", "render"},
+    "exam": {"problems", "solutions", "library"},
+    "print": {"problems", "solutions", "library", "render", "exam"},
+    "grading": {"problems", "solutions", "library"},
+    "quiz": {"problems", "solutions", "library", "render", "exam"},
+    "audit": {"problems", "solutions", "exam"},
+    "commands": {"problems", "library", "render", "exam", "print", "grading", "quiz", "audit"},
+}
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    parts = parts if parts[0] == "rldrill" else ("rldrill", *parts)
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+#: Every module with its file; what the links in rldrill/ lead to is met once.
+MODULES = {
+    module_name(path): path
+    for room in ("problems", "solutions", "rldrill")
+    for path in (ROOT / room).rglob("*.py")
+    if path.relative_to(ROOT).parts[:2] not in (("rldrill", "problems"), ("rldrill", "solutions"))
+}
+
+
 def imported(path: Path) -> set[str]:
+    """Every name that a file imports, within functions too; not what only a type checker imports."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            waiting += node.orelse
+            continue
+        waiting += ast.iter_child_nodes(node)
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: imports are absolute"
-            names |= {node.module or ""} | {f"{node.module}.{alias.name}" for alias in node.names}
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
     return names
+
+
+def edges() -> dict[str, set[str]]:
+    """For every module the modules that it imports; what is no module itself is a name in one."""
+    return {
+        module: {name if name in MODULES else name.rpartition(".")[0] for name in imported(path)} & set(MODULES)
+        for module, path in MODULES.items()
+    }
+
+
+def room_of(module: str) -> str:
+    parts = module.split(".")
+    if len(parts) > 1 and (ROOT / "rldrill" / parts[1]).is_dir():
+        return parts[1]
+    return {"cli": "commands", "__main__": "commands", "audit": "audit"}.get(parts[-1], "library")
+
+
+def test_imports_run_in_no_circle() -> None:
+    try:
+        list(TopologicalSorter(edges()).static_order())
+    except CycleError as error:
+        pytest.fail(" → ".join(reversed(error.args[1])))
+
+
+def test_a_room_imports_only_what_it_may() -> None:
+    for module, others in edges().items():
+        room = room_of(module)
+        allowed = MAY_IMPORT.get(room)
+        for other in others if allowed is not None else ():
+            assert room_of(other) in {room, *allowed}, f"{module} imports {other}"
+
+
+def test_the_documented_table_is_the_tested_one() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \|[^|]*\| ([^|]*) \|$", text, re.MULTILINE)
+    assert {room: set(re.findall(r"\w+", others)) for room, others in rows} == MAY_IMPORT
 
 
 @pytest.mark.parametrize(("room", "allowed"), [("problems", ("problems",)), ("solutions", ("problems", "solutions"))])
@@ -50,7 +123,7 @@ def test_oracles_use_none_of_the_formulas() -> None:
     assert not {name for name in used if name.startswith("rldrill.solutions")}
 
 
-def test_every_family_has_its_twin_and_nothing_is_astray() -> None:
+def test_every_family_has_its_twin_and_nothing_is_left_over() -> None:
     twins = {
         (folder.name, file.stem)
         for folder in (ROOT / "solutions").iterdir()
@@ -116,4 +189,4 @@ def test_formulas_are_complete() -> None:
 def test_levels_ask_for_more_and_more_work(name: str) -> None:
     work = [median(minutes(draw(name, level, seed)) for seed in range(15)) for level in family(name).levels]
     assert all(easier < harder for easier, harder in pairwise(work)), [float(m) for m in work]
-    assert expected.minutes().get(name) == [whole(m) for m in work], "run 'python tests/golden/write.py'"
+    assert expected.minutes().get(name) == [whole(m) for m in work], f"run 'python tests/golden/write.py {name}'"

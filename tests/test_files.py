@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from rldrill.files import read_data, read_problem
+from rldrill.files import read_data
+from rldrill.problem_file import read_problem
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import FileError, UserError
 

@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 from printed import poppler, words
 from rldrill.commands import sheet as sheet_command
-from rldrill.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
-from rldrill.paper import PAPERS, pdf
+from rldrill.print.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
+from rldrill.print.paper import PAPERS, pdf
 from rldrill.problems.errors import UsageError
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.formula.formula import Place

@@ -1,5 +1,6 @@
 """What the README shows is what the program does: its commands are run, its picture is drawn again."""
 
+import doctest
 import os
 import re
 import shutil
@@ -51,11 +52,35 @@ def test_commands(command: str, code: int, lines: list[str], folder: Path) -> No
              "COLUMNS": "140"},
     )  # fmt: skip
     assert process.returncode == code, process.stderr
-    printed = iter(" ".join(line.split()) for line in process.stdout.splitlines())
-    for line in lines:
-        if line != "…":
-            wanted = " ".join(line.split())
-            assert any(wanted == found for found in printed), f"{command} does not print {wanted!r} there"
+    assert lines, f"README.md does not show what {command} prints"
+    assert set(lines) - {"…"}, f"README.md leaves out all that {command} prints"
+    printed = "".join(f"{line.rstrip()}\n" for line in process.stdout.rstrip().splitlines())
+    assert re.fullmatch(pattern(lines), printed), f"{command} prints\n{printed}"
+
+
+def pattern(lines: list[str]) -> str:
+    """What matches an output that the README shows: all of it, but for what an ellipsis stands for.
+
+    An ellipsis is any lines where it has a line of its own, and the rest of the line where it ends one.
+    """
+    shown = (re.escape(line[:-1]) + ".*\n" if line.endswith("…") else re.escape(line) + "\n" for line in lines)
+    return "".join("(?:.*\n)*" if line == "…" else written for line, written in zip(lines, shown, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("printed", "same"),
+    [
+        ("a\nb  c\nd\n", True),
+        ("a\nb  c\nd\ne\n", False),
+        ("x\na\nb  c\nd\n", False),
+        ("a\nb c\nd\n", False),
+        ("a\nd\n", False),
+        ("a\nb  c\n", False),
+    ],
+)
+def test_an_output_that_differs_anywhere_is_noticed(printed: str, same: bool) -> None:
+    assert (re.fullmatch(pattern(["a", "b  c", "d"]), printed) is not None) == same
+    assert (re.fullmatch(pattern(["…", "a", "b  …", "d"]), printed) is not None) == (same or printed.startswith("x"))
 
 
 def test_every_command_has_its_place_in_the_tour() -> None:
@@ -84,15 +109,13 @@ def test_the_picture_of_the_quiz() -> None:
     assert picture.strip() in seen
 
 
-def test_the_library_lines_run() -> None:
+def test_the_library_prints_what_the_readme_shows(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
     (block,) = blocks("python")
-    process = subprocess.run(
-        [sys.executable, "-c", block], capture_output=True, text=True, encoding="utf-8", check=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"},
-    )  # fmt: skip
-    first, second = process.stdout.splitlines()
-    assert first.startswith('What is $V("')
-    assert second.partition(" ")[0] in ("right", "misconception", "wrong", "unreadable", "close")
+    lines = doctest.DocTestParser().get_doctest(block, {}, "README.md", None, None)
+    assert lines.examples
+    found = StringIO()
+    assert doctest.DocTestRunner().run(lines, out=found.write).failed == 0, found.getvalue()
 
 
 def test_links_lead_somewhere() -> None:

@@ -14,10 +14,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from rldrill.answers_file import read_answers
 from rldrill.commands import verify as verify_command
+from rldrill.grading.answers_file import read_answers
+from rldrill.grading.verification import MarkedPart, Report, Score, verify
 from rldrill.problems.errors import FileError, NothingToGrade
-from rldrill.verification import Report, Row, Score, verify
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -72,12 +72,12 @@ def write(folder: Path, name: str, content: str | bytes) -> Path:
     return path
 
 
-def rows(report: Report) -> list[Row]:
+def rows(report: Report) -> list[MarkedPart]:
     assert not report.failures, report.failures
-    return list(report.rows)
+    return list(report.parts)
 
 
-def judged(folder: Path, content: str) -> list[Row]:
+def judged(folder: Path, content: str) -> list[MarkedPart]:
     return rows(verify([write(folder, "answers.toml", content)]))
 
 

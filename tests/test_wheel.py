@@ -61,7 +61,9 @@ def test_it_claims_one_name_and_holds_every_module(wheel: Path) -> None:
     for room in ("problems", "solutions"):
         modules = {str(path.relative_to(ROOT)) for path in (ROOT / room).rglob("*.py")}
         assert {f"rldrill/{module}" for module in modules} <= set(names)
-    assert "rldrill/py.typed" in names
+    typst = {str(path.relative_to(ROOT)) for path in (ROOT / "rldrill").rglob("*.typ")}
+    assert typst
+    assert {*typst, "rldrill/py.typed", "rldrill/exam/minutes.json"} <= set(names)
 
 
 def test_it_runs_away_from_the_checkout(wheel: Path, tmp_path: Path) -> None:

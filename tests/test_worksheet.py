@@ -15,22 +15,19 @@ from typer.testing import CliRunner
 from printed import poppler, words
 from rldrill import load
 from rldrill.commands import worksheet as worksheet_command
-from rldrill.paper import PAPERS, paper_of, pdf, write_bytes_atomically
+from rldrill.exam.exam import Exam
+from rldrill.exam.manifest import manifest
+from rldrill.exam.planning import plan, version_code
+from rldrill.print.exam_files import write
+from rldrill.print.files import write_bytes_atomically
+from rldrill.print.key import answer_lines, key_source
+from rldrill.print.paper import PAPERS, paper_of, pdf
+from rldrill.print.worksheet import worksheet_source
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
-from rldrill.render.unicode import unicode
+from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.rule import RULE
-from rldrill.worksheet import (
-    Sheet,
-    answer_lines,
-    key_source,
-    manifest,
-    plan,
-    version_code,
-    worksheet_source,
-    write,
-)
 
 A4, LETTER = PAPERS["a4"], PAPERS["letter"]
 MARGIN = 2 * 72 / 2.54 - 1
@@ -38,23 +35,23 @@ TITLE = "Quiz #1 *for* <all> $ ] // @x"
 
 
 @pytest.fixture(scope="module")
-def sheet() -> Sheet:
+def exam() -> Exam:
     return plan([], len(families()), None, 5, 3, title=TITLE)
 
 
 @pytest.fixture(scope="module")
-def folder(sheet: Sheet, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(exam: Exam, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("printed")
-    write(sheet, folder / "exam.pdf", LETTER)
+    write(exam, folder / "exam.pdf", LETTER)
     return folder
 
 
-def test_versions_share_families_and_levels_but_no_problem(sheet: Sheet) -> None:
+def test_versions_share_families_and_levels_but_no_problem(exam: Exam) -> None:
     slots = [
-        [(item.problem.family.name, item.problem.level) for item in version.exercises] for version in sheet.versions
+        [(item.problem.family.name, item.problem.level) for item in version.exercises] for version in exam.versions
     ]
     assert slots[0] == slots[1] == slots[2]
-    problems = [json.dumps(item.problem.data()) for version in sheet.versions for item in version.exercises]
+    problems = [json.dumps(item.problem.data()) for version in exam.versions for item in version.exercises]
     assert len(set(problems)) == len(problems)
 
 
@@ -77,9 +74,9 @@ def test_files_of_one_version(tmp_path: Path) -> None:
     assert [path.name for path in written] == ["one.pdf", "one-key.pdf", "one.json"]
 
 
-def test_the_manifest_draws_the_same_problems(sheet: Sheet, folder: Path) -> None:
+def test_the_manifest_draws_the_same_problems(exam: Exam, folder: Path) -> None:
     data = json.loads((folder / "exam.json").read_text())
-    assert data == json.loads(json.dumps(manifest(sheet, LETTER)))
+    assert data == json.loads(json.dumps(manifest(exam, "letter")))
     assert (data["seed"], data["title"], data["paper"]) == (5, TITLE, "letter")
     for version in data["versions"]:
         assert version["points"] == sum(problem["points"] for problem in version["problems"])
@@ -89,7 +86,7 @@ def test_the_manifest_draws_the_same_problems(sheet: Sheet, folder: Path) -> Non
             assert problem["points"] == sum(part["points"] for part in problem["parts"])
 
 
-def test_what_stands_on_the_sheet(sheet: Sheet, folder: Path) -> None:
+def test_what_stands_on_the_worksheet(exam: Exam, folder: Path) -> None:
     printed = poppler("pdftotext", "-layout", str(folder / "exam-B.pdf"), "-")
     pages = [page for page in printed.split("\f") if page.strip()]
     assert all("Version B" in page and "seed 5" in page for page in pages)
@@ -97,13 +94,13 @@ def test_what_stands_on_the_sheet(sheet: Sheet, folder: Path) -> None:
     assert "Name:" in pages[0]
     assert "Total" in pages[0]
     assert RULE in " ".join(pages[0].split())
-    for exercise in sheet.versions[1].exercises:
+    for exercise in exam.versions[1].exercises:
         assert str(exercise.id) in printed
 
 
-def test_the_key_has_every_id_and_title(sheet: Sheet, folder: Path) -> None:
+def test_the_key_has_every_id_and_title(exam: Exam, folder: Path) -> None:
     printed = poppler("pdftotext", "-layout", str(folder / "exam-C-key.pdf"), "-")
-    assert all(str(exercise.id) in printed for exercise in sheet.versions[2].exercises)
+    assert all(str(exercise.id) in printed for exercise in exam.versions[2].exercises)
     assert "Key C" in printed
 
 
@@ -116,13 +113,11 @@ def test_every_word_is_inside_the_margins(folder: Path, name: str) -> None:
         assert inside, word
 
 
-def test_a_problem_is_torn_only_if_no_page_can_hold_it_or_the_first_would_stay_empty(
-    sheet: Sheet, folder: Path
-) -> None:
+def test_a_problem_is_torn_only_if_no_page_can_hold_it_or_the_first_would_stay_empty(exam: Exam, folder: Path) -> None:
     pages = poppler("pdftotext", "-layout", str(folder / "exam-A.pdf"), "-").split("\f")
-    identities = [str(exercise.id) for exercise in sheet.versions[0].exercises]
+    identities = [str(exercise.id) for exercise in exam.versions[0].exercises]
     torn = 0
-    for exercise in sheet.versions[0].exercises:
+    for exercise in exam.versions[0].exercises:
         page = next(page for page in pages if str(exercise.id) in page)
         before, rest = page.split(str(exercise.id))
         several = len(exercise.parts) > 1
@@ -156,7 +151,8 @@ def test_there_are_two_papers() -> None:
 
 def test_the_same_bytes_in_every_process() -> None:
     program = (
-        "import hashlib\nfrom rldrill.paper import *\nfrom rldrill.worksheet import *\n"
+        "import hashlib\nfrom rldrill.exam.planning import plan\nfrom rldrill.print.key import key_source\n"
+        "from rldrill.print.paper import PAPERS, pdf\nfrom rldrill.print.worksheet import worksheet_source\n"
         "version = plan(['return', 'value-iteration', 'lqr-gain'], 3, None, 9, 2).versions[1]\n"
         "sources = (worksheet_source(version, PAPERS['a4']), key_source(version, PAPERS['a4']))\n"
         "print(*(hashlib.sha256(pdf(source)).hexdigest() for source in sources))\n"
@@ -183,7 +179,7 @@ def test_typst_errors_are_runtime_errors() -> None:
 
 
 def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rldrill.worksheet._ATTEMPTS", 0)
+    monkeypatch.setattr("rldrill.exam.planning._ATTEMPTS", 0)
     with pytest.raises(UsageError, match="too few different problems"):
         plan(["return"], 1, 1, 1, 1)
 
@@ -219,7 +215,7 @@ def test_an_old_file_stays_when_the_new_one_fails(tmp_path: Path, monkeypatch: p
     def full(_: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("rldrill.paper.os.fsync", full)
+    monkeypatch.setattr("rldrill.print.files.os.fsync", full)
     with pytest.raises(OSError, match="No space left") as caught:
         write_bytes_atomically(path, b"new")
     assert caught.value.filename == str(path)

@@ -24,7 +24,7 @@ def command(
     from itertools import islice
 
     import rldrill
-    from rldrill.selection import announced_seed, sequence
+    from rldrill.exam.selection import announced_seed, sequence
 
     for family, wanted, own_seed in islice(sequence(names or (), level, announced_seed(seed)), number):
         exercise = rldrill.draw(family.name, wanted, own_seed)

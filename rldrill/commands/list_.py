@@ -22,7 +22,7 @@ def command(
     """
     import json as json_
 
-    from rldrill.expected import minutes
+    from rldrill.exam.expected import minutes
     from rldrill.problems.catalogue import selection
 
     families = selection(tuple(names or ()))

@@ -38,11 +38,11 @@ def command(
             "The quiz needs a terminal; without one use 'rldrill verify FILE' to grade answers, "
             "'rldrill worksheet' to print problems or 'rldrill generate' to get them as data."
         )
+    from rldrill.exam.selection import announced_seed
     from rldrill.quiz.questions import questions
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
     from rldrill.render.terminal import console
-    from rldrill.selection import announced_seed
 
     exercises, total = questions(tuple(names or ()), number, level, lambda: announced_seed(seed))
     if not Screen(console(), line_editor()).run(exercises, Session(total)):

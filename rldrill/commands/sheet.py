@@ -41,14 +41,15 @@ def command(
 
         rldrill sheet -o sheet.md --all
     """
-    from rldrill.paper import paper_of
+    from rldrill.print.paper import paper_of
 
     size = paper_of(paper)
     if output is None:
         _print(names or [], as_latex=latex, workings=workings)
         return
-    from rldrill.formula_sheet import markdown, sheet_source
-    from rldrill.paper import pdf, write_bytes_atomically
+    from rldrill.print.files import write_bytes_atomically
+    from rldrill.print.formula_sheet import markdown, sheet_source
+    from rldrill.print.paper import pdf
     from rldrill.problems.errors import UsageError
 
     if output.is_dir():
@@ -71,7 +72,7 @@ def command(
 def _print(names: list[str], *, as_latex: bool, workings: bool) -> None:
     from rich.console import Console
 
-    from rldrill.formula_sheet import terminal
+    from rldrill.print.formula_sheet import terminal
 
     console = Console(highlight=False, soft_wrap=True)
     for line in terminal(names, as_latex=as_latex, workings=workings):

@@ -10,7 +10,7 @@ from rldrill.commands.arguments import Json
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from rldrill.verification import Report, Score, StudentReport
+    from rldrill.grading.verification import Report, Score, StudentReport
 
 NAME = "verify"
 _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
@@ -46,7 +46,7 @@ def command(
     """
     import json as json_
 
-    from rldrill.verification import verify
+    from rldrill.grading.verification import verify
 
     report = verify(files)
     for failure in report.failures:
@@ -82,7 +82,7 @@ def _table(student: "StudentReport", *, show_key: bool) -> "Table":
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
     for title in ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else [])):
         table.add_column(title, overflow="fold", no_wrap=title in ("Part", "Points"))
-    for row in student.rows:
+    for row in student.parts:
         why = "" if row.verdict == "right" else row.reason
         points = f"{row.score.points} of {row.score.of}"
         texts = [row.problem, row.part, row.read or "–", row.verdict, why, points, row.key]

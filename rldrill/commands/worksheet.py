@@ -37,17 +37,18 @@ def command(
 
         rldrill worksheet -n 5 --versions 30 --seed 7 -o quiz.pdf
     """
-    from rldrill.paper import paper_of
-    from rldrill.selection import fresh_seed
-    from rldrill.worksheet import DEFAULT_TITLE, check_output, plan, write
+    from rldrill.exam.planning import DEFAULT_TITLE, plan
+    from rldrill.exam.selection import fresh_seed
+    from rldrill.print.exam_files import check_output, write
+    from rldrill.print.paper import paper_of
 
     size = paper_of(paper)
     check_output(output)
     chosen = fresh_seed() if seed is None else seed
     typer.echo(f"seed {chosen}", err=True)
     with _progress(2 * versions) as advance:
-        sheet = plan(names or (), count, level, chosen, versions, title=title or DEFAULT_TITLE, advance=advance)
-        written = write(sheet, output, size, advance)
+        exam = plan(names or (), count, level, chosen, versions, title=title or DEFAULT_TITLE, advance=advance)
+        written = write(exam, output, size, advance)
     _print([str(path) for path in written], as_json=as_json)
 
 

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 
+from rldrill.exam.selection import sequence
 from rldrill.exercise import Exercise, draw, load
 from rldrill.problems.catalogue import selection
 from rldrill.problems.identity import looks_like_id
-from rldrill.selection import sequence
 
 
 def questions(

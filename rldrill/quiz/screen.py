@@ -140,7 +140,9 @@ class Screen:
                     part.state = State.SHOWN
                     self._working(record, part)
                 case _:
-                    self._verdict(record.answer(part, text), record.exercise, part)
+                    verdict = record.answer(part, text).verdict
+                    if verdict is not None:
+                        self._verdict(verdict, record.exercise, part)
         self._print()
         return Then.NEXT
 
@@ -219,7 +221,8 @@ class Screen:
 
 def _result(part: PartRecord) -> str:
     if part.state is State.OPEN:
-        return part.verdicts[-1].outcome.value if part.verdicts else "not answered"
+        outcome = part.answers[-1].outcome if part.answers else None
+        return "not answered" if outcome is None else outcome.value
     return part.state.value + (", with a hint" if part.hinted else "")
 
 

@@ -3,11 +3,12 @@
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
-from typing import Any
+from itertools import takewhile
 
 from rldrill.exercise import Exercise
+from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part
-from rldrill.solutions.answers.judging import Outcome, Verdict
+from rldrill.solutions.answers.judging import Outcome
 
 
 class State(Enum):
@@ -25,13 +26,18 @@ class PartRecord:
 
     part: Part
     state: State = State.OPEN
-    verdicts: list[Verdict] = field(default_factory=list)
+    answers: list[GradedPart] = field(default_factory=list)
     hinted: bool = False
 
     @property
+    def counted(self) -> list[GradedPart]:
+        """The answers that count; what could not be read does not."""
+        return [answer for answer in self.answers if answer.outcome not in (None, Outcome.UNREADABLE)]
+
+    @property
     def tries(self) -> int:
-        """How many answers counted; what could not be read did not."""
-        return sum(verdict.outcome is not Outcome.UNREADABLE for verdict in self.verdicts)
+        """How many answers counted."""
+        return len(self.counted)
 
     @property
     def first_time(self) -> bool:
@@ -41,8 +47,7 @@ class PartRecord:
     @property
     def points(self) -> Fraction:
         """The points earned: of the answer that was given last."""
-        counted = [verdict for verdict in self.verdicts if verdict.outcome is not Outcome.UNREADABLE]
-        return self.part.points * counted[-1].credit if counted else Fraction(0)
+        return self.counted[-1].points if self.tries else Fraction(0)
 
 
 @dataclass
@@ -60,22 +65,17 @@ class Record:
     @property
     def begun(self) -> bool:
         """Whether anything was answered, skipped or looked up."""
-        return any(record.state is not State.OPEN or record.verdicts for record in self.parts)
+        return any(record.state is not State.OPEN or record.answers for record in self.parts)
 
-    def answer(self, current: PartRecord, text: str) -> Verdict:
-        """Judge an answer to a part, going on from what was answered before, and keep the verdict."""
-        earlier: dict[str, Any] = {}
-        for record in self.parts:
-            if record is current:
-                break
-            values = [verdict.value for verdict in record.verdicts if verdict.value is not None]
-            if values:
-                earlier[record.part.label] = values[-1]
-        verdict = self.exercise.check(text, current.part.label, earlier)
-        current.verdicts.append(verdict)
-        if verdict.accepted:
+    def answer(self, current: PartRecord, text: str) -> GradedPart:
+        """Grade an answer to a part, going on from what was answered last to the parts before, and keep it."""
+        before = takewhile(lambda record: record is not current, self.parts)
+        texts = {record.part.label: record.counted[-1].typed for record in before if record.tries}
+        graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
+        current.answers.append(graded)
+        if graded.accepted:
             current.state = State.DONE
-        return verdict
+        return graded
 
 
 @dataclass

@@ -1,1 +1,1 @@
-"""Documents and mathematics as text for the terminal, Typst, LaTeX and Markdown."""
+"""Documents for a terminal, as plain text, as Markdown and as Typst, one writer a module; mathematics and pictures."""

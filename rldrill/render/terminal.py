@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
+from io import StringIO
 
 from rich import box
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
@@ -15,12 +16,14 @@ from rich.text import Text
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
+from rldrill.render.mathematics.stacked import stacked
+from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.text import lines
-from rldrill.render.stacked import stacked
-from rldrill.render.unicode import inline
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
 PIPED = 140
+#: How wide a document is as text.
+_PAGE = 100
 #: The room between blocks that stand side by side.
 _BETWEEN = 4
 
@@ -35,6 +38,14 @@ def console(*, stderr: bool = False) -> Console:
 def render(blocks: Iterable[Block]) -> Group:
     """A document, its blocks one under the other with a line between them."""
     return Group(*(item for block in blocks for item in (renderable(block), Text(""))))
+
+
+def plain(blocks: Iterable[Block]) -> str:
+    """A document as text without colours."""
+    screen = Console(file=StringIO(), width=_PAGE, color_system=None, highlight=False, markup=False, emoji=False)
+    with screen.capture() as captured:
+        screen.print(render(blocks))
+    return "\n".join(line.rstrip() for line in captured.get().splitlines()).rstrip("\n")
 
 
 def renderable(block: Block) -> RenderableType:

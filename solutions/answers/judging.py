@@ -50,6 +50,9 @@ class Verdict:
     value: Any = field(default=None, compare=False)
     told: tuple[Misconception, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Verdict {self.outcome.value}: {self.says}>"
+
     @property
     def accepted(self) -> bool:
         """Whether the part is done."""

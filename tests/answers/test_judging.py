@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.problems.parts import Numbers, Policy, Values
-from rldrill.render.unicode import unicode
+from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import is_right, tolerance

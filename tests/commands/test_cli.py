@@ -101,6 +101,24 @@ def test_an_error_of_our_own_exits_70_without_a_traceback(
     assert "Traceback" not in capsys.readouterr().err
 
 
+def test_a_broken_family_is_a_sentence_to_its_author(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from rldrill import cli
+    from rldrill.problems.catalogue import family
+    from rldrill.problems.fundamentals import expected_return
+
+    monkeypatch.setattr(sys, "argv", ["rldrill", "list", "expected-return"])
+    monkeypatch.delattr(expected_return, "TITLE")
+    family.cache_clear()
+    with pytest.raises(SystemExit) as caught:
+        cli.main()
+    assert caught.value.code == 70
+    says = capsys.readouterr().err
+    assert says.endswith("expected_return.py: a family must have TITLE; add it.\n")
+    assert "report" not in says
+
+
 def test_data_goes_to_stdout_and_the_seed_to_stderr() -> None:
     first = run("generate", "td-zero", "-n", "3", "--seed", "5", "--answers")
     again = run("generate", "td-zero", "-n", "3", "--seed", "5", "--answers", COLUMNS="40")

@@ -58,7 +58,7 @@ def test_a_whole_problem() -> None:
     assert "2 of 2 parts right, 2 of them at the first try." in typist.seen
 
 
-def test_a_mistake_is_named_with_its_formula_and_may_be_mended() -> None:
+def test_a_mistake_is_named_with_its_formula_and_may_be_corrected() -> None:
     # Averages over two actions: V1 = (3/2, −9/2), V2(cool) = (1 + 3/2 + 2 + 1/2·3/2 − 1/2·9/2)/2 = 3/2 …
     solution = rldrill.load(RACING_CAR).solution
     mean = next(answers for m, answers in solution.mistakes if m.name == "mean-for-max")

@@ -8,9 +8,10 @@ from sympy import evaluate, factorial, log, sqrt
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import mathematics
-from rldrill.render.latex import latex
-from rldrill.render.stacked import stacked
-from rldrill.render.unicode import unicode, unicode_text
+from rldrill.render.mathematics.latex import latex
+from rldrill.render.mathematics.stacked import stacked
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.formula.notation import Counting, IntegralOver, S, SampleMean, T, n, t
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value

@@ -7,7 +7,7 @@ from sympy import exp, sqrt
 
 import rldrill
 from rldrill.problems.mathematics import mathematics
-from rldrill.render.unicode import unicode
+from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.exact import in_one_quotient, monomial
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.notation import Clipped, Greatest, Least

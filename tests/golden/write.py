@@ -1,27 +1,58 @@
-"""Write the golden files anew: after adding a family, or raising a REVISION. Review the diff."""
+"""Pin problems with their answers, and the minutes of the levels: of the families named, or of all.
+
+    python tests/golden/write.py [FAMILY …]
+
+After adding a family, or raising a REVISION. Every problem is a line; lines of other families stay as they are. An
+answer that the family's independent solver does not confirm is not written. Review the diff.
+"""
 
 import json
+import sys
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from statistics import median
+from typing import Any
 
-from rldrill.expected import FILE
+from rldrill.audit import agrees
+from rldrill.exam.expected import FILE as MINUTES
+from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family
-from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import minutes, whole
+from rldrill.solutions.solution import solver
 
-SEEDS = range(15)
+PROBLEMS = Path(__file__).with_name("problems.json")
+PINNED = range(2)
+MEASURED = range(15)
 
-problems = {
-    str(solution.problem.identity): solution.problem.data()["given"]
-    for name in families()
-    for level in family(name).levels
-    for solution in (draw(name, level, seed) for seed in (0, 1))
+
+def pinned(exercise: Exercise) -> dict[str, Any]:
+    """What is pinned of a problem: its givens and its exact answers."""
+    expected = solver(exercise.problem.family).oracle(exercise.problem.given)
+    for part, other in zip(exercise.parts, expected, strict=True):
+        answer = exercise.solution.answers[part.label]
+        if not agrees(part, answer, other):
+            sys.exit(f"{exercise.id} ({part.label}): {answer} is not {other}, which the oracle has.")
+    data = exercise.data()
+    return {"given": data["given"], "answers": {part["part"]: part["answer"]["exact"] for part in data["parts"]}}
+
+
+def rewrite(path: Path, names: Iterable[str], new: Mapping[str, Any]) -> None:
+    """Put the new lines in the place of all lines of these families."""
+    kept = json.loads(path.read_text(encoding="utf-8"))
+    lines = {key: value for key, value in kept.items() if key.partition("/")[0] not in names} | dict(new)
+    keys = [key for name in families() for key in lines if key.partition("/")[0] == name]
+    text = ",\n".join(f" {json.dumps(key)}: {json.dumps(lines[key], ensure_ascii=False)}" for key in keys)
+    path.write_text(f"{{\n{text}\n}}\n", encoding="utf-8")
+
+
+chosen = [family(name) for name in sys.argv[1:] or families()]
+wanted = {known.name for known in chosen}
+drawn = [draw(known.name, level, seed) for known in chosen for level in known.levels for seed in PINNED]
+times = {
+    known.name: [
+        whole(median(minutes(draw(known.name, level, seed).solution) for seed in MEASURED)) for level in known.levels
+    ]
+    for known in chosen
 }
-expected = {
-    name: [whole(median(minutes(draw(name, level, seed)) for seed in SEEDS)) for level in family(name).levels]
-    for name in families()
-}
-path = Path(__file__).parent / "draws.json"
-path.write_text(json.dumps(problems, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
-lines = ",\n".join(f" {json.dumps(name)}: {json.dumps(times)}" for name, times in expected.items())
-FILE.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
+rewrite(MINUTES, wanted, times)

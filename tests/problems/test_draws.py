@@ -9,13 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rldrill.exercise import draw
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
 from rldrill.problems.identity import split_id
-from rldrill.solutions.drawing import by_id, draw
+from rldrill.solutions.drawing import by_id
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "draws.json"
+GOLDEN = Path(__file__).parent.parent / "golden" / "problems.json"
 
 
 def test_the_stream_is_that_of_the_documented_generator() -> None:
@@ -29,17 +30,26 @@ def test_the_stream_is_that_of_the_documented_generator() -> None:
 
 
 @pytest.mark.parametrize("name", families())
-def test_every_family_draws_what_the_golden_file_holds(name: str) -> None:
+def test_every_family_draws_and_answers_what_the_golden_file_holds(name: str) -> None:
     golden = json.loads(GOLDEN.read_text(encoding="utf-8"))
-    for level in family(name).levels:
-        for seed in (0, 1):
-            solution = draw(name, level, seed)
-            key = str(solution.problem.identity)
-            assert key in golden, f"{key} is not pinned yet: run 'python tests/golden/write.py' and review its diff."
-            assert solution.problem.data()["given"] == golden.get(key), (
-                f"{key} draws another problem than before. If that is meant, raise the family's REVISION and run "
-                "'python tests/golden/write.py'."
-            )
+    drawn = [draw(name, level, seed) for level in family(name).levels for seed in (0, 1)]
+    assert [key for key in golden if key.startswith(f"{name}/")] == [exercise.id for exercise in drawn], (
+        f"Run 'python tests/golden/write.py {name}' and review its diff."
+    )
+    for exercise in drawn:
+        data, pinned = exercise.data(), golden[exercise.id]
+        assert data["given"] == pinned["given"], (
+            f"{exercise.id} draws another problem than before. If that is meant, raise the family's REVISION and run "
+            f"'python tests/golden/write.py {name}'."
+        )
+        answers = {part["part"]: part["answer"]["exact"] for part in data["parts"]}
+        assert answers == pinned["answers"], f"{exercise.id} has another answer than before."
+
+
+def test_the_golden_file_has_a_line_for_every_problem_and_no_other() -> None:
+    golden = json.loads(GOLDEN.read_text(encoding="utf-8"))
+    assert {key.partition("/")[0] for key in golden} == set(families())
+    assert len(GOLDEN.read_text(encoding="utf-8").splitlines()) == len(golden) + 2
 
 
 @given(st.integers(2, 5), st.text(max_size=5))

@@ -12,7 +12,7 @@ from rich.console import Console
 
 from printed import Word, words
 from rldrill.exercise import draw
-from rldrill.paper import PAPERS, page_setup, pdf
+from rldrill.print.paper import PAPERS, page_setup, pdf
 from rldrill.problems.backup_diagrams.backup_diagram_value import diagram
 from rldrill.problems.backups import BACKUPS, backup_diagram
 from rldrill.problems.document import Beside, Table

@@ -8,7 +8,7 @@ import pytest
 
 from printed import Word, words
 from rldrill.exercise import Exercise, draw
-from rldrill.paper import PAPERS, page_setup, pdf
+from rldrill.print.paper import PAPERS, page_setup, pdf
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.document import Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import (
@@ -30,7 +30,8 @@ from rldrill.problems.mathematics import (
     variable,
     word,
 )
-from rldrill.render.typst import block, document, text, typst
+from rldrill.render.mathematics.typst import text, typst
+from rldrill.render.typst import block, document
 from rldrill.solutions.sheet import formulas
 
 HOSTILE = [

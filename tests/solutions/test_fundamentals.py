@@ -111,7 +111,7 @@ def test_tables_that_do_not_fit(table: list[list[Any]], fragment: str) -> None:
 
 
 def test_a_product_over_a_finite_set() -> None:
-    from rldrill.render.latex import latex
+    from rldrill.render.mathematics.latex import latex
 
     product = ProductOver(i + 1, i, Counting(1, 3))
     assert value_of(product, {}) == 2 * 3 * 4

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from itertools import pairwise
 from math import ceil, hypot
 
+from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene
-from rldrill.render.unicode import inline
 
 #: Points of the scene to a dot.
 _DOT = 2.2

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from rldrill.render.unicode import inline
+from rldrill.render.mathematics.unicode import inline
 
 Point: TypeAlias = tuple[float, float]
 

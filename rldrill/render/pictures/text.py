@@ -12,10 +12,10 @@ from rldrill.problems.pictures import (
     StateDiagram,
     Timeline,
 )
+from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures import mechanics, plots
 from rldrill.render.pictures.raster import raster
 from rldrill.render.pictures.tree import tree
-from rldrill.render.unicode import inline
 
 _BAR = 20
 _MOST_ARROWS = 24

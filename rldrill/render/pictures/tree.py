@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from rldrill.problems.pictures import Branch, Node
-from rldrill.render.unicode import inline
+from rldrill.render.mathematics.unicode import inline
 
 _SIGNS = {"state": "○", "action": "●", "end": "□"}
 _GAP = 3

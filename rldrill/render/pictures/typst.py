@@ -5,9 +5,9 @@ from functools import cache
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.pictures import Picture, Timeline
+from rldrill.render.mathematics.typst import quoted, typst
 from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
-from rldrill.render.typst import quoted, typst
 
 
 @cache

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from rldrill.problems.mathematics import Fence, Math, Row, Script, Tabular
-from rldrill.render.unicode import scripts, unicode
+from rldrill.render.mathematics.unicode import scripts, unicode
 
 _BRACKETS = {
     "[": ("⎡", "⎢", "⎣"),

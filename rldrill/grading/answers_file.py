@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
-from rldrill.problems.errors import FileError, NothingToGrade
+from rldrill.problems.errors import FileError, NothingToGrade, UsageError
 from rldrill.problems.identity import looks_like_id
+from rldrill.typed import typed
 
 #: What the names of files of answers end in.
 SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
 _NAMED = ("student", "problem", "part")
 _COLUMNS = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
-_PARTING = re.compile(r"[,;\n]")
 _BARE_ID = re.compile(r"^\s*\[?\s*(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
@@ -82,7 +82,10 @@ def _entry(fields: Mapping[str, object], line: int | None, path: Path) -> Entry:
             f"{place}: {_quoted(problem)} is neither a problem ID nor a problem file; "
             "IDs look like value-iteration/2/7 (family/level 1-3/seed)."
         )
-    text = _typed(fields.get("answer"), f"{place}: the answer to {problem}")
+    try:
+        text = typed(fields.get("answer"), f"{place}: the answer to {problem}")
+    except UsageError as error:
+        raise FileError(str(error)) from None
     return Entry(student, problem, part, text, line, path)
 
 
@@ -94,47 +97,8 @@ def _word(value: object, field: str, place: str) -> str:
         raise FileError(f"{place}: '{field}' must be a text; write it in quotes.")
     word = str(value).strip()
     if not word.isprintable():
-        raise FileError(f"{place}: '{field}' holds a character that cannot be printed; type it anew.")
+        raise FileError(f"{place}: '{field}' holds a character that cannot be printed; retype it.")
     return word
-
-
-def _typed(value: object, what: str) -> str:
-    """An answer as a person would type it: numbers as written, lists and tables in brackets and colons."""
-    if isinstance(value, dict):
-        return ", ".join(_pairs(value, what))
-    if isinstance(value, list):
-        entries = ", ".join(_row(item, what) for item in value)
-        return f"[{entries}]" if value else ""
-    return value if isinstance(value, str) else _scalar(value, what)
-
-
-def _pairs(table: Mapping[str, object], what: str) -> Iterator[str]:
-    for state, value in table.items():
-        if isinstance(value, dict):
-            for action, number in value.items():
-                yield f"({state}, {action}): {_scalar(number, what)}"
-        else:
-            yield f"{state}: {_scalar(value, what)}"
-
-
-def _row(value: object, what: str) -> str:
-    if isinstance(value, list):
-        return f"[{', '.join(_scalar(item, what) for item in value)}]"
-    return _scalar(value, what)
-
-
-def _scalar(value: object, what: str) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, str):
-        return f"({value})" if _PARTING.search(value) else value  # one entry must not be read as several
-    if isinstance(value, list | dict):
-        raise FileError(f"{what} nests too deeply; write numbers, a list, a list of rows or a table.")
-    raise FileError(f"{what} is neither a text nor a number; write it in quotes.")
 
 
 def _tables(text: str, path: Path) -> Iterator[Entry]:
@@ -220,7 +184,7 @@ def _numbered(text: str, separator: str, where: str) -> Iterator[tuple[int, list
             yield line, fields
             line = reader.line_num + 1
     except csv.Error as error:
-        raise FileError(f"{where}, line {line}: its quotes are broken ({error}); mend them.") from None
+        raise FileError(f"{where}, line {line}: its quotes are broken ({error}); fix them.") from None
 
 
 def _quoted(text: str) -> str:

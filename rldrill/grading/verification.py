@@ -7,19 +7,17 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rldrill.answers_file import Entry, read_answers
 from rldrill.exercise import Exercise, load
 from rldrill.files import shown
+from rldrill.grading.answers_file import Entry, read_answers
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id
-from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.answers.kinds import answer_kind
 
 #: The version of the JSON that ``Report.to_json`` gives.
 FORMAT = 1
 #: The verdict on a part that was not answered; all others are values of ``Outcome``.
 MISSING = "missing"
-_RIGHT = frozenset({Outcome.RIGHT.value, Outcome.FOLLOW_THROUGH.value})
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +33,7 @@ class Score:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class MarkedPart:
     """The judgement of one part of one problem.
 
     Args:
@@ -44,6 +42,7 @@ class Row:
         typed: what was typed.
         read: how that was read; empty if it was not.
         verdict: a value of ``Outcome``, or ``missing``.
+        accepted: whether the part is right, be it only in going on from an earlier answer.
         reason: one or two sentences to the person.
         score: what the answer earns, and what a right one would.
         key: the right answer, as it would be typed.
@@ -55,18 +54,14 @@ class Row:
     typed: str
     read: str
     verdict: str
+    accepted: bool
     reason: str
     score: Score
     key: str
     line: int | None
 
-    @property
-    def accepted(self) -> bool:
-        """Whether the part is right, be it only in going on from an earlier answer."""
-        return self.verdict in _RIGHT
-
     def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
-        """The row as JSON has it."""
+        """The part as JSON has it."""
         data: dict[str, Any] = {"problem": self.problem, "part": self.part, "line": self.line}
         data |= {"typed": self.typed, "read": self.read, "verdict": self.verdict, "accepted": self.accepted}
         data |= {"reason": self.reason, "points": self.score.to_json()}
@@ -78,12 +73,12 @@ class StudentReport:
     """The answers of one student in one file; the name is empty where the file gives none."""
 
     student: str
-    rows: tuple[Row, ...]
+    parts: tuple[MarkedPart, ...]
 
     @property
     def score(self) -> Score:
-        """The points of all rows."""
-        return _total(row.score for row in self.rows)
+        """The points of all parts."""
+        return _total(part.score for part in self.parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,9 +111,9 @@ class Report:
     failures: tuple[Failure, ...] = ()
 
     @property
-    def rows(self) -> tuple[Row, ...]:
-        """The rows of all files."""
-        return tuple(row for file in self.files for student in file.students for row in student.rows)
+    def parts(self) -> tuple[MarkedPart, ...]:
+        """The parts of all files."""
+        return tuple(part for file in self.files for student in file.students for part in student.parts)
 
     @property
     def score(self) -> Score:
@@ -133,7 +128,7 @@ class Report:
             return FileError.exit_code
         if not self.files:
             return NothingToGrade.exit_code
-        return int(bool(codes) or not all(row.accepted for row in self.rows))
+        return int(bool(codes) or not all(part.accepted for part in self.parts))
 
     def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
         """The report as versioned JSON; the right answers are in it only if they are asked for."""
@@ -146,7 +141,7 @@ class Report:
                         {
                             "student": student.student,
                             "points": student.score.to_json(),
-                            "answers": [row.to_json(show_key=show_key) for row in student.rows],
+                            "answers": [part.to_json(show_key=show_key) for part in student.parts],
                         }
                         for student in file.students
                     ],
@@ -198,7 +193,7 @@ class _Problems:
 
 
 @dataclass(slots=True)
-class _Sheet:
+class _Submission:
     """What one student answered to one problem."""
 
     exercise: Exercise
@@ -228,40 +223,35 @@ class _Sheet:
         fault = f"there is no part {entry.part[:20]!r}" if wanted else "the part is missing"
         raise FileError(f"{entry.where}: {fault}; {self.name} has {', '.join(labels)}.")
 
-    def rows(self) -> Iterator[Row]:
-        """Every part, answered or not; later ones are judged with the answers to earlier ones too."""
-        earlier: dict[str, Any] = {}
-        for part in self.exercise.parts:
+    def parts(self) -> Iterator[MarkedPart]:
+        """Every part, answered or not."""
+        graded = self.exercise.grade({label: entry.text for label, entry in self.entries.items()})
+        for part, given in zip(self.exercise.parts, graded.parts, strict=True):
             entry = self.entries.get(part.label)
-            text = "" if entry is None else entry.text
-            if text.strip():
-                verdict = judge(self.exercise.solution, part.label, text, earlier)
-                if verdict.value is not None:
-                    earlier[part.label] = verdict.value
-            else:
-                verdict = None
-            yield Row(
+            verdict = given.verdict
+            yield MarkedPart(
                 problem=self.name,
                 part=part.label,
-                typed=text,
+                typed=given.typed,
                 read="" if verdict is None else verdict.read,
                 verdict=MISSING if verdict is None else verdict.outcome.value,
+                accepted=given.accepted,
                 reason="Not answered." if verdict is None else verdict.says,
-                score=Score(Fraction(0) if verdict is None else part.points * verdict.credit, part.points),
+                score=Score(given.points, given.of),
                 key=answer_kind(part.kind).write(self.exercise.solution.answers[part.label]),
                 line=None if entry is None else entry.line,
             )
 
 
 def _students(entries: Sequence[Entry], problems: _Problems) -> Iterator[StudentReport]:
-    students: dict[str, dict[str, _Sheet]] = {}
+    students: dict[str, dict[str, _Submission]] = {}
     for entry in entries:
         exercise = problems.of(entry)
         name = exercise.id or os.path.normpath(entry.problem)
-        sheets = students.setdefault(entry.student, {})
-        sheets.setdefault(name, _Sheet(exercise, name)).put(entry)
+        submissions = students.setdefault(entry.student, {})
+        submissions.setdefault(name, _Submission(exercise, name)).put(entry)
     for student, answered in students.items():
-        yield StudentReport(student, tuple(row for sheet in answered.values() for row in sheet.rows()))
+        yield StudentReport(student, tuple(part for submission in answered.values() for part in submission.parts()))
 
 
 def _total(scores: Iterable[Score]) -> Score:

@@ -4,12 +4,15 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from rldrill.paper import Paper, page_setup
-from rldrill.problems.document import Equation, pieces
+from rldrill.print.paper import Paper, page_setup
+from rldrill.problems.document import Equation
 from rldrill.problems.errors import UsageError
-from rldrill.render.latex import latex
-from rldrill.render.typst import block, line, text
-from rldrill.render.unicode import inline, unicode_text
+from rldrill.render.markdown import latex_equation, markdown_block, markdown_text
+from rldrill.render.mathematics.typst import text
+from rldrill.render.mathematics.unicode import inline
+from rldrill.render.typst import block, line
+from rldrill.render.typst_files import typst_file
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.formula.formula import Formula, Place
 from rldrill.solutions.sheet import SECTIONS, Gallery, gallery, section
 
@@ -20,41 +23,6 @@ TITLE = "Reinforcement and Robot Learning: formula sheet"
 #: The size of the type with which the whole sheet is two pages.
 _SIZES = {"a4": "7.5pt", "letter": "7.1pt"}
 _LEGEND = "Formulas marked + go beyond the lecture's sheet."
-
-#: Names at the left, formulas at the right, in two columns; sized so that the whole sheet is two pages, to be
-#: read from where a wall is read.
-_HELPERS = r"""
-#show "∑": math.scripts
-#show "∏": math.scripts
-#let section(title, ..rows) = {
-  block(width: 100%, sticky: true, above: 0.8em, below: 0.55em, fill: luma(228), radius: 1.5pt,
-    inset: (x: 0.4em, y: 0.32em), text(1.1em, strong(title)))
-  rows.pos().join()
-}
-#let remark(note) = text(0.85em, luma(70), style: "italic", note)
-#let noted(flat, equation, note) = layout(size => {
-  let gap = 1em.to-absolute()
-  let room = size.width - wide(flat.body) - gap
-  let words = measure(note).width
-  if note == [] { equation }
-  else if words <= room or (words <= 2 * room and room >= 0.4 * size.width) {
-    grid(columns: (wide(flat.body) + 1pt, 1fr), column-gutter: gap, align: horizon, equation, note)
-  } else { equation + block(note) }
-})
-#let formula(title, beyond, source, flat, equation, note) = block(width: 100%, breakable: false, spacing: 0.55em, {
-  set par(leading: 0.35em, spacing: 0.35em, justify: false)
-  set block(spacing: 0.4em)
-  let mark = if beyond [~+]
-  let named = text(0.85em, strong(title + mark)) + if source != [] { block(text(0.72em, luma(110), source)) }
-  let remarked = if note == [] { [] } else { remark(note) }
-  grid(columns: (9.4em, 1fr), column-gutter: 0.6em, align: horizon, named, noted(flat, equation, remarked))
-})
-#let gallery(note, ..pictures) = block(width: 100%, breakable: false, above: 0.8em, layout(size => {
-  let row = stack(dir: ltr, spacing: 1em, ..pictures.pos().map(box))
-  let fitted = scale(calc.min(1, size.width / measure(row).width) * 99%, origin: left, reflow: true, row)
-  fitted + if note != [] { block(above: 0.5em, remark(note)) }
-}))
-"""
 
 
 def sections(names: Sequence[str] = (), *, workings: bool = False) -> dict[str, tuple[str, tuple[Formula, ...]]]:
@@ -99,9 +67,10 @@ def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) 
     setup = page_setup(paper, title=TITLE, left="", right="", margin=margin, size=size, columns=columns)
     head = f"text({title_size}, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"
     found = sections(names, workings=workings).items()
+    helpers = typst_file("rldrill.print", "formula_sheet.typ")
     return (
-        f'{setup}#set columns(gutter: 0.6cm)\n{_HELPERS}#place(top, scope: "parent", float: true, '
-        f"clearance: 0.9em, {{{head}}})\n"
+        f"{setup}#set columns(gutter: 0.6cm)\n{helpers}"
+        f'#place(top, scope: "parent", float: true, clearance: 0.9em, {{{head}}})\n'
         + "".join(_section(name, title, formulas, workings=workings) for name, (title, formulas) in found)
     )
 
@@ -143,23 +112,12 @@ def markdown(names: Sequence[str], *, workings: bool = False) -> str:
             head = f"**{_title(formula)}** ({formula.source})"
             lines += [head, "", f"$${latex_equation(_equation(formula, workings=workings))}$$", ""]
             if formula.note:
-                lines += [_latex_text(formula.note), ""]
+                lines += [markdown_text(formula.note), ""]
         for picture in gallery(name).pictures:
-            lines += ["```text", unicode_text(picture), "```", ""]
+            lines += [markdown_block(picture), ""]
         if gallery(name).note:
-            lines += [_latex_text(gallery(name).note), ""]
+            lines += [markdown_text(gallery(name).note), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
-
-
-def latex_equation(equation: Equation) -> str:
-    """An equation as LaTeX on one line."""
-    signs = {"←": r"\leftarrow", "≈": r"\approx"}
-    links = zip(equation.signs, equation.rights, strict=True)
-    return " ".join([latex(equation.left), *(f"{signs.get(sign, sign)} {latex(right)}" for sign, right in links)])
-
-
-def _latex_text(words: str) -> str:
-    return "".join(piece if isinstance(piece, str) else f"${latex(piece)}$" for piece in pieces(words))
 
 
 def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = False) -> "list[Text]":
@@ -179,7 +137,7 @@ def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = F
             head = Text.assemble("\n  ", (_title(formula), "cyan"), "  ", (formula.source, "dim"))
             lines += [head, Text(f"    {equation}")]
             if formula.note:
-                note = _latex_text(formula.note) if as_latex else inline(formula.note)
+                note = markdown_text(formula.note) if as_latex else inline(formula.note)
                 lines.append(Text(f"    {note}", style="italic"))
         lines += _drawn(gallery(name))
     return lines

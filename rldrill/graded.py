@@ -1,0 +1,79 @@
+"""Grading: every part of a problem is judged, later ones also with the person's own answers to earlier ones."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from rldrill.solutions.answers.judging import Outcome, Verdict, judge
+from rldrill.solutions.solution import Solution
+
+
+@dataclass(frozen=True, slots=True)
+class GradedPart:
+    """One part of a submission.
+
+    Args:
+        part: the label of the part.
+        typed: what was typed.
+        verdict: the judgement; None where nothing was typed.
+        of: the points that a right answer earns.
+    """
+
+    part: str
+    typed: str
+    verdict: Verdict | None
+    of: int
+
+    @property
+    def outcome(self) -> Outcome | None:
+        """What the answer is; None where nothing was typed."""
+        return None if self.verdict is None else self.verdict.outcome
+
+    @property
+    def points(self) -> Fraction:
+        """The points earned."""
+        return Fraction(0) if self.verdict is None else self.of * self.verdict.credit
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the part is right, be it only in going on from an earlier answer."""
+        return self.verdict is not None and self.verdict.accepted
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """A submission to one problem, all parts in their order; ``graded["b"]`` is one of them."""
+
+    parts: tuple[GradedPart, ...]
+
+    @property
+    def points(self) -> Fraction:
+        """The points earned."""
+        return sum((part.points for part in self.parts), Fraction(0))
+
+    @property
+    def of(self) -> int:
+        """The points that a right submission earns."""
+        return sum(part.of for part in self.parts)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether every part is right."""
+        return all(part.accepted for part in self.parts)
+
+    def __getitem__(self, label: str) -> GradedPart:
+        return {part.part: part for part in self.parts}[label]
+
+
+def grade(solution: Solution, texts: Mapping[str, str]) -> Graded:
+    """Judge the texts that were typed for the parts with these labels; blank ones are missing."""
+    graded: list[GradedPart] = []
+    earlier: dict[str, Any] = {}
+    for part in solution.problem.parts:
+        text = texts.get(part.label, "")
+        verdict = judge(solution, part.label, text, earlier) if text.strip() else None
+        if verdict is not None and verdict.value is not None:
+            earlier[part.label] = verdict.value
+        graded.append(GradedPart(part.label, text, verdict, part.points))
+    return Graded(tuple(graded))

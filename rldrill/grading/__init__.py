@@ -1,0 +1,1 @@
+"""Files of answers: how they are read and judged, and the report."""

@@ -1,0 +1,74 @@
+"""Paper: the page set-up that all PDFs share, and their compilation."""
+
+from dataclasses import dataclass
+
+from rldrill.problems.errors import UsageError
+from rldrill.render.mathematics.typst import quoted, text
+from rldrill.render.typst import PREAMBLE
+from rldrill.render.typst_files import typst_file
+
+#: Every PDF carries this time, so that the same arguments give the same bytes.
+_TIMESTAMP = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper size by its name on the command line, with Typst's name for it."""
+
+    name: str
+    typst: str
+
+
+PAPERS = {"a4": Paper("a4", "a4"), "letter": Paper("letter", "us-letter")}
+
+
+def paper_of(name: str) -> Paper:
+    """The paper of that name.
+
+    Raises:
+        UsageError: there is none.
+    """
+    paper = PAPERS.get(name.strip().lower())
+    if paper is None:
+        raise UsageError(f"There is no paper {name[:20]!r}; choose {' or '.join(PAPERS)}.")
+    return paper
+
+
+def page_setup(
+    paper: Paper,
+    *,
+    title: str,
+    left: str,
+    right: str,
+    margin: str = "2cm",
+    size: str = "10.5pt",
+    columns: int = 1,
+) -> str:
+    """What stands at the head of every Typst source.
+
+    Args:
+        paper: the paper.
+        title: the title in the PDF's properties.
+        left: the text at the head of every page, left.
+        right: the text at the head of every page, right.
+        margin: the margin on all sides, or Typst's dictionary of margins.
+        size: the size of the type.
+        columns: how many columns a page has.
+    """
+    arguments = (
+        f"paper: {quoted(paper.typst)}, margin: {margin}, size: {size}, columns: {columns}, "
+        f"title: [{text(title)}], left: [{text(left)}], right: [{text(right)}]"
+    )
+    return f"{typst_file('rldrill.print', 'page.typ')}#show: page-setup.with({arguments})\n{PREAMBLE}"
+
+
+def pdf(source: str) -> bytes:
+    """Typeset a Typst source; the same source gives the same bytes in every process.
+
+    Raises:
+        RuntimeError: Typst cannot compile the source.
+    """
+    import typst
+
+    result: bytes = typst.compile(source.encode(), ignore_system_fonts=True, timestamp=_TIMESTAMP)
+    return result

@@ -1,0 +1,35 @@
+"""Problem files: the family and the givens, as TOML or JSON."""
+
+from pathlib import Path
+from typing import Any
+
+from rldrill.files import brief, kind_of, read_data, shown
+from rldrill.problems.errors import FileError
+
+#: The version of the JSON that ``Exercise.data`` gives and that problem files have.
+FORMAT = 1
+_IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
+
+
+def read_problem(path: str | Path) -> dict[str, Any]:
+    """The family and the givens that a problem file (TOML or JSON) holds.
+
+    What ``rldrill show ID --json`` writes beside them is passed over.
+
+    Raises:
+        FileError: the file cannot be read, or is not a problem file.
+    """
+    data = read_data(path)
+    where = shown(path)
+    if not isinstance(data, dict):
+        raise FileError(f"{where}: a problem file is a table with 'family' and 'given', not {kind_of(data)}.")
+    version = data.get("format", FORMAT)
+    if type(version) is not int or version != FORMAT:
+        raise FileError(
+            f"{where}: its format is {brief(version)}, and this release reads format {FORMAT}; "
+            "write the file again with this release's 'rldrill show ID --json'."
+        )
+    unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
+    if unknown:
+        raise FileError(f"{where}: {brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
+    return {key: data[key] for key in ("family", "given") if key in data}

@@ -1,0 +1,62 @@
+"""Documents as Markdown, their mathematics in LaTeX: for notebooks and files."""
+
+import re
+from collections.abc import Iterable
+
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.mathematics import Glyph, Math
+from rldrill.problems.pictures import Picture
+from rldrill.render.mathematics.latex import latex
+from rldrill.render.unicode import unicode_text
+
+_SPECIAL = re.compile(r"([\\`*_\[\]<$#|])")
+
+
+def markdown(blocks: Iterable[Block]) -> str:
+    """Blocks one under the other."""
+    return "\n\n".join(map(markdown_block, blocks))
+
+
+def markdown_block(block: Block) -> str:
+    """One block."""
+    match block:
+        case Paragraph(text):
+            return markdown_text(text)
+        case Heading(text):
+            return f"**{markdown_text(text)}**"
+        case Table(header, rows):
+            lines = [header, ("---",) * len(header), *rows]
+            return "\n".join(f"| {' | '.join(map(markdown_text, line))} |" for line in lines)
+        case Equation():
+            return f"$${_aligned(block) if len(block.rights) > 1 else latex_equation(block)}$$"
+        case Beside(blocks):
+            return markdown(blocks)
+        case Picture():
+            return f"```text\n{unicode_text(block)}\n```"
+        case _:
+            raise TypeError(f"{type(block).__name__} has no Markdown")
+
+
+def markdown_text(text: str) -> str:
+    """Running text; its signs are not taken for Markdown, and bars do not end the cell of a table."""
+    return "".join(_SPECIAL.sub(r"\\\1", piece) if isinstance(piece, str) else _math(piece) for piece in pieces(text))
+
+
+def _math(math: Math) -> str:
+    return f"${latex(math)}$".replace("|", r"\vert ")
+
+
+def latex_equation(equation: Equation) -> str:
+    """An equation as LaTeX on one line."""
+    links = zip(equation.signs, equation.rights, strict=True)
+    return " ".join([latex(equation.left), *(f"{_sign(sign)} {latex(right)}" for sign, right in links)])
+
+
+def _aligned(equation: Equation) -> str:
+    links = zip(equation.signs, equation.rights, strict=True)
+    lines = r" \\ ".join(f"&{_sign(sign)} {latex(right)}" for sign, right in links)
+    return rf"\begin{{aligned}} {latex(equation.left)} {lines} \end{{aligned}}"
+
+
+def _sign(sign: str) -> str:
+    return latex(Glyph(sign, "relation"))

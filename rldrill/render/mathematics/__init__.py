@@ -1,0 +1,1 @@
+"""Mathematics in one notation each: one line of Unicode, several lines, LaTeX, Typst."""

@@ -1,0 +1,198 @@
+"""Mathematics, and texts with mathematics in them, as Typst, the language that PDFs are typeset from.
+
+Every text ends up inside a quoted string or escaped, so that no name can be read as Typst code.
+"""
+
+import re
+from collections.abc import Callable
+
+from rldrill.problems.document import pieces
+from rldrill.problems.mathematics import (
+    Accent,
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Math,
+    Root,
+    Row,
+    Script,
+    Style,
+    Tabular,
+)
+from rldrill.render.mathematics.unicode import unicode
+
+_FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tr", "det"}
+_BIGS = {"Σ": "sum", "Π": "product", "∏": "product", "∑": "sum", "∫": "integral"}
+_SIGNS = {
+    ";": r"\; space",
+    "−": "minus",
+    "-": "minus",
+    "·": "dot.op",
+    "*": "ast.op",
+    "|": 'class("relation", bar.v)',
+}
+_FENCES = {
+    "(": "paren.l", ")": "paren.r", "[": "bracket.l", "]": "bracket.r", "{": "brace.l", "}": "brace.r",
+    "|": "bar.v", "‖": "bar.v.double", "": "",
+}  # fmt: skip
+_ACCENTS = {"hat": "hat", "bar": "overline", "tilde": "tilde"}
+CLASSES: dict[Style, str] = {"operator": "binary", "relation": "relation", "punctuation": "punctuation"}
+_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
+_COMMA = Glyph(",", "punctuation")
+_MINUS = Glyph("−", "operator")
+_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+#: Equations of at most this many signs stand side by side.
+SHORT = 24
+
+
+def typst(math: Math) -> str:
+    """Mathematics as the inside of a Typst equation."""
+    match math:
+        case Glyph():
+            return _attached(*_taken_apart(math))
+        case Row(items):
+            return typst_row(items)
+        case Fraction(numerator, denominator):
+            return f"frac({typst(numerator)}, {typst(denominator)})"
+        case Script(body, below, above):
+            return _script(body, below, above)
+        case Fence(body, left, right):
+            return f"lr({typst_fence(left)} {typst(body)} {typst_fence(right)})"
+        case Big(sign, below, above):
+            base = _BIGS.get(sign) or f"op({quoted(sign)}, limits: #true)"
+            return _attached(base, _optional(below), _optional(above))
+        case Root(body):
+            return f"sqrt({typst(body)})"
+        case Accent(body, mark):
+            return f"{_ACCENTS[mark]}({typst(body)})"
+        case Tabular(rows, left, right):
+            lines = "; ".join(", ".join(map(typst, line)) for line in rows)
+            return f"lr({typst_fence(left)} mat(delim: #none, {lines}) {typst_fence(right)})"
+
+
+def quoted(text: str) -> str:
+    """A text as a Typst string; control characters and line breaks become spaces."""
+    plain = "".join(sign if sign.isprintable() or sign == "\u200b" else " " for sign in text)
+    escaped = plain.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+def text(text: str) -> str:
+    """Running text as Typst markup, its mathematics in equations."""
+    return "".join(f"#{quoted(piece)};" if isinstance(piece, str) else _inline(piece) for piece in pieces(text))
+
+
+def _inline(math: Math) -> str:
+    """Mathematics within a line; the line may break between the equations of a list."""
+    items = math.items if isinstance(math, Row) else (math,)
+    groups = grouped(items, lambda before, _: before == _COMMA)
+    if len(groups) == 1 or not any(isinstance(item, Glyph) and item.style == "relation" for item in groups[-1]):
+        return _kept_together(math)
+    return '#", ";'.join(_kept_together(Row(group[:-1] if group[-1] == _COMMA else group)) for group in groups)
+
+
+def _kept_together(math: Math) -> str:
+    return f"#box[${typst(math)}$]" if len(unicode(math)) <= SHORT else f"${typst(math)}$"
+
+
+def relation(sign: str) -> str:
+    """The sign between two sides of an equation; nothing where there is none."""
+    return _sign(sign, "relation") if sign else ""
+
+
+def grouped(items: tuple[Math, ...], begins: Callable[[Math, Math], bool]) -> list[tuple[Math, ...]]:
+    """Mathematics in groups: a new one where ``begins(before, item)`` holds."""
+    starts = [at for at in range(len(items)) if at == 0 or begins(items[at - 1], items[at])]
+    return [items[start:end] for start, end in zip(starts, [*starts[1:], len(items)], strict=True)]
+
+
+# Glyphs and scripts
+
+
+def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
+    """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
+    match = _NAME.fullmatch(glyph.text)
+    if match is None or glyph.style not in ("variable", "word"):
+        return _sign(glyph.text, glyph.style), "", ""
+    primes = " ".join(["prime"] * len(match["primes"]))
+    if not match["stem"]:
+        return primes or quoted(glyph.text), "", ""
+    return _sign(match["stem"], glyph.style), match["digits"].translate(_DIGITS), primes
+
+
+def _sign(text: str, style: Style) -> str:
+    if style == "number" and re.fullmatch(r"[0-9]+(\.[0-9]+)?", text):
+        return text
+    if style == "word":
+        return f"op({quoted(text)})" if text in _FUNCTIONS else f"upright({quoted(text)})"
+    if len(text) == 1 and style != "number":
+        return _SIGNS.get(text) or _character(text)
+    kind = CLASSES.get(style)
+    return f'class("{kind}", {quoted(text)})' if kind else f"upright({quoted(text)})"
+
+
+def _character(sign: str) -> str:
+    if sign.isascii():
+        return sign if sign.isalpha() else rf"\{sign}"
+    return rf"\u{{{ord(sign):x}}}"
+
+
+def _script(body: Math, below: Math | None, above: Math | None) -> str:
+    base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (typst(body), "", "")
+    lower = r" \, ".join(filter(None, (digits, _optional(below))))
+    upper = " ".join(filter(None, (primes, _optional(above))))
+    return _attached(base, lower, upper)
+
+
+def _attached(base: str, below: str, above: str) -> str:
+    if not below and not above:
+        return base
+    lower = f", b: {below}" if below else ""
+    upper = f", t: {above}" if above else ""
+    return f"attach({base}{lower}{upper})"
+
+
+def _optional(math: Math | None) -> str:
+    return "" if math is None else typst(_on_one_line(math))
+
+
+def _on_one_line(math: Math) -> Math:
+    """Small print has no room for one number above another: ``3/2``."""
+    if isinstance(math, Row):
+        return Row(tuple(map(_on_one_line, math.items)))
+    if isinstance(math, Fraction) and isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph):
+        return Row((math.numerator, Glyph("/", "punctuation"), math.denominator))
+    return math
+
+
+def typst_fence(sign: str) -> str:
+    """A bracket as the inside of ``lr``."""
+    return _FENCES[sign] if sign in _FENCES else _character(sign[:1])
+
+
+# Rows
+
+
+def typst_row(items: tuple[Math, ...]) -> str:
+    """Mathematics side by side."""
+    result: list[str] = []
+    for position, item in enumerate(items):
+        if not position and len(items) > 1 and item == _MINUS:  # −5, with no more space than +5 would have
+            result.append('class("unary", minus)')
+            continue
+        if result and _is_prime(item):
+            result[-1] = f"attach({result[-1]}, t: {typst(item)})"
+            continue
+        # A word keeps the space beside it in Typst, which a bracket after it must not have.
+        close = position > 0 and _is_word(items[position - 1]) and isinstance(item, Fence)
+        result.append(typst(item) if close or not result else f" {typst(item)}")
+    return "".join(result) or '""'
+
+
+def _is_word(item: Math) -> bool:
+    return isinstance(item, Glyph) and item.style == "word"
+
+
+def _is_prime(item: Math) -> bool:
+    return isinstance(item, Glyph) and set(item.text) <= set("′'") and bool(item.text)

@@ -1,0 +1,166 @@
+"""Mathematics on one line of Unicode, for terminals."""
+
+from rldrill.problems.document import pieces
+from rldrill.problems.mathematics import (
+    Accent,
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Math,
+    Root,
+    Row,
+    Script,
+    Tabular,
+)
+
+_BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
+_ABOVE = dict(
+    zip(
+        "0123456789+−=()abcdefghijklmnoprstuvwxyzTABβγδφ",
+        "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ᵃᵇᶜᵈᵉᶠᵍʰⁱʲᵏˡᵐⁿᵒᵖʳˢᵗᵘᵛʷˣʸᶻᵀᴬᴮᵝᵞᵟᵠ",
+        strict=True,
+    )
+)
+_PARTIAL = Glyph("∂", "variable")
+_DIFFERENTIALS = (_PARTIAL, Glyph("d", "variable"), Script(_PARTIAL, above=Glyph("2", "number")))
+_MARKS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
+
+
+def unicode(math: Math) -> str:
+    """Mathematics as one line of text, with Unicode's scripts where they exist."""
+    match math:
+        case Glyph(text, style):
+            if style == "relation":
+                return f" {text} "
+            if style == "punctuation" and text in ",;":
+                return f"{text} "
+            return text
+        case Row(items):
+            return _row(items)
+        case Fraction(numerator, denominator):
+            above = unicode(numerator).strip() if _is_plain_product(numerator) else _grouped(numerator)
+            return f"{above}/{_grouped(denominator)}"
+        case Script(body, below, above):
+            return _script(body, below, above)
+        case Fence(body, left, right):
+            return f"{left}{unicode(body).strip()}{right}"
+        case Big(sign, below, above):
+            return f"{sign}{scripts(below, above)} "
+        case Root(body):
+            return f"√({unicode(body)})" if isinstance(body, Script) else f"√{_grouped(body)}"
+        case Accent(body, mark):
+            return unicode(body) + _MARKS[mark]
+        case Tabular(rows, left, right):
+            lines = ["  ".join(unicode(cell) for cell in line) for line in rows]
+            return f"{left}{' ; '.join(lines)}{right}"
+
+
+def inline(text: str) -> str:
+    """A text with its mathematics in Unicode."""
+    return "".join(piece if isinstance(piece, str) else unicode(piece).strip() for piece in pieces(text))
+
+
+def _row(items: tuple[Math, ...]) -> str:
+    text = ""
+    for position, item in enumerate(items):
+        if isinstance(item, Glyph) and item.style == "operator" and item.text in "+−±":
+            # A sign with nothing before it belongs to what follows; between two terms it stands free.
+            binary = position > 0 and not _opens(items[position - 1])
+            text += f" {item.text} " if binary else item.text
+        else:
+            if isinstance(item, Big) and text and text[-1] not in " ([{|":
+                text += " "
+            if position and isinstance(items[position - 1], Fence) and _is_letter(item):
+                text += " "
+            if isinstance(item, Glyph) and item.style == "word" and text and text[-1].isalnum():
+                text += " "
+            text += unicode(item)
+            if _is_word(item) and position + 1 < len(items) and isinstance(items[position + 1], Glyph | Script):
+                following = items[position + 1]
+                if not (isinstance(following, Glyph) and following.style in ("punctuation", "relation", "operator")):
+                    text += " "
+    return text
+
+
+def _is_plain_product(item: Math) -> bool:
+    """A number and letters side by side: 2π/3 needs no brackets above the line."""
+    return isinstance(item, Row) and all(
+        isinstance(part, Root) or (isinstance(part, Glyph) and part.style in ("number", "variable"))
+        for part in item.items
+    )
+
+
+def _is_word(item: Math) -> bool:
+    return isinstance(item, Glyph) and item.style == "word"
+
+
+def _is_letter(item: Math) -> bool:
+    head = item.body if isinstance(item, Script) else item
+    return isinstance(head, Glyph) and head.style in ("variable", "word")
+
+
+def _opens(item: Math) -> bool:
+    return isinstance(item, Big) or (isinstance(item, Glyph) and item.style in ("relation", "operator", "punctuation"))
+
+
+def _grouped(math: Math) -> str:
+    """Something above or below a slash, in brackets unless it is a single thing."""
+    text = unicode(math).strip()
+    single = (
+        isinstance(math, Glyph | Fence | Root)
+        or (isinstance(math, Script) and not isinstance(math.body, Fraction))
+        or (isinstance(math, Row) and len(math.items) == 2 and isinstance(math.items[1], Fence)
+            and isinstance(math.items[0], Glyph) and math.items[0].style in ("word", "variable"))
+        or (isinstance(math, Row) and len(math.items) == 2 and math.items[0] in _DIFFERENTIALS)
+    )  # fmt: skip
+    return text if single else f"({text})"
+
+
+def scripts(below: Math | None, above: Math | None) -> str:
+    """A subscript and a superscript as text."""
+    return _lowered(below) + _raised(above)
+
+
+def _script(body: Math, below: Math | None, above: Math | None) -> str:
+    base = unicode(body)
+    if body == Glyph("e", "variable") and below is None and above is not None and not _is_readable_above(above):
+        return f"exp({unicode(above)})"
+    if isinstance(body, Fraction | Row):
+        base = f"({base})"
+    return base + scripts(below, above)
+
+
+def _is_readable_above(math: Math) -> bool:
+    """Whether an exponent can be written with small signs, and holds no words such as ln."""
+    words = any(
+        isinstance(item, Glyph) and item.style == "word" for item in (math.items if isinstance(math, Row) else ())
+    )
+    return _all_shift(math, _ABOVE) and not words
+
+
+def _lowered(math: Math | None) -> str:
+    return "" if math is None else _shifted(math, _BELOW, "_")
+
+
+def _raised(math: Math | None) -> str:
+    if math == Glyph("*", "operator"):
+        return "*"
+    return "" if math is None else _shifted(math, _ABOVE, "^")
+
+
+def _shifted(math: Math, table: dict[str, str], mark: str) -> str:
+    text = unicode(math).replace(" ", "")
+    primes = len(text) - len(text.rstrip("′"))
+    stem = text.rstrip("′") if table is _BELOW else text
+    if stem and all(sign in table or (sign == "′" and table is _BELOW) for sign in stem):
+        return "".join(table.get(sign, sign) for sign in stem) + "′" * (primes if table is _BELOW else 0)
+    return f"{mark}{text}" if len(text) == 1 or _bracketed(text) else f"{mark}({text})"
+
+
+def _all_shift(math: Math, table: dict[str, str]) -> bool:
+    return all(sign in table for sign in unicode(math).replace(" ", ""))
+
+
+def _bracketed(text: str) -> bool:
+    return text.startswith("(") and text.endswith(")") and "(" not in text[1:]

@@ -1,0 +1,66 @@
+"""An answer given as data, written as a person would type it: numbers, lists, tables."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral
+
+from rldrill.problems.errors import UsageError
+
+_PARTING = re.compile(r"[,;\n]")
+
+
+def typed(value: object, what: str) -> str:
+    """A value as text: texts and numbers as they are, lists in brackets, tables with colons; blank for nothing.
+
+    Args:
+        value: the answer; a float stands for the shortest decimal that is this float.
+        what: what complaints call it.
+
+    Raises:
+        UsageError: it is something that nobody could type.
+    """
+    if isinstance(value, str):
+        return value
+    if isinstance(value, dict):
+        return ", ".join(_pairs(value, what))
+    if isinstance(value, list | tuple):
+        entries = ", ".join(_row(item, what) for item in value)
+        return f"[{entries}]" if value else ""
+    return _scalar(value, what)
+
+
+def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
+    for state, value in table.items():
+        if isinstance(value, dict):
+            for action, number in value.items():
+                yield f"({state}, {action}): {_scalar(number, what)}"
+        else:
+            # Of tied best actions, which stand in a tuple, any one is an answer.
+            yield f"{state}: {_scalar(value[0] if isinstance(value, tuple) and value else value, what)}"
+
+
+def _row(value: object, what: str) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_scalar(item, what) for item in value)}]"
+    return _scalar(value, what)
+
+
+def _scalar(value: object, what: str) -> str:
+    match value:
+        case None:
+            return ""
+        case bool():
+            return "yes" if value else "no"
+        case str():
+            return f"({value})" if _PARTING.search(value) else value  # one entry must not be read as several
+        case Integral() | Fraction():
+            return str(value)
+        case float() | Decimal() if math.isfinite(value):
+            return float.__repr__(value) if isinstance(value, float) else str(value)
+        case list() | tuple() | dict():
+            raise UsageError(f"{what} nests too deeply; write numbers, a list, a list of rows or a table.")
+        case _:
+            raise UsageError(f"{what} is neither a text nor a number; write it in quotes.")
