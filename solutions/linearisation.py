@@ -1,6 +1,7 @@
 """Linearising the dynamics of a problem: derivatives in letters, then exact values at the operating point."""
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from sympy import Expr
 
@@ -86,7 +87,7 @@ def jacobian(work: Work, given: System, formula: Formula, known: dict[str, Value
     return matrices.matrix(zip(*columns, strict=True))
 
 
-def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Value]) -> list[Value]:
+def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Any]) -> list[Value]:
     """The derivatives of all components by one letter; those of named parts first."""
     moving: list[str] = []
     known = {**known, "j": by}

@@ -35,7 +35,7 @@ def _explores(given: Given, time: int) -> bool:
 def _comes_back(given: Given) -> bool:
     """Whether a pair is visited that has a trace."""
     visits = list(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False))
-    traced = [pair for pair, trace in _before(given).items() if trace]
+    traced = [pair for pair, trace in _before(given).items() if trace != 0]
     return len({*visits, *traced}) < len(visits) + len(traced)
 
 
