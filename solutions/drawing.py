@@ -4,8 +4,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from flint import fmpq
-
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
@@ -14,8 +12,7 @@ from rldrill.problems.identity import MAX_SEED, Identity, split_id
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import apart
-from rldrill.solutions.exact import NoSolution, is_zero, parameters
-from rldrill.solutions.rational import RationalFunction
+from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
 from rldrill.solutions.solution import Solution, solve
 
 ATTEMPTS = 2000
@@ -107,13 +104,3 @@ def _differ(part: Part, key: Any, other: Any) -> bool:
         elif apart(content, wrong[name]):
             return True
     return False
-
-
-def digits(value: Any) -> int:
-    """How many digits a person must write for a number; closed forms count what stands in them."""
-    if isinstance(value, fmpq):
-        below = int(value.denominator)
-        return len(str(abs(int(value.numerator)))) + (len(str(below)) if below != 1 else 0)
-    if isinstance(value, RationalFunction):
-        return max(map(digits, value.coefficients)) + len(value.coefficients)
-    return max((digits(fmpq(int(atom.p), int(atom.q))) for atom in value.atoms() if atom.is_Rational), default=0)

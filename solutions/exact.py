@@ -1,27 +1,183 @@
-"""Exact values: rationals, rational functions of one open parameter, and sympy's closed forms."""
+"""Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any, TypeAlias
+from functools import singledispatch
+from typing import Any, TypeGuard
 
 import sympy
 from flint import arb, ctx, fmpq
 
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.solutions import surds
+from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
 from rldrill.solutions.rational import RationalFunction, generator
-
-#: ``fmpq`` where it is rational, ``RationalFunction`` where a parameter is open, else a sympy expression.
-Value: TypeAlias = Any
-
-
-class NoSolution(ArithmeticError):
-    """The values given have no answer: a singular matrix, a system without a solution."""
-
+from rldrill.solutions.value import NoSolution as NoSolution
+from rldrill.solutions.value import NotReal
+from rldrill.solutions.value import Value as Value
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
+_HALF = arb(1) / 2
+_PRECISIONS = (64, 256, 1024)  # in bits
+
+
+def exact(number: Weight | int) -> Value:
+    """A given's number as a value to compute with."""
+    if isinstance(number, Logarithm):
+        return sympy.log(to_sympy(exact(number.of)))
+    if isinstance(number, Parameter):
+        open_ = generator(number.symbol)
+        return 1 - open_ if number.complement else open_
+    return simplest(number)
+
+
+@singledispatch
+def simplest(value: Any) -> Any:
+    """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
+    return value
+
+
+simplest.register(bool, lambda value: value)
+simplest.register(int, fmpq)
+simplest.register(Fraction, lambda value: fmpq(value.numerator, value.denominator))
+simplest.register(sympy.Rational, fraction)
+
+
+@singledispatch
+def tidy(value: Any) -> Any:
+    """A number of square roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
+    return value
+
+
+@tidy.register(sympy.Expr)
+def _(value: sympy.Expr) -> Value:
+    surd = surds.read(value)
+    return value if surd is None else surds.write(surd)
+
+
+@singledispatch
+def to_sympy(value: Any) -> sympy.Expr:
+    """Any exact value as a sympy expression."""
+    return sympy.sympify(value, strict=True)
+
+
+to_sympy.register(fmpq, rational)
+to_sympy.register(sympy.Expr, lambda value: value)
+
+
+@singledispatch
+def parameters(value: Value) -> frozenset[str]:
+    """The names of the parameters that are left open in a value."""
+    return frozenset(free.name for free in to_sympy(value).free_symbols)
+
+
+parameters.register(fmpq, lambda _: frozenset())
+parameters.register(RationalFunction, lambda value: frozenset((value.parameter,)))
+
+
+@singledispatch
+def value_at(value: Value, point: fmpq) -> Value:
+    """The value with a number in place of the open parameter.
+
+    Raises:
+        NotReal: there is none.
+    """
+    expression = to_sympy(value)
+    return simplest(expression.subs(dict.fromkeys(expression.free_symbols, rational(point))))
+
+
+value_at.register(RationalFunction, RationalFunction.__call__)
+
+
+@singledispatch
+def enclosure(value: Value, at: fmpq | None = None) -> arb:
+    """A ball that is certain to hold the value, at the working precision of ``flint.ctx``.
+
+    Args:
+        value: an exact value.
+        at: what to put in for the open parameter.
+
+    Raises:
+        NotReal: the value holds something that has no real value.
+    """
+    return ball(to_sympy(value), at)
+
+
+enclosure.register(fmpq, lambda value, _=None: arb(value))
+enclosure.register(RationalFunction, lambda value, at=None: arb(value(at)))
+
+
+@singledispatch
+def digits(value: Value) -> int:
+    """How many digits a person must write for a number; closed forms count the longest that stands in them."""
+    return max((digits(fraction(number)) for number in to_sympy(value).atoms(sympy.Rational)), default=0)
+
+
+@digits.register(fmpq)
+def _(value: fmpq) -> int:
+    above, below = str(abs(int(value.p))), str(int(value.q))
+    return len(above) + (0 if below == "1" else len(below))
+
+
+@digits.register(RationalFunction)
+def _(value: RationalFunction) -> int:
+    return max(map(digits, value.coefficients)) + len(value.coefficients)
+
+
+@singledispatch
+def bits(value: Value) -> int:
+    """How many bits it takes to write a value out, or would with its powers multiplied out."""
+    return 1 + sum(map(bits, to_sympy(value).args))
+
+
+@bits.register(fmpq)
+@bits.register(sympy.Rational)
+def _(value: Any) -> int:
+    return int(value.p).bit_length() + int(value.q).bit_length() - 1
+
+
+@bits.register(RationalFunction)
+def _(value: RationalFunction) -> int:
+    return sum(bits(c) for poly in (value.top, value.bottom) for c in poly.coeffs())
+
+
+@bits.register(sympy.exp)
+def _(value: sympy.exp) -> int:
+    raised = value.args[0]
+    return 2 + int(abs(raised) * 3 / 2) if raised.is_Rational else 1 + bits(raised)
+
+
+@bits.register(sympy.Pow)
+def _(value: sympy.Pow) -> int:
+    base, exponent = value.args
+    return bits(base) * abs(int(exponent)) if exponent.is_Integer else 1 + bits(base) + bits(exponent)
+
+
+def degree(value: Value) -> int:
+    """The greatest power of the open parameter in a rational function; 0 in any other form."""
+    return value.degree if isinstance(value, RationalFunction) else 0
+
+
+def is_rational(value: object) -> TypeGuard[fmpq]:
+    """Whether a value is a rational number."""
+    return isinstance(value, fmpq)
+
+
+def is_closed(value: object) -> TypeGuard[sympy.Expr]:
+    """Whether a value is a closed form: neither rational nor a rational function."""
+    return isinstance(value, sympy.Expr)
+
+
+def is_whole(value: Value) -> bool:
+    """Whether a value is a whole number."""
+    return isinstance(value, fmpq) and value.q == 1
+
+
+def is_zero(value: Value) -> bool:
+    """Whether the value is exactly zero."""
+    return sign(value) == 0 if is_closed(value) and not parameters(value) else value == 0
 
 
 def monomial(expression: sympy.Expr) -> Value:
@@ -33,31 +189,18 @@ def monomial(expression: sympy.Expr) -> Value:
     return expression
 
 
-def exact(number: Weight | int) -> Value:
-    """A given's number as a value to compute with."""
-    if isinstance(number, Logarithm):
-        return sympy.log(to_sympy(exact(number.of)))
-    if isinstance(number, Parameter):
-        open_ = generator(number.symbol)
-        return 1 - open_ if number.complement else open_
-    if isinstance(number, int):
-        return fmpq(number)
-    return fmpq(number.numerator, number.denominator)
-
-
-def to_sympy(value: Value) -> sympy.Expr:
-    """Any exact value as a sympy expression."""
-    if isinstance(value, fmpq):
-        return sympy.Rational(int(value.numerator), int(value.denominator))
-    return value if isinstance(value, sympy.Expr) else sympy.sympify(value, strict=True)
-
-
 def ordered(expression: sympy.Expr) -> sympy.Expr:
     """A computed sum with its terms as one writes them by hand: the constant, then rising powers."""
     if not expression.is_Add:
         return expression
     letters = tuple(expression.free_symbols)
     return sympy.Add(*sorted(expression.args, key=lambda term: _rank(term, letters)), evaluate=False)
+
+
+def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, object]:
+    """The degree in the letters that are left open; without any, in what stands in their place, such as e."""
+    degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
+    return int(degree), sympy.default_sort_key(term)
 
 
 def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
@@ -68,165 +211,73 @@ def in_one_quotient(expression: sympy.Expr) -> sympy.Expr:
     return reduced if reduced is not None else sympy.together(expression) if expression.is_Add else expression
 
 
-def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, object]:
-    """The degree in the letters that are left open; without any, in what stands in their place, such as e."""
-    degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
-    return int(degree), sympy.default_sort_key(term)
-
-
-def from_sympy(expression: sympy.Expr) -> Value:
-    """A sympy expression as an exact value: rationals become flint's."""
-    return fmpq(int(expression.p), int(expression.q)) if expression.is_Rational else expression
-
-
-def simplest(value: Value) -> Value:
-    """The same value, as a plain rational where no parameter is left in it; yes and no stay what they are."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        return fmpq(value)
-    if isinstance(value, Fraction):
-        return fmpq(value.numerator, value.denominator)
-    if isinstance(value, sympy.Expr) and value.is_Rational:
-        return from_sympy(value)
-    return value
-
-
-def tidy(value: Value) -> Value:
-    """A number of square roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
-    if not isinstance(value, sympy.Expr) or value.is_Atom:
-        return value
-    surd = surds.read(value)
-    return value if surd is None else surds.write(surd)
-
-
-def parameters(value: Value) -> frozenset[str]:
-    """The names of the parameters that are left open in a value."""
-    if isinstance(value, fmpq):
-        return frozenset()
-    if isinstance(value, RationalFunction):
-        return frozenset((value.parameter,))
-    return frozenset(free.name for free in to_sympy(value).free_symbols)
-
-
-def is_zero(value: Value) -> bool:
-    """Whether the value is exactly zero."""
-    return sign(value) == 0 if isinstance(value, sympy.Expr) and not value.free_symbols else value == 0
-
-
-_ARB_FUNCTIONS = {sympy.exp: arb.exp, sympy.log: arb.log, sympy.sin: arb.sin, sympy.cos: arb.cos,
-                  sympy.tan: arb.tan, sympy.atan: arb.atan, sympy.Abs: abs}  # fmt: skip
-
-
-def enclosure(value: Value, at: fmpq | None = None) -> arb:
-    """A ball that is certain to hold the value, at the working precision of ``flint.ctx``.
-
-    Args:
-        value: an exact value.
-        at: what to put in for the open parameter.
-
-    Raises:
-        ValueError: the expression holds something that has no real value.
-    """
-    if isinstance(value, fmpq):
-        return arb(value)
-    if isinstance(value, RationalFunction) and at is not None:
-        return arb(value(at))
-    return _ball(to_sympy(value), at)
-
-
-def _ball(expression: sympy.Expr, at: fmpq | None) -> arb:
-    if expression.is_Rational:
-        return arb(fmpq(int(expression.p), int(expression.q)))
-    if expression.is_Symbol:
-        if at is None:
-            raise ValueError(f"{expression} is left open")
-        return arb(at)
-    if expression is sympy.E:
-        return arb(1).exp()
-    if expression is sympy.pi:
-        return arb.pi()
-    balls = [_ball(argument, at) for argument in expression.args]
-    if expression.is_Add:
-        return sum(balls[1:], balls[0])
-    if expression.is_Mul:
-        product = arb(1)
-        for ball in balls:
-            product *= ball
-        return product
-    if expression.is_Pow:
-        exponent = expression.args[1]
-        if exponent.is_Integer:
-            return balls[0] ** int(exponent)
-        return balls[0].sqrt() if exponent == sympy.S.Half else balls[0] ** balls[1]
-    if expression.func in _ARB_FUNCTIONS:
-        return _ARB_FUNCTIONS[expression.func](balls[0])
-    if isinstance(expression, sympy.Max):
-        largest = balls[0]
-        for ball in balls[1:]:
-            largest = largest.max(ball)
-        return largest
-    raise ValueError(f"{expression.func.__name__} has no real value here")
+def absolute(value: Value) -> Value:
+    """The absolute value of a number; sympy's own would search for its sign symbolically."""
+    return value if sign(value) >= 0 else -value
 
 
 def magnitude(value: Value) -> int:
-    """The power of ten at the first digit of a real value that is not zero; it may be off by one.
+    """The power of ten at the first digit of a real value that is not zero.
 
     Raises:
-        ValueError: it has no real value, or one too close to zero to tell.
+        NotReal: it has no real value, or one too close to zero to tell.
     """
-    before = ctx.prec
-    try:
-        for precision in (64, 256, 1024):
-            ctx.prec = precision
-            ball = abs(enclosure(value))
-            if ball.is_finite() and ball > 0:
-                return int((ball.log() / arb(10).log()).mid().floor().unique_fmpz())
-    finally:
-        ctx.prec = before
-    raise ValueError(f"{value} cannot be told from zero, or is no real number")
+    for precision in _PRECISIONS:
+        with ctx.workprec(precision):
+            size = abs(enclosure(value))
+            if not size.is_finite() or not size > 0:
+                continue
+            exponent = size.log() / arb(10).log()
+            below, nearest = exponent.floor().unique_fmpz(), (exponent + _HALF).floor().unique_fmpz()
+        if below is not None:
+            return int(below)
+        if nearest is not None:  # the ball holds a power of ten
+            return int(nearest) - int(sign(absolute(value) - fmpq(10) ** int(nearest)) < 0)
+    raise NotReal(f"{value} cannot be told from zero, or is no real number")
 
 
-def sign(value: Value, at: fmpq | None = None) -> int:
+@singledispatch
+def sign(value: Value) -> int:
     """−1, 0 or 1: the exact sign of a real value.
 
     Raises:
-        ValueError: the value is not a real number.
+        NotReal: the value is not a real number, or cannot be told from zero.
     """
-    if isinstance(value, fmpq):
-        return (value > 0) - (value < 0)
-    for precision in (64, 256, 1024):
-        if found := clear_sign(value, at, precision):
+    for precision in _PRECISIONS:
+        if found := clear_sign(value, None, precision):
             return found
-    expression = to_sympy(value) if at is None else to_sympy(value).subs(
-        {free: to_sympy(at) for free in to_sympy(value).free_symbols}
-    )  # fmt: skip
+    expression = to_sympy(value)
     if vanishes(expression) or expression.equals(0):
         return 0
-    raise ValueError(f"{expression} is not a real number that can be told from zero")
+    raise NotReal(f"{expression} is not a real number that can be told from zero")
+
+
+sign.register(fmpq, lambda value: (value > 0) - (value < 0))
 
 
 def clear_sign(value: Value, at: fmpq | None, precision: int) -> int:
     """−1 or 1 if a real value is that far from zero that so many bits show it, else 0.
 
     Raises:
-        ValueError: the value is not a real number.
+        NotReal: the value is not a real number.
     """
-    before = ctx.prec
-    try:
-        ctx.prec = precision
+    with ctx.workprec(precision):
         ball = enclosure(value, at)
-    finally:
-        ctx.prec = before
-    return int(ball > 0) - int(ball < 0) if ball.is_finite() else 0
+        return int(ball > 0) - int(ball < 0) if ball.is_finite() else 0
 
 
 def largest(values: Iterable[Value]) -> Value:
-    """The greatest of some real values."""
+    """The greatest of some real values.
+
+    Raises:
+        NoSolution: which it is depends on what is left open.
+    """
     best, *rest = values
     for value in rest:
         try:
             if sign(value - best) > 0:
                 best = value
-        except ValueError:
+        except NotReal:
             raise NoSolution("which is the greatest depends on what is left open") from None
     return best
 

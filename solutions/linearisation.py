@@ -113,7 +113,7 @@ def _jacobian(work: Work, given: System, formula: Formula, known: dict[str, Valu
     return matrices.matrix(zip(*columns, strict=True))
 
 
-def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Value], rule: Rule) -> list[Value]:
+def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Any], rule: Rule) -> list[Value]:
     """The derivatives of all components by one letter; those of named parts first."""
     moving: list[str] = []
     known = {**known, "j": by}

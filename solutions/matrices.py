@@ -1,13 +1,31 @@
 """Matrices of exact values: flint's where all entries are rational, else entry by entry."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, TypeAlias
+import operator
+from collections.abc import Iterable, Sequence
+from functools import reduce
+from typing import Any, Protocol, TypeGuard
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq_mat
 
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import surds
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_zero, simplest, tidy
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_rational, is_zero, simplest, tidy
+
+
+class AnyMatrix(Protocol):
+    """A matrix of exact values: flint's ``fmpq_mat``, or ``ExactMatrix`` where an entry is not rational."""
+
+    def nrows(self) -> int: ...  # noqa: D102
+    def ncols(self) -> int: ...  # noqa: D102
+    def tolist(self) -> list[list[Value]]: ...  # noqa: D102
+    def entries(self) -> list[Value]: ...  # noqa: D102
+    def transpose(self) -> "AnyMatrix": ...  # noqa: D102
+    def inv(self) -> "AnyMatrix": ...  # noqa: D102
+    def __getitem__(self, place: tuple[int, int], /) -> Value: ...
+    def __neg__(self) -> "AnyMatrix": ...
+    def __add__(self, other: "AnyMatrix", /) -> "AnyMatrix": ...
+    def __sub__(self, other: "AnyMatrix", /) -> "AnyMatrix": ...
+    def __mul__(self, other: "AnyMatrix | Value | int", /) -> "AnyMatrix": ...
 
 
 class ExactMatrix:
@@ -46,14 +64,14 @@ class ExactMatrix:
         """All entries, row by row."""
         return [entry for line in self._rows for entry in line]
 
-    def transpose(self) -> "AnyMatrix":
+    def transpose(self) -> AnyMatrix:
         """Rows as columns."""
         return matrix(zip(*self._rows, strict=True))
 
-    def __neg__(self) -> "AnyMatrix":
+    def __neg__(self) -> AnyMatrix:
         return matrix([-entry for entry in line] for line in self._rows)
 
-    def __add__(self, other: Any) -> "AnyMatrix":
+    def __add__(self, other: AnyMatrix) -> AnyMatrix:
         return matrix(
             [a + b for a, b in zip(mine, its, strict=True)]
             for mine, its in zip(self._rows, other.tolist(), strict=True)
@@ -61,22 +79,22 @@ class ExactMatrix:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> "AnyMatrix":
+    def __sub__(self, other: AnyMatrix) -> AnyMatrix:
         return self + -other
 
-    def __rsub__(self, other: Any) -> "AnyMatrix":
+    def __rsub__(self, other: AnyMatrix) -> AnyMatrix:
         return -self + other
 
-    def __mul__(self, other: Any) -> "AnyMatrix":
+    def __mul__(self, other: AnyMatrix | Value | int) -> AnyMatrix:
         return product(self, other) if is_matrix(other) else self._scaled(other)
 
-    def __rmul__(self, other: Any) -> "AnyMatrix":
+    def __rmul__(self, other: AnyMatrix | Value | int) -> AnyMatrix:
         return product(other, self) if is_matrix(other) else self._scaled(other)
 
-    def _scaled(self, factor: Value) -> "AnyMatrix":
+    def _scaled(self, factor: Any) -> AnyMatrix:
         return matrix([factor * entry for entry in line] for line in self._rows)
 
-    def inv(self) -> "AnyMatrix":
+    def inv(self) -> AnyMatrix:
         """The inverse, by elimination.
 
         Raises:
@@ -89,8 +107,7 @@ class ExactMatrix:
             if pivot is None:
                 raise ZeroDivisionError("the matrix is singular")
             rows[k], rows[pivot] = rows[pivot], rows[k]
-            head = rows[k][k]
-            factor = tidy(ONE / head)
+            factor = tidy(ONE / rows[k][k])
             rows[k] = [times(factor, entry) for entry in rows[k]]
             for i in range(size):
                 if i != k:
@@ -99,18 +116,15 @@ class ExactMatrix:
         return matrix(line[size:] for line in rows)
 
 
-AnyMatrix: TypeAlias = Any  # fmpq_mat or ExactMatrix
-
-
-def is_matrix(value: object) -> bool:
+def is_matrix(value: object) -> TypeGuard[AnyMatrix]:
     """Whether a value is a matrix of either kind."""
     return isinstance(value, fmpq_mat | ExactMatrix)
 
 
-def matrix(rows: Iterable[Iterable[Value]]) -> AnyMatrix:
+def matrix(rows: Iterable[Iterable[Value | int]]) -> AnyMatrix:
     """Rows of values as a matrix, of flint's kind if it can be."""
-    lines = [[entry if isinstance(entry, fmpq) else tidy(simplest(entry)) for entry in line] for line in rows]
-    if all(isinstance(entry, fmpq) for line in lines for entry in line):
+    lines = [[tidy(simplest(entry)) for entry in line] for line in rows]
+    if all(is_rational(entry) for line in lines for entry in line):
         return fmpq_mat(len(lines), len(lines[0]), [entry for line in lines for entry in line])
     return ExactMatrix(lines)
 
@@ -145,17 +159,18 @@ def _inner(line: Sequence[Value], column: Sequence[Value]) -> Value:
     for a, b in zip(line, column, strict=True):
         left, right = surds.read(a), surds.read(b)
         if left is None or right is None:
-            return sum((a * b for a, b in zip(line, column, strict=True) if a != 0 and b != 0), ZERO)
+            products = (a * b for a, b in zip(line, column, strict=True) if a != 0 and b != 0)
+            return reduce(operator.add, products, ZERO)
         total = surds.add(total, surds.multiply(left, right))
     return surds.write(total)
 
 
-def identity(size: int) -> fmpq_mat:
+def identity(size: int) -> AnyMatrix:
     """The identity matrix."""
     return fmpq_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
 
 
-def stacked(rows: int, *blocks: Any) -> AnyMatrix:
+def stacked(rows: int, *blocks: AnyMatrix | Value | int) -> AnyMatrix:
     """Blocks side by side and below one another, as one matrix.
 
     Args:
@@ -164,18 +179,20 @@ def stacked(rows: int, *blocks: Any) -> AnyMatrix:
     """
     width = len(blocks) // rows
     lines = [blocks[start : start + width] for start in range(0, len(blocks), width)]
-    heights = [max(block.nrows() if is_matrix(block) else 1 for block in line) for line in lines]
-    widths = [max(line[j].ncols() if is_matrix(line[j]) else 1 for line in lines) for j in range(width)]
+    widths = [max(_shape(line[j])[1] for line in lines) for j in range(width)]
     result: list[list[Value]] = []
-    for line, height in zip(lines, heights, strict=True):
-        parts = [list(_entries(block, height, across)) for block, across in zip(line, widths, strict=True)]
+    for line in lines:
+        height = max(_shape(block)[0] for block in line)
+        parts = [_entries(block, height, across) for block, across in zip(line, widths, strict=True)]
         result += [[entry for part in parts for entry in part[i]] for i in range(height)]
     return matrix(result)
 
 
-def _entries(block: Any, height: int, across: int) -> Iterator[list[Value]]:
+def _shape(block: object) -> tuple[int, int]:
+    return (block.nrows(), block.ncols()) if is_matrix(block) else (1, 1)
+
+
+def _entries(block: Any, height: int, across: int) -> list[list[Value]]:
     if is_matrix(block):
-        yield from block.tolist()
-    else:
-        for i in range(height):
-            yield [block if i == j else ZERO for j in range(across)]
+        return block.tolist()
+    return [[block if i == j else ZERO for j in range(across)] for i in range(height)]

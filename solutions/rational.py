@@ -1,12 +1,20 @@
 """Rational functions of one open parameter, over flint's polynomials."""
 
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from math import gcd, lcm
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy
 from flint import fmpq, fmpq_poly
+
+from rldrill.solutions.closed_forms import rational
+from rldrill.solutions.value import NotReal, Value
+
+_ONE = fmpq_poly([1])
+_Operation: TypeAlias = Callable[["RationalFunction", "RationalFunction"], Value]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,54 +29,62 @@ class RationalFunction:
     top: fmpq_poly
     bottom: fmpq_poly
 
-    def __add__(self, other: Any) -> Any:
-        other = _lifted(self.parameter, other)
-        if not isinstance(other, RationalFunction):
-            return sympy.sympify(self, strict=True) + other if isinstance(other, sympy.Expr) else NotImplemented
-        if self.bottom == other.bottom:
-            return quotient(self.parameter, self.top + other.top, self.bottom)
-        return quotient(self.parameter, self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
+    def __add__(self, other: Value | int) -> Value:
+        return self._with(other, operator.add, _sum)
 
     __radd__ = __add__
 
     def __neg__(self) -> "RationalFunction":
         return RationalFunction(self.parameter, -self.top, self.bottom)
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self, other: Value | int) -> Value:
         return self + -other
 
-    def __rsub__(self, other: Any) -> Any:
+    def __rsub__(self, other: Value | int) -> Value:
         return -self + other
 
-    def __mul__(self, other: Any) -> Any:
-        other = _lifted(self.parameter, other)
-        if not isinstance(other, RationalFunction):
-            return sympy.sympify(self, strict=True) * other if isinstance(other, sympy.Expr) else NotImplemented
-        return quotient(self.parameter, self.top * other.top, self.bottom * other.bottom)
+    def __mul__(self, other: Value | int) -> Value:
+        return self._with(other, operator.mul, _product)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Any:
-        other = _lifted(self.parameter, other)
-        if not isinstance(other, RationalFunction):
-            return sympy.sympify(self, strict=True) / other if isinstance(other, sympy.Expr) else NotImplemented
-        return quotient(self.parameter, self.top * other.bottom, self.bottom * other.top)
+    def __truediv__(self, other: Value | int) -> Value:
+        return self * (fmpq(1) / other)
 
-    def __rtruediv__(self, other: Any) -> Any:
-        return _inverse(self) * other
+    def __rtruediv__(self, other: Value | int) -> Value:
+        return self**-1 * other
 
-    def __pow__(self, exponent: int) -> Any:
-        if exponent < 0:
-            return _inverse(self) ** -exponent
-        return quotient(self.parameter, self.top**exponent, self.bottom**exponent)
+    def __pow__(self, exponent: int) -> Value:
+        above, below = (self.top, self.bottom) if exponent >= 0 else (self.bottom, self.top)
+        return quotient(self.parameter, above ** abs(exponent), below ** abs(exponent))
 
-    def __call__(self, point: fmpq) -> fmpq:
+    def _with(self, other: Value | int, of_closed: Callable[[Any, Any], Value], of_functions: _Operation) -> Value:
+        """An operation with any value: what holds another parameter as well, or a root, becomes an expression."""
+        if isinstance(other, int | fmpq):
+            other = lifted(other, self.parameter)
+        if isinstance(other, RationalFunction) and other.parameter == self.parameter:
+            return of_functions(self, other)
+        if isinstance(other, RationalFunction | sympy.Expr):
+            return of_closed(sympy.sympify(self, strict=True), sympy.sympify(other, strict=True))
+        return NotImplemented
+
+    def __call__(self, point: fmpq | None) -> fmpq:
         """The value at a point.
 
         Raises:
-            ZeroDivisionError: there is none.
+            NotReal: no point is given, or it is a pole.
         """
-        return self.top(point) / self.bottom(point)
+        if point is None:
+            raise NotReal(f"{self.parameter} is left open")
+        below = self.bottom(point)
+        if below == 0:
+            raise NotReal(f"there is a pole at {point}")
+        return self.top(point) / below
+
+    @property
+    def degree(self) -> int:
+        """The greater degree of the two polynomials."""
+        return int(max(self.top.degree(), self.bottom.degree()))
 
     @property
     def coefficients(self) -> tuple[fmpq, ...]:
@@ -92,7 +108,7 @@ class RationalFunction:
         return top / bottom
 
 
-def quotient(parameter: str, top: fmpq_poly, bottom: fmpq_poly) -> Any:
+def quotient(parameter: str, top: fmpq_poly, bottom: fmpq_poly) -> Value:
     """A quotient of polynomials in lowest terms; a plain ``fmpq`` where the parameter drops out.
 
     Raises:
@@ -112,27 +128,27 @@ def quotient(parameter: str, top: fmpq_poly, bottom: fmpq_poly) -> Any:
     return RationalFunction(parameter, top, bottom)
 
 
-def _inverse(value: RationalFunction) -> Any:
-    return quotient(value.parameter, value.bottom, value.top)
+def lifted(value: Value | int, parameter: str = "") -> RationalFunction:
+    """A rational as a function that does not depend on the parameter; what is a function already stays as it is."""
+    return value if isinstance(value, RationalFunction) else RationalFunction(parameter, fmpq_poly([value]), _ONE)
 
 
-def _lifted(parameter: str, value: Any) -> Any:
-    """A rational as a function that does not depend on the parameter; what is neither stays as it is."""
-    if isinstance(value, int | fmpq):
-        return RationalFunction(parameter, fmpq_poly([value]), fmpq_poly([1]))
-    if isinstance(value, RationalFunction) and value.parameter != parameter:
-        return sympy.sympify(value, strict=True)
-    return value
+def _sum(a: RationalFunction, b: RationalFunction) -> Value:
+    if a.bottom == b.bottom:
+        return quotient(a.parameter, a.top + b.top, a.bottom)
+    return quotient(a.parameter, a.top * b.bottom + b.top * a.bottom, a.bottom * b.bottom)
+
+
+def _product(a: RationalFunction, b: RationalFunction) -> Value:
+    return quotient(a.parameter, a.top * b.top, a.bottom * b.bottom)
 
 
 def _polynomial(parameter: str, poly: fmpq_poly) -> sympy.Expr:
     letter = sympy.Symbol(parameter, positive=True)
-    return sympy.Add(
-        *(sympy.Rational(int(c.p), int(c.q)) * letter**power for power, c in enumerate(poly.coeffs()) if c)
-    )
+    return sympy.Add(*(rational(c) * letter**power for power, c in enumerate(poly.coeffs()) if c))
 
 
 @cache
 def generator(parameter: str) -> RationalFunction:
     """The open parameter itself, as a rational function."""
-    return RationalFunction(parameter, fmpq_poly([0, 1]), fmpq_poly([1]))
+    return RationalFunction(parameter, fmpq_poly([0, 1]), _ONE)

@@ -51,4 +51,5 @@ def _short(value: AnyMatrix) -> AnyMatrix:
 
 
 def _largest(value: AnyMatrix) -> fmpq:
-    return max(abs(entry) for entry in value.entries())
+    entries: list[fmpq] = value.entries()
+    return max(map(abs, entries))

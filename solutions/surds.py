@@ -3,17 +3,26 @@
 A sum is a mapping from (what stands under the root, squarefree; the power of π) to its coefficient.
 """
 
-from functools import lru_cache
+from functools import lru_cache, reduce, singledispatch
 from math import gcd
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import sympy
 from flint import fmpq, fmpz
+
+from rldrill.solutions.closed_forms import folded, fraction, rational
+from rldrill.solutions.value import Value
 
 Term: TypeAlias = tuple[int, int]
 Surd: TypeAlias = dict[Term, fmpq]
 
 _LARGEST = 10**12  # what stands under a root is factored
+_POWER = 16  # the highest that is multiplied out
+_ONE: Term = (1, 0)
+
+
+class _OtherError(Exception):
+    """It is no such sum."""
 
 
 def add(a: Surd, b: Surd) -> Surd:
@@ -54,43 +63,43 @@ def inverse(a: Surd) -> Surd | None:
     return None if norm is None else multiply(conjugate, norm)
 
 
-@lru_cache(maxsize=4096)
-def _read(expression: Any) -> Surd | None:
-    if expression.is_Rational:
-        return {(1, 0): fmpq(int(expression.p), int(expression.q))} if expression else {}
-    if expression is sympy.pi:
-        return {(1, 1): fmpq(1)}
-    if expression.is_Pow:
-        return _power(*expression.args)
-    if not expression.is_Add and not expression.is_Mul:
-        return None
-    combine = add if expression.is_Add else multiply
-    total: Surd = {} if expression.is_Add else {(1, 0): fmpq(1)}
-    for argument in expression.args:
-        part = _read(argument)
-        if part is None:
-            return None
-        total = combine(total, part)
-    return total
-
-
-def _power(base: Any, exponent: Any) -> Surd | None:
-    if exponent.is_Integer and abs(exponent) <= 16:
-        part = _read(base)
-        if part is not None and exponent < 0:
-            part = inverse(part)
-        if part is None:
-            return None
-        total: Surd = {(1, 0): fmpq(1)}
-        for _ in range(abs(int(exponent))):
-            total = multiply(total, part)
-        return total
-    if exponent.is_Rational and exponent.q == 2 and base.is_Rational and 0 < base.p * base.q < _LARGEST:
-        root = _root(int(base.p * base.q))
-        root = {term: coefficient / int(base.q) for term, coefficient in root.items()}
-        half = _power(base, sympy.Integer((int(exponent.p) - 1) // 2))
-        return None if half is None else multiply(root, half)
+@singledispatch
+def read(value: object) -> Surd | None:  # noqa: ARG001
+    """An exact value as such a sum; None, if it is none."""
     return None
+
+
+@read.register(fmpq)
+def _(value: fmpq) -> Surd:
+    return {_ONE: value} if value else {}
+
+
+@read.register(sympy.Expr)
+@lru_cache(maxsize=4096)
+def _(value: sympy.Expr) -> Surd | None:
+    try:
+        return folded(value, _leaf, add, multiply, _power)
+    except _OtherError:
+        return None
+
+
+def _leaf(part: sympy.Expr) -> Surd:
+    if part.is_Rational:
+        return {_ONE: fraction(part)} if part else {}
+    if part is sympy.pi:
+        return {(1, 1): fmpq(1)}
+    base, exponent = part.args if part.is_Pow else (part, part)
+    if base.is_Rational and exponent.is_Rational and exponent.q == 2 and 0 < base.p * base.q < _LARGEST:
+        root = {term: coefficient / int(base.q) for term, coefficient in _root(int(base.p * base.q)).items()}
+        return multiply(root, _power(_leaf(base), (int(exponent.p) - 1) // 2))
+    raise _OtherError
+
+
+def _power(a: Surd, exponent: int) -> Surd:
+    base = a if exponent >= 0 else inverse(a)
+    if base is None or abs(exponent) > _POWER:
+        raise _OtherError
+    return reduce(multiply, [base] * abs(exponent), {_ONE: fmpq(1)})
 
 
 @lru_cache(maxsize=4096)
@@ -102,27 +111,13 @@ def _root(number: int) -> Surd:
     return {(under, 0): fmpq(outside)}
 
 
-def read(value: Any) -> Surd | None:
-    """An exact value as such a sum; None, if it is none."""
-    if isinstance(value, fmpq):
-        return {(1, 0): value} if value else {}
-    return _read(value) if isinstance(value, sympy.Expr) else None
-
-
-def write(surd: Surd) -> Any:
+def write(surd: Surd) -> Value:
     """Such a sum as an exact value: a plain rational, where no root is left."""
-    if not surd:
-        return fmpq(0)
-    if len(surd) == 1 and (1, 0) in surd:
-        return surd[1, 0]
-    return _written(tuple(sorted(surd.items())))
+    return _written(tuple(sorted(surd.items()))) if surd.keys() - {_ONE} else surd.get(_ONE, fmpq(0))
 
 
 @lru_cache(maxsize=4096)
-def _written(items: tuple[tuple[Term, fmpq], ...]) -> Any:
+def _written(items: tuple[tuple[Term, fmpq], ...]) -> sympy.Expr:
     return sympy.Add(
-        *(
-            sympy.Rational(int(coefficient.p), int(coefficient.q)) * sympy.sqrt(under) * sympy.pi**power
-            for (under, power), coefficient in items
-        )
+        *(rational(coefficient) * sympy.sqrt(under) * sympy.pi**power for (under, power), coefficient in items)
     )

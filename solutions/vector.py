@@ -2,11 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import sympy
 
-from rldrill.solutions.exact import to_sympy
+from rldrill.solutions.exact import Value, to_sympy
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -16,15 +15,15 @@ class Vector:
     flint's matrices hold rationals only; weights and features may also hold what is left open, or e.
     """
 
-    entries: tuple[Any, ...]
+    entries: tuple[Value, ...]
 
-    def __init__(self, entries: Iterable[Any]) -> None:
+    def __init__(self, entries: Iterable[Value]) -> None:
         object.__setattr__(self, "entries", tuple(entries))
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[Value]:
         return iter(self.entries)
 
-    def __add__(self, other: Any) -> "Vector":
+    def __add__(self, other: object) -> "Vector":
         if not isinstance(other, Vector):
             # A sum over a set begins with 0; no other number can be added to a vector.
             return self if other == 0 else NotImplemented
@@ -35,10 +34,10 @@ class Vector:
     def __neg__(self) -> "Vector":
         return self * -1
 
-    def __sub__(self, other: Any) -> "Vector":
+    def __sub__(self, other: "Vector") -> "Vector":
         return self + -other
 
-    def __mul__(self, factor: Any) -> "Vector":
+    def __mul__(self, factor: "Vector | Value | int") -> "Vector":
         return NotImplemented if isinstance(factor, Vector) else Vector(entry * factor for entry in self)
 
     __rmul__ = __mul__

@@ -152,7 +152,7 @@ class Work:
         sign: Any = None,
         right: Any = None,
         **known: Any,
-    ) -> Value:
+    ) -> Any:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
 
         Args:
@@ -174,7 +174,7 @@ class Work:
         self.lines.append(Step(formula, right, known, value, left, sign, own))
         return value
 
-    def value(self, formula: Formula, **known: Any) -> Value:
+    def value(self, formula: Formula, **known: Any) -> Any:
         """What a formula, as it is read here, gives for known quantities, without a step in the working."""
         return value_of(self.reading(formula), known)
 

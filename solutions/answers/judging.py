@@ -160,7 +160,7 @@ def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str
     return tuple(name for name, content in key.items() if not _cell_is_right(cells[name], content))
 
 
-def _cell_is_right(cell: Cell, key: Value) -> bool:
+def _cell_is_right(cell: Cell, key: Any) -> bool:
     if isinstance(cell, Reading):
         return is_right(cell.value, key, rounded=cell.decimal)
     return cell in key

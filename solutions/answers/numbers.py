@@ -302,7 +302,7 @@ class _Parser:
             message = "A whole number and a fraction may be read in two ways here; put brackets around them."
             raise self._source.unreadable(message, whole.at)
         self._operate()
-        below_one = self._arithmetic.divide(self._literal(top), self._literal(bottom))
+        below_one: fmpq = self._arithmetic.divide(self._literal(top), self._literal(bottom))
         if below_one >= 1:
             message = "After a whole number the fraction must be below one, as in 1 3/4; write a sign between."
             raise self._source.unreadable(message, top.at)

@@ -2,12 +2,25 @@
 
 import hashlib
 from collections.abc import Iterator
+from functools import lru_cache
 
 from flint import fmpq
 
-from rldrill.solutions.exact import Value, clear_sign, from_sympy, is_zero, magnitude, parameters, sign, to_sympy
+from rldrill.solutions.exact import (
+    Value,
+    absolute,
+    clear_sign,
+    is_closed,
+    is_zero,
+    magnitude,
+    parameters,
+    sign,
+    simplest,
+    to_sympy,
+    value_at,
+)
 from rldrill.solutions.exponentials import vanishes
-from rldrill.solutions.rational import RationalFunction
+from rldrill.solutions.value import NotReal
 
 #: The rule in words, printed beside every question.
 RULE = "an exact value, or a decimal that is right to 3 significant digits"
@@ -18,22 +31,10 @@ _POINTS = 6
 _FEW_BITS, _MANY_BITS = 64, 1024
 
 
+@lru_cache(maxsize=4096)
 def tolerance(value: Value) -> fmpq:
     """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
-    if is_zero(value):
-        return _AT_ZERO
-    size = _size(value)
-    exponent = magnitude(value)  # a guess, by one perhaps; the comparisons decide, exactly
-    while sign(size - fmpq(10) ** (exponent + 1)) >= 0:
-        exponent += 1
-    while sign(size - fmpq(10) ** exponent) < 0:
-        exponent -= 1
-    return fmpq(10) ** (exponent - DIGITS + 1) / 2
-
-
-def _size(value: Value) -> Value:
-    """The absolute value of a number; sympy's own would search for its sign symbolically."""
-    return value if sign(value) >= 0 else -value
+    return _AT_ZERO if is_zero(value) else fmpq(10) ** (magnitude(value) - DIGITS + 1) / 2
 
 
 def within(value: Value, key: Value, bound: fmpq) -> bool:
@@ -62,7 +63,7 @@ def is_close(value: Value, key: Value) -> bool:
     """Whether a value is within 2 % of the key."""
     if parameters(key) or parameters(value) or is_zero(key):
         return False
-    return within(value, key, _size(key) * _CLOSE)
+    return within(value, key, absolute(key) * _CLOSE)
 
 
 def apart(key: Value, other: Value) -> bool:
@@ -80,17 +81,15 @@ def equivalent(value: Value, key: Value) -> bool:
     What the proof cannot decide (logarithms of the parameter) is the same if no point tells them apart in a
     thousand bits.
     """
-    if isinstance(value, fmpq | RationalFunction) and isinstance(key, fmpq | RationalFunction):
-        return bool(value == key)
-    difference = to_sympy(value) - to_sympy(key)
-    if difference == 0:
-        return True
+    difference = simplest(value - key)
+    if not is_closed(difference):
+        return bool(difference == 0)
     try:
         if _differs(difference, value, _FEW_BITS):
             return False
         proved = vanishes(difference)
         return not _differs(difference, value, _MANY_BITS) if proved is None else proved
-    except ValueError:
+    except NotReal:
         return False
 
 
@@ -110,15 +109,7 @@ def points(value: Value) -> Iterator[fmpq]:
 
 def _right_at(value: Value, key: Value, point: fmpq) -> bool:
     try:
-        here = at(key, point)
-        return within(at(value, point), here, tolerance(here))
-    except (ValueError, ZeroDivisionError):
+        here = value_at(key, point)
+        return within(value_at(value, point), here, tolerance(here))
+    except NotReal:
         return False
-
-
-def at(value: Value, point: fmpq) -> Value:
-    """The value with a number in place of the open parameter."""
-    if isinstance(value, RationalFunction):
-        return value(point)
-    expression = to_sympy(value)
-    return from_sympy(expression.subs(dict.fromkeys(expression.free_symbols, to_sympy(point))))

@@ -2,11 +2,13 @@
 
 from fractions import Fraction
 
+from flint import fmpq
+
 from rldrill.problems.bellman.optimal_value import Given
 from rldrill.problems.document import joined
 from rldrill.problems.models import Policy, equiprobable
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import fork
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
@@ -76,7 +78,7 @@ def _policy(given: Given, work: Work) -> Policy:
 def _most_paid(given: Given, state: str) -> str:
     """The action with the greatest expected reward."""
 
-    def reward(action: str) -> Value:
+    def reward(action: str) -> fmpq:
         return sum((exact(row.probability) * exact(row.reward) for row in given.mdp.outcomes[state, action]), ZERO)
 
     return max(given.mdp.actions[state], key=reward)

@@ -63,7 +63,8 @@ def _best(state: str, after: tuple[str, ...], R: Rewards, values: Mapping[str, V
 
 
 def _most_paid(state: str, after: tuple[str, ...], R: Rewards) -> str:
-    return max(after, key=lambda name: R[state, name])
+    most: str = arg_max(after, [R[state, name] for name in after])[0]
+    return most
 
 
 def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:

@@ -86,7 +86,7 @@ def _explores(given: Given, time: int) -> bool:
 def _comes_back(given: Given) -> bool:
     """Whether a pair is visited that has a trace."""
     visits = _visits(given)
-    traced = [pair for pair, trace in _before(given).items() if trace]
+    traced = [pair for pair, trace in _before(given).items() if trace != 0]
     return len({*visits, *traced}) < len(visits) + len(traced)
 
 

@@ -156,7 +156,7 @@ class DivisionError(NoSolution):
     """A formula divides by zero, or inverts a singular matrix."""
 
 
-def _inverse(value: Value) -> Value:
+def _inverse(value: Any) -> Any:
     try:
         return value.inv() if is_matrix(value) else ONE / value
     except ZeroDivisionError:
@@ -247,7 +247,7 @@ def needs(expression: Expr) -> tuple[str, ...]:
 
 
 @cache
-def compiled(expression: Expr) -> Callable[..., Value]:
+def compiled(expression: Expr) -> Callable[..., Any]:
     """The expression as a Python function of the names that it needs, in their order.
 
     What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
@@ -258,7 +258,7 @@ def compiled(expression: Expr) -> Callable[..., Value]:
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))
 
 
-def value_of(expression: Expr, known: Mapping[str, Any]) -> Value:
+def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
     """The exact value of an expression.
 
     Raises:

@@ -8,7 +8,6 @@ from typing import Any
 from sympy import Expr
 
 from rldrill.problems.document import Equation
-from rldrill.solutions.exact import Value
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.typesetting import typeset
 
@@ -120,6 +119,6 @@ class Formula:
             typeset(self.left), tuple(map(typeset, sides)), (self.sign, *["="] * (len(sides) - 1)), self.key
         )
 
-    def value(self, known: Mapping[str, Any]) -> Value:
+    def value(self, known: Mapping[str, Any]) -> Any:
         """The exact value for known quantities."""
         return value_of(self.right, known)

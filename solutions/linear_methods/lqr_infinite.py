@@ -57,7 +57,7 @@ def _value(work: Work, A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -
     return _in_decimals(work, A, B, Q, R)
 
 
-def _root(work: Work, a: Value, b: Value, q: Value, r: Value) -> Value:
+def _root(work: Work, a: fmpq, b: fmpq, q: fmpq, r: fmpq) -> Value:
     """The scalar P: the root that makes the closed loop stable."""
     known = {"Ak": a, "Bk": b, "Qk": q, "Rk": r}
     if b == 0 and abs(a) >= 1:
@@ -119,7 +119,8 @@ _LONG = 10**9
 
 def _rounded(matrix: AnyMatrix) -> AnyMatrix:
     """Rational entries to twelve decimals."""
-    return matrices.matrix([fmpq(round(entry * _DECIMALS), _DECIMALS) for entry in line] for line in matrix.tolist())
+    rows: list[list[fmpq]] = matrix.tolist()
+    return matrices.matrix([fmpq(round(entry * _DECIMALS), _DECIMALS) for entry in line] for line in rows)
 
 
 MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, linear_quadratic.cost_to_go(solve, slice(1)))
