@@ -44,8 +44,7 @@ class _Typesetter(Printer):
 
     def __call__(self, expression: Expr) -> Math:
         """An expression as mathematics."""
-        written: Math = self._print(expression)
-        return written
+        return self._print(expression)
 
     def _print_Symbol(self, expression: Any) -> Math:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
