@@ -6,7 +6,7 @@ import sympy
 from sympy import Expr
 
 from rldrill.solutions.exact import parameters
-from rldrill.solutions.formula.notation import Clipped, Greatest, Least, MatrixLeaf, MaxOf, PutInName
+from rldrill.solutions.formula.node import Node
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Result, Step
 
@@ -41,15 +41,14 @@ def whole(time: Fraction) -> int:
 def _seconds(expression: Expr) -> Fraction:
     operations = digits = 0
     for node in sympy.preorder_traversal(expression):
-        if isinstance(node, MatrixLeaf):
-            matrix = node.args[0]
-            operations += matrix.rows * matrix.cols
-            digits += sum(map(_digits, matrix))
+        if isinstance(node, Node):
+            operations += node.operations
+            digits += sum(map(_digits, node.numbers))
         elif node.is_Rational:
             digits += _digits(node)
-        elif node.is_Symbol and not isinstance(node, PutInName):
+        elif node.is_Symbol:
             digits += LETTER
-        elif node.is_Add or node.is_Mul or isinstance(node, MaxOf | Greatest | Least | Clipped):
+        elif node.is_Add or node.is_Mul:
             operations += len(node.args) - 1
         elif node.is_Function or node.is_Pow:
             operations += 1

@@ -3,7 +3,7 @@
 import keyword
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from math import factorial, prod
+from math import factorial
 from typing import Any
 
 import sympy
@@ -12,23 +12,32 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, largest, monomial, sign, simplest
-from rldrill.solutions.formula.notation import Counting, Over, Quantity
-from rldrill.solutions.matrices import is_matrix, stacked
+from rldrill.solutions.exact import ONE, NoSolution, Value, largest, monomial, sign, simplest
+from rldrill.solutions.formula.node import Node
+from rldrill.solutions.matrices import is_matrix
 
 
-class _Code(StrPrinter):
-    """Prints a formula as Python; every quantity is a lookup in what it is bound to."""
+class Compiler(StrPrinter):
+    """Prints a formula as Python; nodes print themselves, and name the functions that they call."""
+
+    printmethod = "_compiled"
 
     def __init__(self) -> None:
         super().__init__({"order": "none"})
+        self.names: dict[str, Any] = {}
+
+    def __call__(self, expression: Expr) -> str:
+        """An expression as Python."""
+        return self._print(expression)
+
+    def call(self, node: Node, *arguments: str) -> str:
+        """A call of a node's own function."""
+        name = type(node).__name__
+        self.names[name] = node.value
+        return f"{name}({', '.join(arguments)})"
 
     def _print_Symbol(self, expression: Any) -> str:
-        # The letters of dynamics in a problem file come here too: nothing but a name may reach the compiler.
-        name = str(expression.name)
-        if not name.isidentifier() or keyword.iskeyword(name):
-            raise ValueError(f"{name!r} is not the name of a letter")
-        return name
+        return _checked(str(expression.name))
 
     def _print_Integer(self, expression: Any) -> str:
         return str(expression.p)
@@ -45,111 +54,26 @@ class _Code(StrPrinter):
     def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
         base, exponent = expression.args
         if exponent == -1:
-            return f"inverse({self._print(base)})"
+            return f"inverse({self(base)})"
         if exponent.is_Rational and exponent.q == 2:
-            root = f"root({self._print(base)})**{abs(exponent.p)}"
+            root = f"root({self(base)})**{abs(exponent.p)}"
             return f"inverse({root})" if exponent.is_negative else f"({root})"
         if exponent.is_Integer and exponent.is_negative:
-            return f"inverse(({self._print(base)})**{-exponent})"
-        return f"(({self._print(base)})**({self._print(exponent)}))"
+            return f"inverse(({self(base)})**{-exponent})"
+        return f"(({self(base)})**({self(exponent)}))"
 
-    def _print_Quantity(self, expression: Any) -> str:
-        return f"{expression.code}[{', '.join(map(self._print, expression.args))}]"
-
-    _print_Function = _print_Quantity
-
-    def _print_Abs(self, expression: Any) -> str:
-        return f"abs({self._print(expression.args[0])})"
-
-    def _circular(self, expression: Any) -> str:
-        return f"{expression.func.__name__}({self._print(expression.args[0])})"
-
-    _print_sin = _print_cos = _print_tan = _circular
-
-    def _print_Pi(self, expression: Any) -> str:  # noqa: ARG002
-        return "pi"
-
-    def _print_exp(self, expression: Any) -> str:
-        return f"exp({self._print(expression.args[0])})"
-
-    def _print_log(self, expression: Any) -> str:
-        return f"log({self._print(expression.args[0])})"
-
-    def _print_factorial(self, expression: Any) -> str:
-        return f"factorial({self._print(expression.args[0])})"
-
-    def _over(self, expression: Over) -> str:
-        return f"[{self._print(expression.body)} for {expression.index} in {self._print(expression.domain)}]"
-
-    def _print_SumOver(self, expression: Over) -> str:
-        return f"total({self._over(expression)})"
-
-    def _print_ProductOver(self, expression: Over) -> str:
-        return f"product({self._over(expression)})"
-
-    def _print_MaxOver(self, expression: Over) -> str:
-        return f"largest({self._over(expression)})"
-
-    def _print_MeanOver(self, expression: Over) -> str:
-        return f"mean({self._over(expression)})"
-
-    def _print_ArgMaxOver(self, expression: Over) -> str:
-        keys = self._print(expression.domain)
-        return f"arg_max({keys}, {self._over(expression)})"
-
-    def _listed(self, expression: Any) -> str:
-        return f"[{', '.join(map(self._print, expression.args))}]"
-
-    def _print_Greatest(self, expression: Any) -> str:
-        return f"largest({self._listed(expression)})"
-
-    def _print_Least(self, expression: Any) -> str:
-        return f"least({self._listed(expression)})"
-
-    def _print_Clipped(self, expression: Any) -> str:
-        value, low, high = map(self._print, expression.args)
-        return f"largest([{low}, least([{value}, {high}])])"
-
-    def _print_Expected(self, expression: Any) -> str:
-        return self._print(expression.args[0])
-
-    def _print_Counting(self, expression: Counting) -> str:
-        first, last, _ = expression.args
-        return f"range({self._print(first)}, {self._print(last)} + 1)"
-
-    def _print_Indicator(self, expression: Any) -> str:
-        names = [self._print(argument) for argument in expression.args]
-        same = [f"{left} == {right}" for left, right in zip(names[::2], names[1::2], strict=True)]
-        return f"(1 if {' and '.join(same)} else 0)"
-
-    def _print_Member(self, expression: Any) -> str:
-        element, domain = map(self._print, expression.args)
-        return f"({element} in {domain})"
-
-    def _print_Cases(self, expression: Any) -> str:
-        condition, then, otherwise = map(self._print, expression.args)
-        return f"(({then}) if {condition} else ({otherwise}))"
-
-    def _print_Size(self, expression: Any) -> str:
-        return f"len({self._print(expression.args[0])})"
-
-    def _print_Transposed(self, expression: Any) -> str:
-        return f"({self._print(expression.args[0])}).transpose()"
-
-    def _print_Blocks(self, expression: Any) -> str:
-        return f"stacked({', '.join(map(self._print, expression.args))})"
+    def _print_Function(self, expression: Any) -> str:
+        function = expression.func.__name__
+        if function not in _NAMES:
+            raise TypeError(f"{function!r} is not a function that is computed with")
+        return f"{function}({', '.join(map(self, expression.args))})"
 
 
-def _total(values: Sequence[Value]) -> Value:
-    return sum(values[1:], values[0]) if values else ZERO  # matrices cannot be added to 0
-
-
-def _product(values: Sequence[Value]) -> Value:
-    return prod(values, start=ONE)
-
-
-def _mean(values: Sequence[Value]) -> Value:
-    return sum(values, ZERO) / len(values)
+def _checked(name: str) -> str:
+    # The letters of dynamics in a problem file come here too: nothing but a name may reach the compiler.
+    if not name.isidentifier() or keyword.iskeyword(name):
+        raise ValueError(f"{name!r} is not the name of a letter")
+    return name
 
 
 class DivisionError(NoSolution):
@@ -161,10 +85,6 @@ def _inverse(value: Any) -> Any:
         return value.inv() if is_matrix(value) else ONE / value
     except ZeroDivisionError:
         raise DivisionError("it would divide by zero, or invert a singular matrix") from None
-
-
-def _least(values: Sequence[Value]) -> Value:
-    return -largest([-value for value in values])
 
 
 def _root(value: Value) -> Value:
@@ -213,18 +133,11 @@ def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
     return tuple(key for key, value in zip(keys, values, strict=True) if sign(best - value) == 0)
 
 
-#: All that a compiled formula can call: Python's own functions are not among it, unless they are named here.
+#: All that a compiled formula can call, besides the values of its nodes: nothing of Python's own is among it.
 _NAMES = {
     "__builtins__": {},
-    "abs": abs,
-    "total": _total,
-    "product": _product,
+    "Abs": abs,
     "root": _root,
-    "len": len,
-    "mean": _mean,
-    "largest": largest,
-    "least": _least,
-    "arg_max": arg_max,
     "inverse": _inverse,
     "factorial": _factorial,
     "exp": _exp,
@@ -233,16 +146,14 @@ _NAMES = {
     "cos": _cosine,
     "tan": _tangent,
     "pi": sympy.pi,
-    "stacked": stacked,
     "Rational": fmpq,
-    "range": range,
 }
 
 
 @cache
 def needs(expression: Expr) -> tuple[str, ...]:
     """The names that values must be given for, sorted."""
-    codes = {node.code for node in sympy.preorder_traversal(expression) if isinstance(node, Quantity)}
+    codes = {node.code for node in sympy.preorder_traversal(expression) if isinstance(node, Node) and node.code}
     return tuple(sorted(codes | {symbol.name for symbol in expression.free_symbols}))
 
 
@@ -254,8 +165,9 @@ def compiled(expression: Expr) -> Callable[..., Any]:
     get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
     they are printed, and are bound as arguments. Typed answers and the names of states never do.
     """
-    source = f"lambda {', '.join(needs(expression))}: {_Code().doprint(expression)}"
-    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), dict(_NAMES))
+    compiler = Compiler()
+    source = f"lambda {', '.join(map(_checked, needs(expression)))}: {compiler.doprint(expression)}"
+    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
 
 
 def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:

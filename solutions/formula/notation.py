@@ -1,6 +1,7 @@
-"""The vocabulary of the formulas: letters, quantities such as V(s), sums and maxima over finite sets."""
+"""The vocabulary of the formulas: letters, quantities such as V(s), and all kinds of nodes, by one name."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from typing import Any, ClassVar
 
@@ -20,37 +21,50 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
+from rldrill.solutions.formula.compiling import Compiler
+from rldrill.solutions.formula.letters import letter as letter
+from rldrill.solutions.formula.node import Look, Node
+from rldrill.solutions.formula.nodes.choices import Clipped as Clipped
+from rldrill.solutions.formula.nodes.choices import Greatest as Greatest
+from rldrill.solutions.formula.nodes.choices import Least as Least
+from rldrill.solutions.formula.nodes.conditions import Cases as Cases
+from rldrill.solutions.formula.nodes.conditions import Indicator as Indicator
+from rldrill.solutions.formula.nodes.conditions import Member as Member
+from rldrill.solutions.formula.nodes.leaves import Negative as Negative
+from rldrill.solutions.formula.nodes.leaves import leaf
+from rldrill.solutions.formula.nodes.matrices import Blocks as Blocks
+from rldrill.solutions.formula.nodes.matrices import Transposed as Transposed
+from rldrill.solutions.formula.nodes.sets import ArgMaxOver as ArgMaxOver
+from rldrill.solutions.formula.nodes.sets import Counting as Counting
+from rldrill.solutions.formula.nodes.sets import Expected as Expected
+from rldrill.solutions.formula.nodes.sets import IntegralOver as IntegralOver
+from rldrill.solutions.formula.nodes.sets import MaxOver as MaxOver
+from rldrill.solutions.formula.nodes.sets import MeanOver as MeanOver
+from rldrill.solutions.formula.nodes.sets import ProductOver as ProductOver
+from rldrill.solutions.formula.nodes.sets import SampleMean as SampleMean
+from rldrill.solutions.formula.nodes.sets import Size as Size
+from rldrill.solutions.formula.nodes.sets import SumOver as SumOver
+from rldrill.solutions.formula.putting_in import PutIn, indexed
 
-GLYPHS: dict[sympy.Symbol, Math] = {}
 
-
-def letter(code: str, glyph: str | Math | None = None, *, matrix: bool = False) -> sympy.Symbol:
-    """A letter of a formula: ``code`` names it when values are put in, ``glyph`` is how it is written.
-
-    Raises:
-        ValueError: the code is that of another letter, which is written otherwise.
-    """
-    symbol = sympy.Symbol(code, commutative=not matrix)
-    written = variable(glyph or code) if glyph is None or isinstance(glyph, str) else glyph
-    if GLYPHS.setdefault(symbol, written) != written:
-        raise ValueError(f"{code!r} is written in two ways: {GLYPHS[symbol]} and {written}")
-    return symbol
-
-
-class PutInName(sympy.Symbol):
-    """The name of a state, action or hypothesis standing where an index stood."""
-
-
-def put_in_name(text: object) -> Expr:
-    """A put-in index as a leaf: a whole number, or a name."""
-    return sympy.Integer(text) if isinstance(text, int) else PutInName(str(text))
-
-
-class Quantity(sympy.Function):
+class Quantity(Node, sympy.Function):
     """Something that has a value for each of its arguments, and knows how it is written."""
 
-    code: ClassVar[str]
     layout: ClassVar[Callable[..., Math]]
+    look = Look.LETTER
+    operations = 1  # to look it up
+
+    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+        return self.layout(*map(typeset, self.args))
+
+    def _compiled(self, compiler: Compiler) -> str:
+        return f"{self.code}[{', '.join(map(compiler, self.args))}]"
+
+    def _put_in(self, put_in: PutIn) -> Expr:
+        if self.code in put_in.known:
+            with suppress(KeyError):  # an unknown of a system, among values that are fixed
+                return leaf(put_in.value(self))
+        return indexed(self, put_in.known)
 
 
 def quantity(code: str, layout: Callable[..., Math], *, matrix: bool = False) -> type[Quantity]:
@@ -109,166 +123,6 @@ def _numbered(of: type[Quantity], count: int) -> type[Quantity]:
 
 #: Built once, so that equal quantities are the same class.
 numbered: Any = cache(_numbered)
-
-
-class Over(Expr):
-    """Something that runs over a finite set: its body, its index and the set.
-
-    The set is a quantity whose value is a collection, or a ``Counting``.
-    """
-
-    def __new__(cls, body: Expr, index: sympy.Symbol, domain: Expr) -> "Over":
-        """Build it without evaluating anything."""
-        return Expr.__new__(cls, sympy.sympify(body, strict=True), index, domain)
-
-    @property
-    def body(self) -> Expr:
-        """What is added or compared."""
-        return self.args[0]
-
-    @property
-    def index(self) -> sympy.Symbol:
-        """The letter that runs."""
-        return self.args[1]
-
-    @property
-    def domain(self) -> Expr:
-        """What it runs over."""
-        return self.args[2]
-
-    @property
-    def bound_symbols(self) -> list[sympy.Symbol]:
-        """The letter that runs is not free."""
-        return [self.index]
-
-    @property
-    def free_symbols(self) -> set[sympy.Symbol]:
-        """The letters that a value must be given for."""
-        return (self.body.free_symbols - {self.index}) | self.domain.free_symbols
-
-
-class SumOver(Over):
-    """Σ over a finite set."""
-
-
-class ProductOver(Over):
-    """Π over a finite set."""
-
-
-class MaxOver(Over):
-    """The greatest value over a finite set."""
-
-
-class MeanOver(Over):
-    """The unweighted mean over a finite set; no formula of the sheet has it, but mistakes do."""
-
-
-class SampleMean(MeanOver):
-    """𝔼 over cases that are equally probable; which case it runs over is not written."""
-
-
-class IntegralOver(Over):
-    """∫ over all values of a letter: only written, beside a closed form that is computed with."""
-
-
-class ArgMaxOver(Over):
-    """The elements of a finite set at which the body is greatest."""
-
-
-class Counting(Expr):
-    """The whole numbers from the first to the last; ``shown`` is the upper limit as the sheet prints it."""
-
-    def __new__(cls, first: Expr, last: Expr, shown: Expr | None = None) -> "Counting":
-        """Build it without evaluating anything."""
-        last = sympy.sympify(last, strict=True)
-        return Expr.__new__(cls, sympy.sympify(first, strict=True), last, last if shown is None else shown)
-
-    @property
-    def free_symbols(self) -> set[sympy.Symbol]:
-        """The upper limit as printed is not computed with."""
-        return self.args[0].free_symbols | self.args[1].free_symbols
-
-
-class Size(Expr):
-    """How many elements a finite set has."""
-
-
-class Indicator(Expr):
-    """1 where two things are the same, else 0; of four things, where the first two are and the last two are."""
-
-
-class Member(Expr):
-    """Whether something belongs to a finite set; stands in ``Cases``."""
-
-
-class Cases(Expr):
-    """One of two values: if the condition (an ``Indicator``, a ``Member``) holds, and otherwise."""
-
-    def __new__(cls, condition: Expr, then: Expr, otherwise: Expr) -> "Cases":
-        """Build it without evaluating anything."""
-        return Expr.__new__(cls, condition, sympy.sympify(then, strict=True), sympy.sympify(otherwise, strict=True))
-
-
-class Transposed(Expr):
-    """The transpose of a matrix."""
-
-    is_commutative = False
-
-
-class Blocks(Expr):
-    """A matrix of entries or blocks: how many rows of them there are, then all, row by row.
-
-    Among matrices, 0 and 1 stand for as much of the zero or identity matrix as fits.
-    """
-
-    is_commutative = False
-
-    def __new__(cls, rows: int, *blocks: Any) -> "Blocks":
-        """Build it without evaluating anything."""
-        return Expr.__new__(cls, *(sympy.sympify(part, strict=True) for part in (rows, *blocks)))
-
-
-class MaxOf(Expr):
-    """The greatest of some values, in their order."""
-
-
-class Greatest(Expr):
-    """The greatest of a few values that a formula names one by one, written max(x, y)."""
-
-
-class Least(Expr):
-    """The least of a few values that a formula names one by one, written min(x, y)."""
-
-
-class Clipped(Expr):
-    """A value brought between a lower and an upper bound, written clip(x, low, high)."""
-
-
-class Expected(Expr):
-    """An expectation over runs of an agent; what it is worth is computed with one run in its place."""
-
-
-class MatrixLeaf(Expr):
-    """A matrix of numbers, put into a formula."""
-
-    is_commutative = False
-
-    def __new__(cls, matrix: Any) -> "MatrixLeaf":
-        """Keep the matrix as it is."""
-        return Expr.__new__(cls, sympy.ImmutableMatrix(matrix))
-
-    @property
-    def scalar(self) -> bool:
-        """Whether it is 1×1, and so written as a number."""
-        return bool(self.args[0].shape == (1, 1))
-
-
-class VectorLeaf(MatrixLeaf):
-    """A vector of numbers, put into a formula: written on one line, (1, 0)."""
-
-
-class Negative(Expr):
-    """A negative number that was put in: it keeps its brackets."""
 
 
 DOTS = letter("dots", "…")

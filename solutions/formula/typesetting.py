@@ -6,10 +6,10 @@ from typing import Any
 
 import sympy
 from sympy import Expr
+from sympy.printing.printer import Printer
 
 from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.mathematics import (
-    Big,
     Fence,
     Fraction,
     Glyph,
@@ -19,45 +19,17 @@ from rldrill.problems.mathematics import (
     Script,
     Tabular,
     listed,
-    name,
     number,
     operator,
     punctuation,
-    relation,
     row,
     variable,
     word,
 )
 from rldrill.solutions import surds
 from rldrill.solutions.exact import Value, in_one_quotient, ordered, to_sympy
-from rldrill.solutions.formula.notation import (
-    GLYPHS,
-    ArgMaxOver,
-    Blocks,
-    Cases,
-    Clipped,
-    Counting,
-    Expected,
-    Greatest,
-    Indicator,
-    IntegralOver,
-    Least,
-    MatrixLeaf,
-    MaxOf,
-    MaxOver,
-    MeanOver,
-    Member,
-    Negative,
-    Over,
-    ProductOver,
-    PutInName,
-    Quantity,
-    SampleMean,
-    Size,
-    SumOver,
-    Transposed,
-    VectorLeaf,
-)
+from rldrill.solutions.formula.letters import GLYPHS
+from rldrill.solutions.formula.node import Look, Node
 
 _MINUS = operator("−")
 _PLUS = operator("+")
@@ -65,50 +37,96 @@ _TIMES = operator("·")
 _LONG = 10**6
 
 
+class _Typesetter(Printer):
+    """Writes an expression as mathematics; nodes write themselves."""
+
+    printmethod = "_typeset"
+
+    def __call__(self, expression: Expr) -> Math:
+        """An expression as mathematics."""
+        return self._print(expression)
+
+    def _print_Symbol(self, expression: Any) -> Math:
+        return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
+
+    def _print_Rational(self, expression: Expr) -> Math:
+        """A fraction, unless it is a decimal that is long but ends."""
+        places = 0
+        if expression.q > _LONG:
+            places = next((places for places in range(7, 15) if 10**places % expression.q == 0), 0)
+        if not places:
+            return number(expression.p if expression.q == 1 else f"{expression.p}/{expression.q}")
+        digits = str(abs(expression.p) * 10**places // expression.q).rjust(places + 1, "0")
+        return number(f"{'-' if expression.p < 0 else ''}{digits[:-places]}.{digits[-places:]}")
+
+    def _print_Add(self, expression: Expr) -> Math:
+        return _sum(expression.args)
+
+    def _print_Mul(self, expression: Expr) -> Math:
+        head, *rest = expression.args
+        angle = rest == [sympy.pi] and head.is_Rational and not head.is_Integer
+        return typeset_value(expression) if angle else _product(expression.args)
+
+    def _print_Pow(self, expression: Expr) -> Math:
+        return _power(*expression.args)
+
+    def _print_Exp1(self, _: Expr) -> Math:
+        return variable("e")
+
+    def _print_Pi(self, _: Expr) -> Math:
+        return variable("π")
+
+    def _print_Abs(self, expression: Expr) -> Math:
+        return Fence(typeset(expression.args[0]), "|", "|")
+
+    def _print_exp(self, expression: Expr) -> Math:
+        return _power_of_e(alone(expression.args[0]))
+
+    def _print_log(self, expression: Expr) -> Math:
+        argument = expression.args[0]
+        plain = argument.is_Integer or argument.is_Symbol
+        return row(word("ln"), typeset(argument) if plain else Fence(typeset(argument)))
+
+    def _print_factorial(self, expression: Expr) -> Math:
+        argument = expression.args[0]
+        return row(typeset(argument) if closed(argument) else Fence(typeset(argument)), punctuation("!"))
+
+    def _print_Function(self, expression: Expr) -> Math:
+        return row(word(expression.func.__name__), Fence(listed(map(alone, expression.args))))
+
+    def emptyPrinter(self, expression: Expr) -> Math:
+        raise TypeError(f"{expression.func.__name__} has no typesetting")
+
+
+_TYPESETTER = _Typesetter()
+
+
 def typeset(expression: Expr) -> Math:
     """An expression as mathematics."""
-    if isinstance(expression, Quantity):
-        return expression.layout(*map(typeset, expression.args))
-    if isinstance(expression, PutInName):
-        return name(expression.name)
+    return _TYPESETTER(expression)
+
+
+def alone(expression: Expr) -> Math:
+    """An expression that stands alone, as between commas: a put-in negative number needs no brackets there."""
+    return expression._alone(typeset) if isinstance(expression, Node) else typeset(expression)
+
+
+def look(expression: Expr) -> Look:
+    """What an expression looks like among others."""
+    if isinstance(expression, Node):
+        return expression.look
     if expression.is_Symbol:
-        return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
-    if expression.is_Rational:
-        return _rational(expression)
-    if expression.is_Add:
-        return _sum(expression.args)
-    if expression.is_Mul:
-        head, *rest = expression.args
-        return (
-            typeset_value(expression)
-            if rest == [sympy.pi] and head.is_Rational and not head.is_Integer
-            else _product(expression.args)
-        )
-    if expression.is_Pow:
-        return _power(*expression.args)
-    for kind, writer in _WRITERS.items():
-        if isinstance(expression, kind):
-            return writer(expression)
-    if expression is sympy.E:
-        return variable("e")
-    if expression is sympy.pi:
-        return variable("π")
-    if expression.is_Function:
-        return row(
-            word(expression.func.__name__), Fence(listed(typeset(_bare(argument)) for argument in expression.args))
-        )
-    raise TypeError(f"{expression.func.__name__} has no typesetting")
+        return Look.LETTER
+    if expression.is_Number:
+        return Look.NUMBER
+    return Look.OPEN if isinstance(expression, sympy.log) else Look.OTHER
 
 
-def _rational(value: Expr) -> Math:
-    """A fraction, unless it is a decimal that is long but ends."""
-    places = 0
-    if value.q > _LONG:
-        places = next((places for places in range(7, 15) if 10**places % value.q == 0), 0)
-    if not places:
-        return number(value)
-    digits = str(abs(value.p) * 10**places // value.q).rjust(places + 1, "0")
-    return number(f"{'-' if value.p < 0 else ''}{digits[:-places]}.{digits[-places:]}")
+def closed(expression: Expr) -> bool:
+    """Whether something small may stand behind it, as an exponent, without brackets around it."""
+    if expression.is_Number:
+        return bool(expression.is_Integer and expression >= 0)
+    return look(expression) not in (Look.OPEN, Look.OTHER)
 
 
 def typeset_value(value: Value) -> Math:
@@ -203,7 +221,7 @@ def _product(factors: Sequence[Expr]) -> Math:
     scalars = [factor for factor in flat if factor.is_commutative is not False]
     if len(scalars) < len(flat) and any(map(_reciprocal, scalars)):
         rest = [factor for factor in flat if factor.is_commutative is False]
-        dot = [_TIMES] if isinstance(rest[0], VectorLeaf) else []
+        dot = [_TIMES] if look(rest[0]) is Look.LINE else []
         return row(_product(scalars), *dot, _product(rest))
     if flat[0].is_Number and flat[0].is_negative and len(flat) > 1:
         return row(_MINUS, _product([-flat[0], *flat[1:]]))
@@ -225,42 +243,33 @@ def _reciprocal(factor: Expr) -> bool:
     return bool(factor.is_Pow and factor.args[1] == -1 and factor.is_commutative is not False)
 
 
-def _numeric(factor: Expr) -> bool:
-    base = factor.args[0] if factor.is_Pow else factor
-    return bool(base.is_Number or isinstance(base, Negative) or (isinstance(base, MatrixLeaf) and base.scalar))
-
-
-def _is_grid(factor: Expr) -> bool:
-    base = factor.args[0] if factor.is_Pow or isinstance(factor, Transposed) else factor
-    return isinstance(base, MatrixLeaf) and not isinstance(base, VectorLeaf) and not base.scalar
+def _base(factor: Expr) -> Look:
+    return look(factor.args[0] if factor.is_Pow else factor)
 
 
 def _needs_dot(before: Expr, factor: Expr) -> bool:
     """Numbers are kept apart by a dot; letters stand side by side, as the sheet prints them."""
-    if _is_grid(before) or _is_grid(factor):
-        return _is_grid(before) and _numeric(factor)
-    if isinstance(before, VectorLeaf) or isinstance(factor, VectorLeaf):
+    first, second = _base(before), _base(factor)
+    if Look.GRID in (first, second):
+        return first is Look.GRID and second is Look.NUMBER
+    if Look.LINE in (first, second):
         return True
     if before.is_Rational and not before.is_Integer:
         return True  # or the letter would seem to stand below the line
-    closed = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
-    if closed and (before.is_Integer or before is sympy.pi):
+    closes = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
+    if closes and (before.is_Integer or before is sympy.pi):
         return False
-    plain = bool(before.is_Symbol or isinstance(before, Quantity))
-    if _numeric(factor):
+    if second is Look.NUMBER:
         return True
-    if _numeric(before):
-        letter = factor.args[0] if factor.is_Pow else factor
-        return not (letter.is_Symbol or isinstance(letter, Quantity))
-    return not plain and factor.is_Add and before.is_Add
+    if first is Look.NUMBER:
+        return second is not Look.LETTER
+    return bool(factor.is_Add and before.is_Add)
 
 
 def _factor(factor: Expr, *, last: bool) -> Math:
     if factor.is_Add or (factor.is_Number and factor.is_negative):
         return Fence(typeset(factor))
-    if isinstance(factor, SumOver | ProductOver | MaxOver | sympy.log) and not last:
-        return Fence(typeset(factor))
-    return typeset(factor)
+    return Fence(typeset(factor)) if look(factor) is Look.OPEN and not last else typeset(factor)
 
 
 def _power(base: Expr, exponent: Expr) -> Math:
@@ -271,93 +280,8 @@ def _power(base: Expr, exponent: Expr) -> Math:
         return Fraction(number(1), typeset(rest))
     if isinstance(base, sympy.sin | sympy.cos | sympy.tan) and exponent.is_Integer:
         written = word(base.func.__name__)
-        return row(Script(written, above=typeset(exponent)), Fence(typeset(_bare(base.args[0]))))
-    simple = base.is_Symbol or isinstance(base, Quantity | MatrixLeaf | Negative) or (base.is_Integer and base >= 0)
-    return Script(typeset(base) if simple else Fence(typeset(base)), above=typeset(exponent))
-
-
-def _limits(expression: Over) -> tuple[Math, Math | None]:
-    if isinstance(expression.domain, Counting):
-        first, _, shown = expression.domain.args
-        return row(typeset(expression.index), relation("="), typeset(first)), typeset(shown)
-    return typeset(expression.index), None
-
-
-def _body(expression: Expr) -> Math:
-    return Fence(typeset(expression)) if expression.is_Add else typeset(expression)
-
-
-def _over(expression: Over) -> Math:
-    signs = {SumOver: "Σ", ProductOver: "Π", MaxOver: "max", ArgMaxOver: "arg max", MeanOver: "mean"}
-    body = expression.body
-    if isinstance(expression, SampleMean):
-        return row(operator("𝔼"), Fence(typeset(body), "[", "]"))
-    if isinstance(expression, IntegralOver):
-        return row(Big("∫"), _body(body), variable("d"), typeset(expression.index))
-    if isinstance(expression, ArgMaxOver) and isinstance(body, MaxOf):
-        return row(Big("arg max", typeset(expression.index)), _braces(body.args))
-    below, above = _limits(expression)
-    return row(Big(signs[expression.func], below, above), _body(body))
-
-
-def _braces(values: Sequence[Expr]) -> Math:
-    return Fence(listed((typeset(_bare(value)) for value in values), ";"), "{", "}")
-
-
-def _bare(expression: Expr) -> Expr:
-    """A put-in negative number that stands alone needs no brackets."""
-    return expression.args[0] if isinstance(expression, Negative) else expression
-
-
-def _max_of(expression: MaxOf) -> Math:
-    return row(word("max"), _braces(expression.args))
-
-
-def _indicator(expression: Indicator) -> Math:
-    return row(Glyph("1", "number"), Fence(_condition(expression)))
-
-
-def _condition(expression: Expr) -> Math:
-    sign = relation("∈" if isinstance(expression, Member) else "=")
-    sides = [typeset(argument) for argument in expression.args]
-    return listed(row(left, sign, right) for left, right in zip(sides[::2], sides[1::2], strict=True))
-
-
-def _cases(expression: Cases) -> Math:
-    condition, then, otherwise = expression.args
-    lines = (typeset(then), row(word("if"), _condition(condition))), (typeset(otherwise), word("otherwise"))
-    return Tabular(lines, "{", "")
-
-
-def _size(expression: Size) -> Math:
-    return Fence(typeset(expression.args[0]), "|", "|")
-
-
-def _transposed(expression: Transposed) -> Math:
-    body = expression.args[0]
-    simple = body.is_Symbol or isinstance(body, Quantity | MatrixLeaf)
-    written = typeset(body) if simple else Fence(typeset(body))
-    if isinstance(written, Script) and written.above is None:
-        return Script(written.body, written.below, word("T"))
-    return Script(written, above=word("T"))
-
-
-def _matrix(expression: MatrixLeaf) -> Math:
-    matrix = expression.args[0]
-    if expression.scalar:
-        entry = matrix[0]
-        return Fence(typeset_value(entry)) if entry.is_negative or entry.is_Add else typeset_value(entry)
-    return tabular([[matrix[line, column] for column in range(matrix.cols)] for line in range(matrix.rows)])
-
-
-def _blocks(expression: Blocks) -> Math:
-    rows, *blocks = expression.args
-    width = len(blocks) // int(rows)
-    written = [
-        typeset_value(block.args[0][0]) if isinstance(block, MatrixLeaf) and block.scalar else typeset(_bare(block))
-        for block in blocks
-    ]
-    return Tabular(tuple(tuple(written[start : start + width]) for start in range(0, len(written), width)))
+        return row(Script(written, above=typeset(exponent)), Fence(alone(base.args[0])))
+    return Script(typeset(base) if closed(base) else Fence(typeset(base)), above=typeset(exponent))
 
 
 def vector(entries: Iterable[Value]) -> Math:
@@ -370,10 +294,6 @@ def tabular(lines: Sequence[Sequence[Value]]) -> Tabular:
     return Tabular(tuple(tuple(typeset_value(value) for value in line) for line in lines))
 
 
-def _exponential(expression: Any) -> Math:
-    return _power_of_e(typeset(_bare(expression.args[0])))
-
-
 def _power_of_e(exponent: Math) -> Math:
     if _has_tall_fraction(exponent):  # too small to read as an exponent
         return row(word("exp"), Fence(exponent))
@@ -384,49 +304,3 @@ def _has_tall_fraction(math: Math) -> bool:
     if isinstance(math, Fraction):
         return not (isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph))
     return isinstance(math, Row) and any(map(_has_tall_fraction, math.items))
-
-
-def _logarithm(expression: Any) -> Math:
-    argument = expression.args[0]
-    if argument.is_Integer or argument.is_Symbol:
-        return row(word("ln"), typeset(argument))
-    return row(word("ln"), Fence(typeset(argument)))
-
-
-def _picked(expression: Expr) -> Math:
-    name_ = {Greatest: "max", Least: "min", Clipped: "clip"}[expression.func]
-    return row(word(name_), Fence(listed(typeset(_bare(argument)) for argument in expression.args)))
-
-
-def _expected(expression: Expected) -> Math:
-    return row(Script(variable("𝔼"), variable("π")), Fence(typeset(expression.args[0]), "[", "]"))
-
-
-def _factorial(expression: Any) -> Math:
-    argument = expression.args[0]
-    plain = argument.is_Symbol or (argument.is_Integer and argument >= 0)
-    written = typeset(argument)
-    return row(written if plain else Fence(written), punctuation("!"))
-
-
-_WRITERS: dict[type, Any] = {
-    Over: _over,
-    MaxOf: _max_of,
-    Greatest: _picked,
-    Least: _picked,
-    Clipped: _picked,
-    Expected: _expected,
-    Indicator: _indicator,
-    Member: _condition,
-    Cases: _cases,
-    Size: _size,
-    Transposed: _transposed,
-    VectorLeaf: lambda expression: vector(expression.args[0]),
-    MatrixLeaf: _matrix,
-    Blocks: _blocks,
-    Negative: lambda expression: Fence(typeset_value(expression.args[0])),
-    sympy.Abs: lambda expression: Fence(typeset(expression.args[0]), "|", "|"),
-    sympy.exp: _exponential,
-    sympy.log: _logarithm,
-    sympy.factorial: _factorial,
-}

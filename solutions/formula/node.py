@@ -1,0 +1,77 @@
+"""What formulas have and sympy has not: a node says itself how it is read, whatever the reading."""
+
+from collections.abc import Callable, Iterable
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from sympy import Expr
+
+from rldrill.problems.mathematics import Math
+
+if TYPE_CHECKING:
+    from rldrill.solutions.formula.compiling import Compiler
+    from rldrill.solutions.formula.putting_in import PutIn
+
+
+class Look(Enum):
+    """What a part of a formula looks like: brackets around it and dots beside it depend on that."""
+
+    LETTER = auto()
+    NUMBER = auto()
+    GRID = auto()
+    LINE = auto()  # of numbers in brackets
+    OPEN = auto()  # what follows it would seem to belong to it
+    OTHER = auto()
+
+
+class Node(Expr):
+    """A kind of part that formulas have and sympy has not.
+
+    To add one, write a class; nothing else needs to know of it. It says how it is typeset and evaluated, and
+    gives in ``value`` the function that its compiled form calls with the values of its arguments; the rest may stay.
+    """
+
+    #: What computes it: compiled formulas can call nothing else, but for a few functions of numbers.
+    value: ClassVar[Callable[..., Any]]
+    #: What its values are looked up under, if they are given.
+    code: ClassVar[str] = ""
+
+    @property
+    def look(self) -> Look:
+        """What it looks like among others."""
+        return Look.OTHER
+
+    @property
+    def operations(self) -> int:
+        """How many operations of arithmetic it costs, besides those of its arguments."""
+        return 0
+
+    @property
+    def numbers(self) -> Iterable[Expr]:
+        """The numbers in it whose digits count, besides those of its arguments."""
+        return ()
+
+    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:  # noqa: ARG002
+        raise TypeError(f"{type(self).__name__} has no typesetting")
+
+    def _alone(self, typeset: Callable[[Expr], Math]) -> Math:
+        """How it is written between commas or brackets of something else."""
+        return typeset(self)
+
+    def _compiled(self, compiler: "Compiler") -> str:
+        return compiler.call(self, *map(compiler, self.args))
+
+    def _put_in(self, put_in: "PutIn") -> Expr:
+        return self.func(*map(put_in, self.args))
+
+    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
+        """What a step is worth, as sympy computes it."""
+        return self.func(*map(evaluated, self.args))
+
+    def _reduced(self, worked_out: Callable[[Expr], Expr]) -> Expr:  # noqa: ARG002
+        """The step with inner brackets worked out."""
+        return self
+
+    def _inner(self, worked_out: Callable[[Expr], Expr]) -> Expr:
+        """What becomes of it among the terms and factors of a step whose inner brackets are worked out."""
+        return self._reduced(worked_out)

@@ -1,0 +1,1 @@
+"""The kinds of part that formulas have and sympy has not."""

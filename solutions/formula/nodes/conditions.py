@@ -1,0 +1,76 @@
+"""What depends on whether something holds."""
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import sympy
+from sympy import Expr
+
+from rldrill.problems.mathematics import Fence, Glyph, Math, Tabular, listed, relation, row, word
+from rldrill.solutions.formula.compiling import Compiler
+from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.putting_in import PutIn
+
+
+class Condition(Node):
+    """Something that holds or not, between its arguments two by two."""
+
+    sign: ClassVar[str]
+
+    def sides(self, typeset: Callable[[Expr], Math]) -> Math:
+        """What holds, as one writes it."""
+        sides = list(map(typeset, self.args))
+        pairs = zip(sides[::2], sides[1::2], strict=True)
+        return listed(row(left, relation(self.sign), right) for left, right in pairs)
+
+
+class Indicator(Condition):
+    """1 where two things are the same, else 0; of four things, where the first two are and the last two are."""
+
+    sign = "="
+
+    @staticmethod
+    def value(*things: Any) -> int:
+        """Whether each is the same as the one beside it."""
+        return int(things[::2] == things[1::2])
+
+    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+        return row(Glyph("1", "number"), Fence(self.sides(typeset)))
+
+    def _put_in(self, put_in: PutIn) -> Expr:
+        return sympy.Integer(put_in.value(self))
+
+
+class Member(Condition):
+    """Whether something belongs to a finite set; stands in ``Cases``."""
+
+    sign = "∈"
+
+    @staticmethod
+    def value(element: Any, domain: Any) -> bool:
+        """Whether it is in it."""
+        return element in domain
+
+    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+        return self.sides(typeset)
+
+
+class Cases(Node):
+    """One of two values: if the condition (an ``Indicator``, a ``Member``) holds, and otherwise."""
+
+    def __new__(cls, condition: Condition, then: Expr, otherwise: Expr) -> "Cases":
+        """Build it without evaluating anything."""
+        return Expr.__new__(cls, condition, sympy.sympify(then, strict=True), sympy.sympify(otherwise, strict=True))
+
+    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+        condition, then, otherwise = self.args
+        lines = (typeset(then), row(word("if"), condition.sides(typeset))), (typeset(otherwise), word("otherwise"))
+        return Tabular(lines, "{", "")
+
+    def _compiled(self, compiler: Compiler) -> str:
+        condition, then, otherwise = map(compiler, self.args)
+        return f"(({then}) if {condition} else ({otherwise}))"  # only what holds has to have a value
+
+    def _put_in(self, put_in: PutIn) -> Expr:
+        condition, then, otherwise = self.args
+        return put_in(then if put_in.value(condition) else otherwise)

@@ -1,0 +1,118 @@
+"""How long it takes by hand: the seconds of small workings, added up by hand."""
+
+from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from flint import fmpq, fmpq_mat
+from sympy import Expr, Pow, S, evaluate, exp
+
+from rldrill.solutions.effort import minutes, whole
+from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.notation import (
+    Clipped,
+    Counting,
+    Greatest,
+    MaxOver,
+    V,
+    called,
+    gamma,
+    i,
+    letter,
+    quantity,
+    s,
+)
+from rldrill.solutions.rational import generator
+from rldrill.solutions.work import Work
+
+x, y, z = letter("x"), letter("y"), letter("z")
+A = letter("A", matrix=True)
+Start = quantity("start", called("c"))
+After = quantity("after", called("n"))
+
+
+def formula(right: Expr, left: Expr = x) -> Formula:
+    return Formula("own", left, right, "Title", "Source", "Hint.")
+
+
+def seconds(work: Work, parts: int = 1) -> Fraction:
+    solution: Any = SimpleNamespace(problem=SimpleNamespace(parts=range(parts)), lines=work.lines)
+    return minutes(solution) * 60
+
+
+def of(right: Expr, **known: Any) -> Fraction:
+    """What there is to compute and to handle in one step; to read the part is 30 s, to write the step 6 s."""
+    work = Work()
+    work.step(formula(right), **known)
+    return seconds(work) - 36
+
+
+def test_the_minutes_of_one_step() -> None:
+    work = Work()
+    with evaluate(False):
+        work.step(formula(x + y * z), x=fmpq(12), y=fmpq(3, 4), z=fmpq(5))
+    # 12 + 3/4·5: read the part (30 s), write the step (6 s), multiply and add (2·3 s), 5 digits (7.5 s).
+    assert seconds(work) == 30 + 6 + 2 * 3 + 5 * Fraction(3, 2)
+    assert seconds(work, parts=3) == seconds(work) + 2 * 30
+    work.say("A sentence takes no time.")
+    assert seconds(work) == Fraction(99, 2)
+
+
+@pytest.mark.parametrize(
+    ("right", "operations", "digits"),
+    [
+        (x + y + z, 2, 4),
+        (x * y * z, 2, 4),
+        (x + S(100), 1, 5),
+        (Greatest(x, y, z), 2, 4),
+        (Clipped(x, y, z), 2, 4),
+        (Pow(x, 3), 1, 3),
+        (Pow(x, -1), 1, 3),
+        (exp(x), 1, 2),
+        (MaxOver(i * x, i, Counting(S(2), S(4))), 2 + 3, 3 * (1 + 2)),
+    ],
+)
+def test_operations_and_digits(right: Expr, operations: int, digits: int) -> None:
+    assert of(right, x=fmpq(25), y=fmpq(-3), z=fmpq(4)) == 3 * operations + digits * Fraction(3, 2)
+
+
+def test_a_letter_that_is_left_open_is_as_much_as_nine_digits() -> None:
+    assert of(x * y, x=generator("p"), y=fmpq(1, 3)) == 3 + (9 + 2) * Fraction(3, 2)
+
+
+def test_a_larger_matrix_takes_longer() -> None:
+    small, wide, long = (of(A + A, A=fmpq_mat(*shape)) for shape in ((1, 1, [1]), (1, 2, [1, 1]), (1, 2, [1, 11])))
+    assert small < wide < long
+
+
+def system(work: Work, discount: Any) -> None:
+    """V(cool) = 1 + γ V(hot) and V(hot) = 3 + γ V(cool)."""
+    with evaluate(False):
+        bellman = formula(Start(s) + gamma * V(After(s)), V(s))
+    start, after = {"cool": fmpq(1), "hot": fmpq(3)}, {"cool": "hot", "hot": "cool"}
+    work.system(bellman, V, [{"s": "cool"}, {"s": "hot"}], start=start, after=after, gamma=discount)
+
+
+def test_the_minutes_of_two_equations() -> None:
+    work = Work()
+    system(work, fmpq(1, 2))
+    # 1 + 1/2·V(hot), twice: write it (6 s), add, multiply and look V up (3·3 s), 3 digits (4.5 s).
+    # Two unknowns are (2³ + 3·2²)/3 operations (3 s) on numbers of three digits (4.5 s).
+    both = 2 * (6 + 9 + Fraction(9, 2)) + Fraction(20, 3) * (3 + Fraction(9, 2))
+    assert seconds(work) == 30 + both == 119
+    system(work, fmpq(1, 2))
+    assert seconds(work) == 30 + 2 * both
+
+
+def test_an_open_letter_makes_equations_longer() -> None:
+    work = Work()
+    system(work, generator("gamma"))
+    assert seconds(work) == 30 + 2 * (6 + 9 + 15) + Fraction(20, 3) * (3 + 9 * Fraction(3, 2))
+
+
+@pytest.mark.parametrize(
+    ("time", "told"), [(Fraction(1, 10), 1), (Fraction(7, 5), 1), (Fraction(8, 5), 2), (Fraction(21), 21)]
+)
+def test_minutes_are_told_as_whole_ones(time: Fraction, told: int) -> None:
+    assert whole(time) == told
