@@ -76,17 +76,12 @@ def read_fraction(value: object) -> Fraction:
     Raises:
         ValueError: it is not a number, is not finite, or has more than forty digits.
     """
-    if isinstance(value, bool):
-        raise ValueError(f"{value} is not a number")
-    if isinstance(value, Fraction):
-        return value
-    if isinstance(value, int):
+    if isinstance(value, Fraction | int) and not isinstance(value, bool):
         return Fraction(value)
-    # A float's shortest decimal is what its writer typed; its binary value is not.
-    text = repr(value) if isinstance(value, float) else value
-    if not isinstance(text, str):
-        raise ValueError(f"{value!r} is not a number")
-    return _fraction(text, _parsed(text))
+    if isinstance(value, str | float):
+        # A float's shortest decimal is what its writer typed; its binary value is not.
+        return _fraction(value if isinstance(value, str) else repr(value))
+    raise ValueError(f"{value!r} is not a number")
 
 
 @lru_cache(maxsize=1024)
@@ -97,12 +92,13 @@ def _parsed(text: str) -> Node:
         raise ValueError(f"{text[:40]!r} is not a number: {fault.message}") from None
 
 
-def _fraction(text: str, tree: Node) -> Fraction:
+@lru_cache(maxsize=1024)
+def _fraction(text: str) -> Fraction:
     def refuse(*_: object) -> Fraction:
         raise ValueError(f"{text[:40]!r} is not a number; write it as 3, 0.75 or 3/4")
 
     try:
-        number = worked_out(tree, Fraction, refuse, refuse, _power)
+        number = worked_out(_parsed(text), Fraction, refuse, refuse, _power)
     except ZeroDivisionError:
         raise ValueError(f"{text[:40]!r} divides by zero") from None
     if max(abs(number.numerator), number.denominator) > 10**DIGITS:
@@ -125,8 +121,7 @@ def read_scalar(value: object) -> Scalar:
             return _BY_NAME[name]
         case Operation("-", (one, Name(name))) if whole(one) == 1 and name in _BY_NAME:
             return Parameter(f"1-{_BY_NAME[name]}")
-        case tree:
-            return _fraction(value, tree)
+    return _fraction(value)
 
 
 def read_weight(value: object) -> Weight:

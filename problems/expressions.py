@@ -28,6 +28,7 @@ _LONGEST, _MOST = 300, 180
 _HIGHEST = 4
 
 
+@lru_cache(maxsize=1024)
 def letter(name: str) -> str:
     """A name as it is used: ``theta_1`` is ``θ_1``.
 
@@ -56,10 +57,9 @@ def parsed(text: str) -> Node:
         for count, node in enumerate(nodes(tree), 1):
             _check(node)
             if count > _MOST:
-                raise Unreadable(f"It holds more than {_MOST} numbers, letters and signs; name a part of it.")
+                raise Unreadable(f"It holds more than {_MOST} numbers, letters and signs; name a part of it.", tree.at)
     except Unreadable as fault:
-        column = "" if fault.position is None else f", column {fault.position + 1}"
-        raise ValueError(f"{text[:40]!r}{column}: {fault.message}") from None
+        raise ValueError(f"{text[:40]!r}, column {(fault.position or 0) + 1}: {fault.message}") from None
     return tree
 
 
@@ -163,12 +163,8 @@ def _written(node: Node) -> Math:
 def _touches(left: Node, right: Node) -> bool:
     """Whether two factors need no sign between them; two numbers do, and what stands beside a fraction."""
     last = left.parts[-1] if isinstance(left, Operation) and left.sign == "*" else left
-    fraction = any(isinstance(node, Operation) and node.sign == "/" for node in (last, right))
-    return not fraction and not isinstance(right, Numeral) and not _is_call(last)
-
-
-def _is_call(node: Node) -> bool:
-    return isinstance(node, Operation) and node.sign in FUNCTIONS
+    before, after = (node.sign if isinstance(node, Operation) else "" for node in (last, right))
+    return "/" not in (before, after) and before not in FUNCTIONS and not isinstance(right, Numeral)
 
 
 def written_letter(name: str) -> Math:

@@ -1,7 +1,7 @@
 """The grammar of typed mathematics, in answers and in problem files: ``1 3/4``, ``75%``, ``2(1 + γ)``, ``m l²``."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import NamedTuple
 from unicodedata import normalize
@@ -43,7 +43,7 @@ def read(source: Source) -> Node:
     """
     if not source.text:
         raise source.unreadable("Nothing was typed.")
-    return _Parser(source).tree()
+    return _Parser(source).all()
 
 
 def refuse_comma(source: Source, index: int) -> None:
@@ -68,7 +68,7 @@ class _Parser:
         self._tokens = list(_tokens(source))
         self._next = self._depth = self._operations = 0
 
-    def tree(self) -> Node:
+    def all(self) -> Node:
         node = self._sum()
         if self._token.kind != "end":
             raise self._unexpected()
@@ -116,30 +116,27 @@ class _Parser:
             return self._error("It ends in the middle; write the rest, or close the bracket.")
         return self._error(f"A number is missing after {quoted(before.text)}; write one.")
 
-    def _minus(self) -> _Token | None:
-        """Skip the signs before a number; the first of them, if they make it negative."""
+    def _signed(self, read: Callable[[], Node]) -> Node:
+        """What ``read`` reads, perhaps behind signs."""
         signs: list[_Token] = []
         while sign := self._take("+", "-"):
             signs.append(sign)
             if len(signs) > _DEPTH:
                 raise self._error("Too many signs follow each other; write at most one.")
-        return signs[0] if sum(sign.kind == "-" for sign in signs) % 2 else None
-
-    def _negated(self, minus: _Token | None, node: Node) -> Node:
-        return self._operation("-", minus, node) if minus else node
+        node = read()
+        return self._operation("-", signs[0], node) if sum(sign.kind == "-" for sign in signs) % 2 else node
 
     def _sum(self) -> Node:
-        minus = self._minus()
-        left = self._negated(minus, self._product())
+        left = self._signed(self._product)
         while sign := self._take("+", "-"):
             left = self._operation(sign.kind, sign, left, self._product())
         return left
 
     def _product(self) -> Node:
-        left, divided = self._factor(), False
+        left, divided = self._signed(self._power), False
         while True:
             if sign := self._take("*", "/"):
-                right, divided = self._factor(), sign.kind == "/"
+                right, divided = self._signed(self._power), sign.kind == "/"
             elif self._token.kind in ("name", "(", "√", "number", "mixed"):
                 sign = self._token
                 self._check_implicit(divided)
@@ -160,24 +157,17 @@ class _Parser:
             what = quoted(f"/{before.text}{token.text}")
             raise self._error(f"{what} may be read in two ways; write brackets, as in 1/(2γ) or (1/2)γ.")
 
-    def _factor(self) -> Node:
-        minus = self._minus()
-        return self._negated(minus, self._power())
-
     def _power(self) -> Node:
         base = self._raised()
-        sign = self._take("^")
-        if not sign:
+        if not (sign := self._take("^")):
             return base
         self._deeper()
-        minus = self._minus()
-        alone = self._token.kind == "number"
-        exponent = self._power()
-        if alone and self._before.kind == "number" and self._token.kind == "name" and not self._token.spaced:
+        exponent = self._signed(self._power)
+        if self._before.kind == "number" and self._token.kind == "name" and not self._token.spaced:
             what = quoted(f"^{self._before.text}{self._token.text}")
             raise self._error(f"{what} may be read in two ways; write brackets, as in e^(2γ) or (e^2)γ.")
         self._depth -= 1
-        return self._operation("^", sign, base, self._negated(minus, exponent))
+        return self._operation("^", sign, base, exponent)
 
     def _raised(self) -> Node:
         """An atom with what is written behind it: percent signs and small raised numbers."""
@@ -189,8 +179,10 @@ class _Parser:
             digits = re.fullmatch("([+-]?)([0-9]{1,3})", sign.text.translate(_RAISED))
             if not digits:
                 raise self._error(f"The exponent {quoted(sign.text)} is not understood; write it as ^2.", sign)
-            exponent = Numeral(Fraction(digits[2]), digits[2], sign.at)
-            node = self._operation("^", sign, node, self._negated(sign if digits[1] == "-" else None, exponent))
+            exponent: Node = Numeral(Fraction(digits[2]), digits[2], sign.at)
+            if digits[1] == "-":
+                exponent = self._operation("-", sign, exponent)
+            node = self._operation("^", sign, node, exponent)
         return node
 
     def _atom(self) -> Node:

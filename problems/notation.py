@@ -86,7 +86,7 @@ def whole(node: Node) -> int | None:
     return None
 
 
-_CALCULATED = {"+": operator.add, "*": operator.mul, "/": operator.truediv}
+_CALCULATED = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 
 
 def worked_out(
@@ -106,19 +106,18 @@ def worked_out(
         power: a number raised to an exponent, which is None where it is no whole number.
     """
 
-    def worth(node: Node, parts: list[Any]) -> Any:
-        match node:
-            case Numeral(value):
-                return number(value)
-            case Name(text):
-                return name(text)
-            case Operation("^", (_, exponent)):
-                return power(parts[0], whole(exponent))
-            case Operation("-"):
-                return parts[0] - parts[1] if len(parts) == 2 else -parts[0]
-            case Operation("%"):
-                return parts[0] / number(Fraction(100))
-            case Operation(sign):
-                return _CALCULATED[sign](*parts) if sign in _CALCULATED else call(sign, *parts)
+    def walk(node: Node) -> Any:
+        if isinstance(node, Numeral):
+            return number(node.value)
+        if isinstance(node, Name):
+            return name(node.text)
+        sign, first = node.sign, walk(node.parts[0])
+        if sign == "^":
+            return power(first, whole(node.parts[1]))
+        if sign == "%":
+            return first / number(Fraction(100))
+        if sign not in _CALCULATED:
+            return call(sign, first)
+        return _CALCULATED[sign](first, walk(node.parts[1])) if len(node.parts) == 2 else -first
 
-    return folded(tree, worth)
+    return walk(tree)

@@ -94,7 +94,7 @@ def _word(value: object, field: str, place: str) -> str:
         raise FileError(f"{place}: '{field}' must be a text; write it in quotes.")
     word = str(value).strip()
     if not word.isprintable():
-        raise FileError(f"{place}: '{field}' holds a character that cannot be printed; type it anew.")
+        raise FileError(f"{place}: '{field}' holds a character that cannot be printed; retype it.")
     return word
 
 

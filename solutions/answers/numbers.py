@@ -15,6 +15,9 @@ from rldrill.solutions.exact import Value
 
 _ECHO = 60
 _CONSTANTS = {"e": sympy.E, "pi": sympy.pi}
+#: How strongly the parts of an operation must bind to need no brackets.
+_LEAST = {"+": (SUM, PRODUCT), "-": (SUM, PRODUCT), "*": (PRODUCT, POWER), "/": (PRODUCT, POWER), "^": (ATOM, ATOM),
+          "%": (ATOM,)}  # fmt: skip
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
 
@@ -99,25 +102,20 @@ def _echo(node: Node, parts: list[str], names: Mapping[str, str]) -> str:
     if isinstance(node, Name):
         return names[node.text]
 
-    def within(*least: int) -> list[str]:
-        """Its parts, in brackets if they bind less than they must here."""
-        return [
-            text if rank(part) >= needed else f"({text})"
-            for part, text, needed in zip(node.parts, parts, least, strict=True)
-        ]
-
+    single = len(parts) == 1
+    least = (PRODUCT,) if node.sign == "-" and single else _LEAST.get(node.sign, (SUM,) * len(parts))
+    within = [
+        text if rank(part) >= needed else f"({text})"
+        for part, text, needed in zip(node.parts, parts, least, strict=True)
+    ]
     match node.sign:
-        case "+" | "-" if len(parts) == 2:
-            return f" {node.sign} ".join(within(SUM, PRODUCT))
-        case "-":
-            return f"-{within(PRODUCT)[0]}"
-        case "*" | "/":
-            return node.sign.join(within(PRODUCT, POWER))
-        case "^":
-            return "^".join(within(ATOM, ATOM))
+        case "+" | "-":
+            return f"-{within[0]}" if single else f" {node.sign} ".join(within)
+        case "*" | "/" | "^":
+            return node.sign.join(within)
         case "%":
-            return f"{within(ATOM)[0]}%"
-    return f"{node.sign}({', '.join(parts)})"
+            return f"{within[0]}%"
+    return f"{node.sign}({', '.join(within)})"
 
 
 def _is_decimal(node: Node) -> bool:
