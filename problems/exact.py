@@ -1,17 +1,18 @@
 """Exact numbers as people write them in problem files: ``9/10``, ``0.9``, ``-2``, or a parameter's name."""
 
-import re
 from collections.abc import Iterable
-from decimal import Decimal, InvalidOperation
 from fractions import Fraction
+from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
-_DIGITS = 40  # longer numbers are slips of the keyboard, or mischief
-_NUMBER = re.compile(rf"\s*([+-]?\d{{1,{_DIGITS}}})\s*/\s*(\d{{1,{_DIGITS}}})\s*")
-_LOGARITHM = re.compile(r"\s*ln\s*\(?\s*(\d{1,3}|[^\W\d_]+)\s*\)?\s*")
-_MINUS = str.maketrans({"−": "-", "–": "-"})
+from rldrill.problems.grammar import DIGITS, read
+from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
+from rldrill.problems.spelling import Unreadable, respelled
+
+_LONGEST = 200
+_BITS = 4000  # of a power
 
 
 class Parameter(str):
@@ -46,6 +47,9 @@ PARAMETERS = {
     "x": "x",
 }
 
+#: The same by the names and by the letters.
+_BY_NAME = {spelling: Parameter(name) for name, glyph in PARAMETERS.items() for spelling in (name, glyph)}
+
 Scalar = Fraction | Parameter
 
 
@@ -72,49 +76,64 @@ def read_fraction(value: object) -> Fraction:
     Raises:
         ValueError: it is not a number, is not finite, or has more than forty digits.
     """
-    if isinstance(value, bool):
-        raise ValueError(f"{value} is not a number")
-    if isinstance(value, Fraction):
-        return value
-    if isinstance(value, int):
+    if isinstance(value, Fraction | int) and not isinstance(value, bool):
         return Fraction(value)
-    # A float's shortest decimal is what its writer typed; its binary value is not.
-    text = repr(value) if isinstance(value, float) else value
-    if not isinstance(text, str):
-        raise ValueError(f"{value!r} is not a number")
-    text = text.translate(_MINUS).strip()
-    if quotient := _NUMBER.fullmatch(text):
-        denominator = int(quotient[2])
-        if denominator == 0:
-            raise ValueError(f"{text!r} divides by zero")
-        return Fraction(int(quotient[1]), denominator)
+    if isinstance(value, str | float):
+        # A float's shortest decimal is what its writer typed; its binary value is not.
+        return _fraction(value if isinstance(value, str) else repr(value))
+    raise ValueError(f"{value!r} is not a number")
+
+
+@lru_cache(maxsize=1024)
+def _parsed(text: str) -> Node:
     try:
-        number = Decimal(text)
-    except InvalidOperation:
-        raise ValueError(f"{text[:40]!r} is not a number; write it as 3, 0.75 or 3/4") from None
-    if not number.is_finite() or abs(number.adjusted()) > _DIGITS or len(number.as_tuple().digits) > _DIGITS:
-        raise ValueError(f"{text[:40]!r} is not a finite number of at most {_DIGITS} digits")
-    return Fraction(number)
+        return read(respelled(text, _LONGEST))
+    except Unreadable as fault:
+        raise ValueError(f"{text[:40]!r} is not a number: {fault.message}") from None
+
+
+@lru_cache(maxsize=1024)
+def _fraction(text: str) -> Fraction:
+    def refuse(*_: object) -> Fraction:
+        raise ValueError(f"{text[:40]!r} is not a number; write it as 3, 0.75 or 3/4")
+
+    try:
+        number = worked_out(_parsed(text), Fraction, refuse, refuse, _power)
+    except ZeroDivisionError:
+        raise ValueError(f"{text[:40]!r} divides by zero") from None
+    if max(abs(number.numerator), number.denominator) > 10**DIGITS:
+        raise ValueError(f"{text[:40]!r} has more than {DIGITS} digits; write a shorter number")
+    return number
+
+
+def _power(base: Fraction, exponent: int | None) -> Fraction:
+    if exponent is None or (base.numerator.bit_length() + base.denominator.bit_length()) * abs(exponent) > _BITS:
+        raise ValueError("an exponent in a number is a whole number, and not a large one")
+    return base**exponent
 
 
 def read_scalar(value: object) -> Scalar:
     """Read an exact number, or a parameter left open: ``gamma`` or ``γ``, and ``1-gamma``."""
-    if isinstance(value, str):
-        name = value.translate(_MINUS).replace(" ", "")
-        prefix = "1-" if name.startswith("1-") else ""
-        for parameter, glyph in PARAMETERS.items():
-            if name.removeprefix("1-") in (parameter, glyph):
-                return Parameter(prefix + parameter)
-    return read_fraction(value)
+    if not isinstance(value, str):
+        return read_fraction(value)
+    match _parsed(value):
+        case Name(name) if name in _BY_NAME:
+            return _BY_NAME[name]
+        case Operation("-", (one, Name(name))) if whole(one) == 1 and name in _BY_NAME:
+            return Parameter(f"1-{_BY_NAME[name]}")
+    return _fraction(value)
 
 
 def read_weight(value: object) -> Weight:
     """Read an exact number, a parameter left open, or the logarithm of a whole number or parameter: ``ln 2``."""
-    if isinstance(value, str) and (found := _LOGARITHM.fullmatch(value)):
-        of = read_scalar(found[1])
-        if isinstance(of, Fraction) and of < 2:
-            raise ValueError(f"{value.strip()!r} must be the logarithm of a whole number above 1")
-        return Logarithm(f"ln {of}")
+    if isinstance(value, str):
+        match _parsed(value):
+            case Operation("ln", (Name(name),)) if name in _BY_NAME:
+                return Logarithm(f"ln {_BY_NAME[name]}")
+            case Operation("ln", (number,)):
+                if (whole(number) or 0) not in range(2, 1000):
+                    raise ValueError(f"{value[:40]!r} must be the logarithm of a whole number above 1 and below 1000")
+                return Logarithm(f"ln {whole(number)}")
     return read_scalar(value)
 
 

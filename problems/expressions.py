@@ -1,12 +1,7 @@
-"""Expressions in letters as texts: ``(u - b*ω - m*g*l*sin(θ))/(m*l^2)``. Read, never executed.
+"""Expressions in letters as texts: ``(u - b*ω - m g l sin(θ))/(m l²)``. Read, never executed."""
 
-Python's own grammar reads them; what is not a number, a letter, arithmetic or one of a few functions is refused.
-"""
-
-import ast
-import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
@@ -14,8 +9,11 @@ from typing import Annotated, Any
 from pydantic import AfterValidator
 
 from rldrill.problems import mathematics as maths
-from rldrill.problems.exact import read_fraction
+from rldrill.problems import notation
+from rldrill.problems.grammar import read
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word
+from rldrill.problems.notation import ATOM, PRODUCT, Name, Node, Numeral, Operation, nodes, rank, whole
+from rldrill.problems.spelling import Unreadable, quoted, respelled
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp")
 #: Greek letters by their names.
@@ -24,22 +22,20 @@ GREEK = {
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ",
     "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
-_LAMBDA = re.compile(r"\blambda\b")  # a word of Python's own
 #: Letters that mean something already.
 _TAKEN = {"e": "the number e", "π": "the number π", "t": "the time"}
-_LONGEST, _MOST = 300, 120
+_LONGEST, _MOST = 300, 180
 _HIGHEST = 4
-_SUM, _PRODUCT, _POWER, _ATOM = range(4)
-_LEVELS = {ast.Add: _SUM, ast.Sub: _SUM, ast.USub: _SUM, ast.Mult: _PRODUCT, ast.Div: _ATOM, ast.Pow: _POWER}
 
 
+@lru_cache(maxsize=1024)
 def letter(name: str) -> str:
     """A name as it is used: ``theta_1`` is ``θ_1``.
 
     Raises:
         ValueError: it is not one letter (or a Greek one spelled out), perhaps with an index.
     """
-    # One sign of several for the same letter, as Python's own grammar has it: φ for ϕ.
+    # One sign of several for the same letter: φ for ϕ.
     head, _, index = unicodedata.normalize("NFKC", name).partition("_")
     head = GREEK.get(head, head)
     if not index and head in _TAKEN:
@@ -50,50 +46,36 @@ def letter(name: str) -> str:
 
 
 @lru_cache(maxsize=1024)
-def parsed(text: str) -> ast.expr:
+def parsed(text: str) -> Node:
     """The tree of an expression.
 
     Raises:
         ValueError: it is not one, or is too long.
     """
-    if len(text) > _LONGEST:
-        raise ValueError(f"the expression is longer than {_LONGEST} characters")
     try:
-        tree = ast.parse(_LAMBDA.sub("λ", text.replace("^", "**").replace("−", "-")).strip(), mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ValueError(f"{text!r} is not an expression; write one such as -g*sin(θ)/l + u") from None
-    if sum(1 for _ in ast.walk(tree)) > 3 * _MOST:
-        raise ValueError(f"the expression {text[:40]!r}… is too long")
-    _check(tree)
+        tree = read(respelled(text, _LONGEST))
+        for count, node in enumerate(nodes(tree), 1):
+            _check(node)
+            if count > _MOST:
+                raise Unreadable(f"It holds more than {_MOST} numbers, letters and signs; name a part of it.", tree.at)
+    except Unreadable as fault:
+        raise ValueError(f"{text[:40]!r}, column {(fault.position or 0) + 1}: {fault.message}") from None
     return tree
 
 
-def _check(node: ast.AST) -> None:
+def _check(node: Node) -> None:
     match node:
-        case ast.BinOp(left, ast.Pow(), ast.Constant(int(exponent))) if 1 <= exponent <= _HIGHEST:
-            _check(left)
-        case ast.BinOp(_, ast.Pow(), _):
-            raise ValueError(f"an exponent in an expression is a whole number from 1 to {_HIGHEST}")
-        case ast.BinOp(left, ast.Add() | ast.Sub() | ast.Mult() | ast.Div(), right):
-            _check(left)
-            _check(right)
-        case ast.UnaryOp(ast.USub(), operand):
-            _check(operand)
-        case ast.Call(ast.Name(name), [argument], []) if name in FUNCTIONS:
-            _check(argument)
-        case ast.Name(name):
-            letter(name)
-        case ast.Constant(int() | float()) if not isinstance(node.value, bool):
-            _number(node)
-        case _:
-            raise ValueError(
-                f"{ast.unparse(node)[:40]!r} is not understood in an expression; it may hold numbers, letters, "
-                f"+ - * / ^ and {', '.join(FUNCTIONS)}"
-            )
-
-
-def _number(node: ast.Constant) -> Fraction:
-    return read_fraction(node.value)
+        case Operation("^", (_, exponent)) if whole(exponent) not in range(1, _HIGHEST + 1):
+            message = f"An exponent in an expression is a whole number from 1 to {_HIGHEST}."
+            raise Unreadable(message, exponent.at)
+        case Operation(sign) if sign in notation.FUNCTIONS and sign not in FUNCTIONS:
+            message = f"{quoted(sign)} is not understood in an expression; the functions are {', '.join(FUNCTIONS)}."
+            raise Unreadable(message, node.at)
+        case Name(name):
+            try:
+                letter(name)
+            except ValueError as fault:
+                raise Unreadable(f"{fault}.", node.at) from None
 
 
 def _expression(text: str) -> str:
@@ -108,19 +90,7 @@ Expression = Annotated[str, AfterValidator(_expression)]
 @lru_cache(maxsize=1024)
 def letters(text: str) -> tuple[str, ...]:
     """The letters of an expression, in the order in which they first stand there."""
-    return tuple(dict.fromkeys(_letters(parsed(text))))
-
-
-def _letters(node: ast.AST) -> Iterator[str]:
-    match node:
-        case ast.Name(name):
-            yield letter(name)
-        case ast.Call(_, arguments, _):
-            for argument in arguments:
-                yield from _letters(argument)
-        case _:
-            for child in ast.iter_child_nodes(node):
-                yield from _letters(child)
+    return tuple(dict.fromkeys(letter(node.text) for node in nodes(parsed(text)) if isinstance(node, Name)))
 
 
 def worked_out(
@@ -140,32 +110,12 @@ def worked_out(
     Raises:
         KeyError: a letter has no value.
     """
-
-    def walk(node: ast.AST) -> Any:
-        match node:
-            case ast.BinOp(left, ast.Pow(), ast.Constant(int(exponent))):
-                return walk(left) ** exponent
-            case ast.BinOp(left, sign, right):
-                a, b = walk(left), walk(right)
-                match sign:
-                    case ast.Add():
-                        return a + b
-                    case ast.Sub():
-                        return a - b
-                    case ast.Mult():
-                        return a * b
-                return a / b
-            case ast.UnaryOp(_, operand):
-                return -walk(operand)
-            case ast.Call(ast.Name(name), [argument]):
-                return functions[name](walk(argument))
-            case ast.Name(name):
-                return values[letter(name)]
-            case ast.Constant():
-                return number(_number(node))
-        raise TypeError(ast.dump(node))
-
-    return walk(parsed(text))
+    return notation.worked_out(
+        parsed(text),
+        number,
+        lambda name: values[letter(name)],
+        lambda function, argument: functions[function](argument),
+    )
 
 
 @lru_cache(maxsize=1024)
@@ -174,58 +124,47 @@ def written(text: str) -> Math:
     return _written(parsed(text))
 
 
-def _level(node: ast.AST) -> int:
-    match node:
-        case ast.BinOp(_, sign, _):
-            return _LEVELS[type(sign)]
-        case ast.UnaryOp():
-            return _SUM
-    return _ATOM
-
-
-def _within(node: ast.AST, level: int) -> Math:
+def _within(node: Node, least: int) -> Math:
+    """A node in brackets, if it binds less than its surroundings; a fraction never does."""
     inside = _written(node)
-    return inside if _level(node) >= level else Fence(inside)
+    return inside if rank(node) >= least or isinstance(inside, maths.Fraction) else Fence(inside)
 
 
-def _written(node: ast.AST) -> Math:
+def _written(node: Node) -> Math:
     match node:
-        case ast.BinOp(left, ast.Add(), right):
-            return row(_written(left), operator("+"), _within(right, _PRODUCT))
-        case ast.BinOp(left, ast.Sub(), right):
-            return row(_written(left), operator("−"), _within(right, _PRODUCT))
-        case ast.BinOp(left, ast.Mult(), right):
+        case Operation("+" | "-" as sign, (left, right)):
+            return row(_written(left), operator(sign.replace("-", "−")), _within(right, PRODUCT))
+        case Operation("*", (left, right)):
             between = () if _touches(left, right) else (operator("·"),)
-            return row(_first(left), *between, _within(right, _PRODUCT))
-        case ast.BinOp(left, ast.Div(), right):
+            return row(_within(left, PRODUCT), *between, _within(right, PRODUCT))
+        case Operation("/", (left, right)):
             return maths.Fraction(_written(left), _written(right))
-        case ast.BinOp(ast.Call(function, arguments), ast.Pow(), ast.Constant(exponent)):
-            return row(Script(_written(function), above=maths.number(exponent)), Fence(_written(arguments[0])))
-        case ast.BinOp(left, ast.Pow(), right):
-            return Script(_within(left, _ATOM), above=_written(right))
-        case ast.UnaryOp(_, operand):
-            return row(operator("−"), _within(operand, _PRODUCT))
-        case ast.Call(ast.Name("sqrt"), [argument]):
+        case Operation("^", (Operation("sin" | "cos" | "tan" | "exp" as function, (argument,)), exponent)):
+            return row(Script(word(function), above=_written(exponent)), Fence(_written(argument)))
+        case Operation("^", (left, right)):
+            return Script(_within(left, ATOM), above=_written(right))
+        case Operation("-", (Operation("/", (left, right)),)):  # the sign stands in the fraction
+            return maths.Fraction(_written(Operation("-", (left,))), _written(right))
+        case Operation("-", (of,)):
+            return row(operator("−"), _within(of, PRODUCT))
+        case Operation("%", (of,)):
+            return maths.Fraction(_written(of), maths.number(100))
+        case Operation("sqrt", (argument,)):
             return Root(_written(argument))
-        case ast.Call(ast.Name(name), [argument]):
-            return row(word(name), Fence(_written(argument)))
-        case ast.Name(name):
-            return word(name) if name in FUNCTIONS else written_letter(name)
-        case ast.Constant():
-            return maths.number(_number(node))
-    raise TypeError(ast.dump(node))
+        case Operation(function, (argument,)):
+            return row(word(function), Fence(_written(argument)))
+        case Numeral(value):
+            return maths.number(value)
+        case Name(name):
+            return written_letter(name)
+    raise TypeError(node)
 
 
-def _first(node: ast.AST) -> Math:
-    """The first factor of a product; its minus sign needs no brackets there."""
-    return _written(node) if isinstance(node, ast.UnaryOp) else _within(node, _PRODUCT)
-
-
-def _touches(left: ast.AST, right: ast.AST) -> bool:
+def _touches(left: Node, right: Node) -> bool:
     """Whether two factors need no sign between them; two numbers do, and what stands beside a fraction."""
-    last = left.right if isinstance(left, ast.BinOp) and isinstance(left.op, ast.Mult) else left
-    fraction = any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) for node in (last, right))
-    return not fraction and not isinstance(right, ast.Constant) and not isinstance(last, ast.Call)
+    last = left.parts[-1] if isinstance(left, Operation) and left.sign == "*" else left
+    before, after = (node.sign if isinstance(node, Operation) else "" for node in (last, right))
+    return "/" not in (before, after) and before not in FUNCTIONS and not isinstance(right, Numeral)
 
 
 def written_letter(name: str) -> Math:

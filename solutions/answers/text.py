@@ -6,9 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from rldrill.problems.expressions import GREEK
-from rldrill.solutions.answers.arithmetic import FUNCTIONS, Arithmetic
-from rldrill.solutions.answers.numbers import Reading, number, refuse_comma
-from rldrill.solutions.answers.source import Source, Unreadable, clean, quoted, spelled
+from rldrill.problems.grammar import refuse_comma
+from rldrill.problems.notation import FUNCTIONS
+from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
+from rldrill.solutions.answers.arithmetic import Arithmetic
+from rldrill.solutions.answers.numbers import Reading, number
+from rldrill.solutions.answers.source import clean
 
 __all__ = [
     "Reading",

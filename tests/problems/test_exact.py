@@ -14,6 +14,8 @@ from rldrill.problems.exact import Parameter, read_fraction, read_scalar, shown
     [
         ("9/10", Fraction(9, 10)), (0.9, Fraction(9, 10)), ("0.9", Fraction(9, 10)), (" 9 / 10 ", Fraction(9, 10)),
         ("1e-3", Fraction(1, 1000)), (3, Fraction(3)), ("−1/2", Fraction(-1, 2)), (0.1, Fraction(1, 10)), ("-0", 0),
+        ("1/2/3", Fraction(1, 6)), ("2^-3", Fraction(1, 8)), ("1 3/4", Fraction(7, 4)), ("75%", Fraction(3, 4)),
+        ("½", Fraction(1, 2)), ("1e40", 10**40), ("-2²", -4), ("(1 + 2)*3", 9),
     ],
 )  # fmt: skip
 def test_numbers(written: object, value: Fraction) -> None:
@@ -22,8 +24,11 @@ def test_numbers(written: object, value: Fraction) -> None:
 
 @pytest.mark.parametrize(
     "written",
-    ["", "1/0", "abc", "nan", "inf", float("nan"), True, None, [], "9" * 41, "1e99999", "1/2/3", "0x10"],
-)
+    [
+        "", "1/0", "0^-1", "abc", "nan", "inf", float("nan"), True, None, [], "9" * 41, "1e99999", "1_000", "0x10",
+        "sqrt(2)", "2^γ", "9^9^9", "1^(1/2)", "(" * 10**6, "10^20*10^21", "1/0.5/0", "gamma",
+    ],
+)  # fmt: skip
 def test_what_is_not_a_number_is_refused(written: object) -> None:
     with pytest.raises(ValueError, match=r"number|zero"):
         read_fraction(written)
@@ -35,7 +40,8 @@ def test_a_fraction_survives_being_written(value: Fraction) -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "name", "text"), [("gamma", "gamma", "γ"), ("γ", "gamma", "γ"), ("1 - p", "p", "1 − p")]
+    ("written", "name", "text"),
+    [("gamma", "gamma", "γ"), ("γ", "gamma", "γ"), ("1 - p", "p", "1 − p"), ("1−γ", "gamma", "1 − γ")],
 )
 def test_parameters(written: str, name: str, text: str) -> None:
     parameter = read_scalar(written)

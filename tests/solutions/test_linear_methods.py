@@ -169,7 +169,7 @@ def test_ddp_and_ilqr_differ_by_the_curvature_alone() -> None:
         ({"dynamics": {"x": "x.real"}}, "not understood"),
         ({"dynamics": {"x": "x**99"}}, "whole number from 1 to 4"),
         ({"dynamics": {"x": "x" + "+x" * 400}}, "longer than"),
-        ({"dynamics": {"x": "(" * 280}}, "is not an expression"),
+        ({"dynamics": {"x": "(" * 280}}, "nests deeper than 40 brackets"),
         ({"state": {"y": 1}}, "same letters"),
         ({"state": {"x": "pi/0"}}, "divides by zero"),
         ({"action": {"x": 1}}, "two things"),
@@ -276,9 +276,9 @@ def test_angles_survive_being_written() -> None:
 
 
 def test_an_expression_is_never_executed() -> None:
-    with pytest.raises(ValueError, match="not understood"):
+    with pytest.raises(ValueError, match="column 1: '\\[' is not read inside a number"):
         parsed("[x for x in y]")
-    with pytest.raises(ValueError, match="is not an expression"):
+    with pytest.raises(ValueError, match="column 8: ':' is not understood"):
         parsed("(lambda: x)()")
     assert worked_out("2*x^2 - x/4", {"x": 4}, {}, float) == 31
 

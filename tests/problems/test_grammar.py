@@ -1,0 +1,303 @@
+"""One grammar for answers and problem files: what a text is read as, in all its spellings, and where it is refused."""
+
+import time
+from collections.abc import Callable
+from fractions import Fraction
+from random import Random
+
+import pytest
+from flint import fmpq
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from rldrill.problems.exact import read_fraction
+from rldrill.problems.expressions import letters, parsed, worked_out
+from rldrill.problems.grammar import read
+from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, nodes, rank
+from rldrill.problems.spelling import Unreadable, respelled
+from rldrill.solutions.answers.text import read_number
+from rldrill.solutions.rational import RationalFunction
+
+F = Fraction
+GAMMA = F(1, 3)  # the value of γ in all of these tests
+
+
+def n(value: int) -> Node:
+    return Numeral(F(value), str(value))
+
+
+def op(sign: str, *parts: Node) -> Node:
+    return Operation(sign, parts)
+
+
+def tree(text: str) -> Node:
+    return read(respelled(text, 500))
+
+
+def as_answer(text: str) -> Fraction:
+    value = read_number(text, ["gamma"]).value
+    if isinstance(value, RationalFunction):
+        value = value.top(fmpq(1, 3)) / value.bottom(fmpq(1, 3))
+    assert isinstance(value, fmpq)
+    return F(int(value.p), int(value.q))
+
+
+def as_dynamics(text: str) -> Fraction:
+    return worked_out(text, {"γ": GAMMA}, {}, F)
+
+
+γ, a, b, c, x, θ = map(Name, ("γ", "a", "b", "c", "x", "θ"))
+
+STRUCTURES = {
+    "-2^2": op("-", op("^", n(2), n(2))),
+    "(-2)^2": op("^", op("-", n(2)), n(2)),
+    "2^-2": op("^", n(2), op("-", n(2))),
+    "2^3^2": op("^", n(2), op("^", n(3), n(2))),
+    "2³²": op("^", n(2), n(32)),
+    "a-b-c": op("-", op("-", a, b), c),
+    "a-(b-c)": op("-", a, op("-", b, c)),
+    "a/b*c": op("*", op("/", a, b), c),
+    "a/b/c": op("/", op("/", a, b), c),
+    "a*b/c": op("/", op("*", a, b), c),
+    "-a*b": op("-", op("*", a, b)),
+    "a*-b": op("*", a, op("-", b)),
+    "a*-b^2": op("*", a, op("-", op("^", b, n(2)))),
+    "a*-b*c": op("*", op("*", a, op("-", b)), c),
+    "-a-b": op("-", op("-", a), b),
+    "- -a": a,
+    "-+-+-a": op("-", a),
+    "a--b": op("-", a, op("-", b)),
+    "2a": op("*", n(2), a),
+    "2a^2": op("*", n(2), op("^", a, n(2))),
+    "a^2 b": op("*", op("^", a, n(2)), b),
+    "a²b": op("*", op("^", a, n(2)), b),
+    "a⁻²": op("^", a, op("-", n(2))),
+    "a b/c": op("/", op("*", a, b), c),
+    "(a)(b)c": op("*", op("*", a, b), c),
+    "a(b + c)": op("*", a, op("+", b, c)),
+    "θγ": op("*", θ, γ),
+    "θ_1 γ": op("*", Name("θ_1"), γ),
+    "½a": op("*", Numeral(F(1, 2), "1/2"), a),
+    "¾²": op("^", Numeral(F(3, 4), "3/4"), n(2)),
+    "1 3/4": Numeral(F(7, 4), "7/4"),
+    "1¾ + a": op("+", Numeral(F(7, 4), "7/4"), a),
+    "a - 1 3/4": op("-", a, Numeral(F(7, 4), "7/4")),
+    "5%": op("%", n(5)),
+    "5%²": op("^", op("%", n(5)), n(2)),
+    "-5%": op("-", op("%", n(5))),
+    "sin θ": op("sin", θ),
+    "sin θ + a": op("+", op("sin", θ), a),
+    "a sin θ*b": op("*", op("*", a, op("sin", θ)), b),
+    "sin(θ)/a": op("/", op("sin", θ), a),
+    "SIN(θ)^2": op("^", op("sin", θ), n(2)),
+    "√2/2": op("/", op("sqrt", n(2)), n(2)),
+    "√(2/3)": op("sqrt", op("/", n(2), n(3))),
+    "ln3": op("ln", n(3)),
+    "max(a, b; c)": op("max", a, b, c),
+}
+
+
+@pytest.mark.parametrize("text", STRUCTURES)
+def test_what_a_text_is_read_as(text: str) -> None:
+    assert tree(text) == STRUCTURES[text]
+
+
+VALUES = {
+    "-2^2": F(-4), "2^3": F(8), "8/2*4": F(16), "8/2/2": F(2), "2 - 3 - 4": F(-5), "2*-3": F(-6), "1 3/4": F(7, 4),
+    "-1 3/4": F(-7, 4), "1¾": F(7, 4), "½γ": F(1, 6), "2γ": F(2, 3), "γ²": F(1, 9), "2γ²": F(2, 9), "2(1 + γ)": F(8, 3),
+    "γ(1 - γ)": F(2, 9), "75%": F(3, 4), "−γ": F(-1, 3), "γ**2": F(1, 9), "3·γ×2": F(2), "3÷4": F(3, 4), ".5": F(1, 2),
+    "1e-2": F(1, 100), "6γ/2": F(1), "γ γ": F(1, 9), "(1/2)γ": F(1, 6), "1/(2γ)": F(3, 2), "2γ - γ": F(1, 3),
+    "3.": F(3), "0.12345678901234567890123": F(12345678901234567890123, 10**23),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", VALUES)
+def test_answers_and_files_agree(text: str) -> None:
+    assert as_answer(text) == as_dynamics(text) == VALUES[text]
+    if "γ" not in text:
+        assert read_fraction(text) == VALUES[text]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2θ", 10), ("θ²", 25), ("m l²", 63), ("m*l^2", 63), ("2(θ + ω)", 14), ("sin θ", 50), ("sin(θ)", 50),
+        ("2sin θ", 100), ("½θ", 2.5), ("√4", 40), ("sqrt(θ)", 50), ("theta**2", 25), ("−θ", -5), ("θ·ω", 10),
+        ("cos(2θ)^2", 10000), ("θω", 10), ("θ_1 ω", 22), ("-ω²/l", F(-4, 3)),
+    ],
+)  # fmt: skip
+def test_files_read_what_answers_read(text: str, value: float) -> None:
+    values = {"θ": F(5), "ω": F(2), "m": F(7), "l": F(3), "θ_1": F(11)}
+    functions: dict[str, Callable[[Fraction], Fraction]] = dict.fromkeys(("sin", "cos", "sqrt"), lambda x: 10 * x)
+    assert worked_out(text, values, functions, F) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "fault"),
+    [
+        ("1/2γ", 4, "two ways; write brackets"), ("γ/2(γ)", 4, "two ways; write brackets"),
+        ("1/γγ", 4, "two ways; write brackets"), ("γ^2γ", 4, "two ways; write brackets"),
+        ("1 2", 3, "two numbers with nothing between"), ("γ 2", 3, "'2' follows without a sign"),
+        ("½ ½", 3, "two numbers with nothing between"), ("5%γ", 3, "'γ' follows without a sign"),
+        ("2/1 3/4", 3, "two ways here"), ("1 3/4γ", 1, "two ways here"), ("1¾^2", 1, "two ways here"),
+        ("1 4/4", 1, "must be below one"), ("1 3/0", 1, "divides by zero"), ("2 + 1 3/4²", 5, "two ways here"),
+        ("sin γ²", 6, "two ways; put it in brackets"), ("sin 2γ", 6, "two ways; put it in brackets"),
+        ("sin γ/2", 6, "two ways; put it in brackets"), ("2 + sin -1", 9, "in brackets: sin"),
+        ("1 + (γ*", 8, "missing after '*'"), ("1 + *2", 5, "missing before '*'"), ("(1 + γ", 7, "close the bracket"),
+        ("(1))", 4, "not opened"), ("γ + @", 5, "'@' is not understood"), ("  γ + @", 7, "'@' is not understood"),
+        ("1½ + @", 6, "'@' is not understood"), ("2⁺⁻", 2, "exponent"), ("γ\u200b", 2, "U+200B"), ("1,5γ", 2, "1.5"),
+        ("[γ", 1, "is not closed"), ("1 = γ", 3, "'=' is not understood"), ("1 + " + "9" * 41, 5, "40 digits"),
+        ("1e41", 1, "40 digits"), ("1 " + "9" * 41 + "/" + "9" * 42, 1, "40 digits"), ("ab + 1", 1, "'ab' is not"),
+        ("γ + foo", 5, "'foo' is not"),
+    ],
+)  # fmt: skip
+def test_both_refuse_and_name_the_column(text: str, column: int, fault: str) -> None:
+    with pytest.raises(Unreadable) as refused:
+        read_number(f"({text})" if text[0] == "[" else text, ["gamma"])
+    assert fault in refused.value.message
+    assert refused.value.position == column - 1 + (text[0] == "[")
+    with pytest.raises(ValueError, match=f"column {column}: ") as complaint:
+        parsed(text)
+    assert fault in str(complaint.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "fault"),
+    [
+        ("x + e", 5, "the number e"), ("2x^5", 4, "from 1 to 4"), ("2x^0", 4, "from 1 to 4"),
+        ("x^-1", 3, "from 1 to 4"), ("x^(1/2)", 5, "from 1 to 4"),
+        ("x + ln(x)", 5, "'ln' is not understood in an expression"),
+        ("max(x, u)", 1, "'max' is not understood"), ("x + m_", 6, "'_' is not understood"), ("t", 1, "the time"),
+        ("x_1234", 1, "not a letter"), ("0x10", 2, "'x10' is not a letter"),
+    ],
+)  # fmt: skip
+def test_what_dynamics_may_not_hold(text: str, column: int, fault: str) -> None:
+    with pytest.raises(ValueError, match=f"column {column}: ") as complaint:
+        parsed(text)
+    assert fault in str(complaint.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "column"), [("1 + 1/(γ-γ)", 6), ("2 + 3^99", 6), ("2*√(0-2)", 3), ("γ + 2^γ", 6), ("1 + 0⁻¹", 6)]
+)
+def test_what_cannot_be_worked_out_is_refused_where_it_stands(text: str, column: int) -> None:
+    with pytest.raises(Unreadable) as refused:
+        read_number(text, ["gamma"])
+    assert refused.value.position == column - 1
+
+
+HOSTILE = ["9**9**9", "9^9^9^9", "(" * 10**5, "9" * 10**6, "-" * 250, "2^" * 149 + "2", "9" * 41, "1\n" * 90]
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+@pytest.mark.parametrize("reader", [as_dynamics, read_fraction])
+def test_hostile_texts_in_files_take_no_time(reader: Callable[[str], object], text: str) -> None:
+    start = time.process_time()
+    with pytest.raises(ValueError, match=r".") as refused:
+        reader(text)
+    assert len(str(refused.value)) < 300
+    assert "\n" not in str(refused.value)
+    assert time.process_time() - start < 0.5
+
+
+def test_the_longest_that_is_read() -> None:
+    assert as_dynamics("+".join("1" * 90)) == 90
+    with pytest.raises(ValueError, match="more than 180"):
+        parsed("+".join("1" * 91))
+    with pytest.raises(Unreadable, match="300 operations"):
+        read_number("+".join("1" * 302))
+    assert as_answer("+".join("1" * 301)) == 301
+    assert as_answer("(" * 40 + "1" + ")" * 40) == 1
+    assert as_answer("-" * 40 + "1") == 1
+
+
+def test_letters_stand_in_their_order_once() -> None:
+    assert letters("(u - b ω - m g l sin θ)/(m l²)") == ("u", "b", "ω", "m", "g", "l", "θ")
+
+
+MIXED = [Numeral(F(whole * 4 + 3, 4), str(F(whole * 4 + 3, 4))) for whole in range(1, 4)]
+NUMERALS = (
+    st.integers(0, 20).map(n)
+    | st.sampled_from(["0.5", "2.25", "10.", "1e2"]).map(lambda text: Numeral(F(text), text))
+    | st.sampled_from([Numeral(F(1, 2), "1/2"), Numeral(F(2, 3), "2/3"), *MIXED])
+)
+
+
+def combined(parts: st.SearchStrategy[Node]) -> st.SearchStrategy[Node]:
+    return st.one_of(
+        st.builds(op, st.sampled_from("+-*/"), parts, parts),
+        st.builds(op, st.sampled_from("-%"), parts),
+        st.builds(op, st.just("^"), parts, st.integers(1, 4).map(n)),
+    )
+
+
+TREES = st.recursive(NUMERALS | st.just(γ), combined, max_leaves=8)
+
+
+def spelled(node: Node, random: Random, least: int = SUM) -> str:
+    """A tree as a person may type it: with other signs, more brackets and spaces, and fewer signs of products."""
+    gap = random.choice(["", " "])
+    if isinstance(node, Numeral):
+        text = node.text
+        if node in MIXED:
+            whole = node.value // 1
+            return f"({random.choice([f'{whole} 3/4', f'{whole}¾', f'{whole} ¾'])})"
+        text = {"1/2": "½", "2/3": "⅔"}.get(text, text)
+    elif isinstance(node, Name):
+        text = node.text
+    elif node.sign == "%":
+        text = f"{spelled(node.parts[0], random, ATOM)}{gap}%"
+    elif node.sign == "^":
+        base, exponent = spelled(node.parts[0], random, ATOM), spelled(node.parts[1], random, ATOM)
+        raised = "⁰¹²³⁴"[int(exponent)] if exponent.isdigit() else f"^{exponent}"
+        text = base + random.choice([f"{gap}^{gap}{exponent}", f"**{exponent}", raised])
+    elif len(node.parts) == 1:
+        text = random.choice("-−–") + gap + spelled(node.parts[0], random, PRODUCT)
+    else:
+        sign = random.choice({"-": "-−", "*": "*·×", "/": "/÷"}.get(node.sign, node.sign))
+        sides = (SUM, PRODUCT) if node.sign in "+-" else (PRODUCT, POWER)
+        left, right = (spelled(part, random, side) for part, side in zip(node.parts, sides, strict=True))
+        alone = isinstance(node.parts[0], Numeral | Name) or left.endswith(")")
+        simple = alone and not isinstance(node.parts[0], Operation) and (right == "γ" or right.startswith("("))
+        implicit = node.sign == "*" and simple and random.random() < 0.7
+        text = f"{left}{gap}{right}" if implicit else f"{left}{gap}{sign}{gap}{right}"
+    return f"({gap}{text}{gap})" if rank(node) < least or random.random() < 0.1 else text
+
+
+#: The sign in whose column an operation stands; of a product without one, where the second factor begins.
+SIGNS = {"+": "+", "-": "-−–", "*": "*·×γ(", "/": "/÷", "^": "^*¹²³⁴", "%": "%"}
+
+
+@given(TREES, st.randoms(use_true_random=False))
+def test_a_tree_is_read_back_from_all_its_spellings(written: Node, random: Random) -> None:
+    text = spelled(written, random)
+    assert tree(text) == written
+    for node in nodes(tree(text)):
+        assert not isinstance(node, Operation) or text[node.at] in SIGNS[node.sign]
+
+
+@given(TREES, st.randoms(use_true_random=False))
+def test_answers_and_dynamics_agree_on_the_value_of_every_tree(written: Node, random: Random) -> None:
+    text = spelled(written, random)
+    try:
+        expected = as_dynamics(text)
+    except ZeroDivisionError:
+        assume(False)
+    try:
+        reading = read_number(text, ["gamma"])
+    except Unreadable as refused:  # a number that grows too large, or a quotient by what is zero for every γ
+        assert "too large" in refused.message  # noqa: PT017
+        return
+    assert as_answer(text) == expected
+    if not reading.echo.endswith("…"):
+        again = read_number(reading.echo, ["gamma"])
+        assert again.value == reading.value
+        assert as_dynamics(reading.echo) == expected
+
+
+@given(TREES, st.randoms(use_true_random=False))
+def test_a_slip_behind_anything_is_found_in_its_column(written: Node, random: Random) -> None:
+    text = spelled(written, random)
+    with pytest.raises(Unreadable) as refused:
+        read_number(f"{text} + *", ["gamma"])
+    assert refused.value.position == len(text) + 3
