@@ -101,7 +101,9 @@ def main() -> None:
     parser.add_argument("-n", type=int, default=100, help="how many changes")
     parser.add_argument("--only", action="append", default=[], metavar="PATH", help="a file or folder; may be repeated")
     parser.add_argument("--workers", type=int, default=2, help="how many at the same time")
-    parser.add_argument("--timeout", type=float, default=120, help="seconds after which a change counts as noticed")
+    parser.add_argument(
+        "--timeout", type=float, default=120, help="seconds of the processor after which a change counts as noticed"
+    )
     parser.add_argument("--budget", type=float, default=40, help="seconds of tests for one change, measured unchanged")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     options = parser.parse_args()

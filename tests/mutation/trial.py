@@ -3,6 +3,7 @@
 import importlib
 import importlib.util
 import json
+import math
 import multiprocessing
 import os
 import resource
@@ -22,6 +23,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 _MEMORY = 4 * 2**30
+#: A run may take its limit of the processor, and this many times its limit by the clock, for others work too.
+_PATIENCE = 4
 _FORK = multiprocessing.get_context("fork")
 #: Loaded once here, so that no run has to: none of them loads a part of the program.
 _HEAVY = ("flint", "numpy", "pydantic", "rich", "sympy", "typer", "typst")
@@ -126,10 +129,10 @@ class _Running:
     def __init__(self, number: int, run: Run, copy: Path, limit: float) -> None:
         self.number, self.copy = number, copy
         self._restore = _change(copy, run)
-        self._begun, self._limit = time.monotonic(), limit
+        self._begun, self._limit = time.monotonic(), _PATIENCE * limit
         self._report = copy.with_suffix(".json")
         self._report.unlink(missing_ok=True)
-        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report))
+        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report, limit))
         self.process.start()
 
     def left(self) -> float:
@@ -144,6 +147,7 @@ class _Running:
             assert self.process.pid
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.join()
+        hung = hung or self.process.exitcode == -signal.SIGXCPU
         self._restore()
         found: dict[str, Any] = {}
         if self._report.exists() and not hung:
@@ -166,10 +170,11 @@ def _change(copy: Path, run: Run) -> Callable[[], None]:
     return restore
 
 
-def _work(run: Run, copy: Path, report: Path) -> None:
+def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
     """What the process does; it writes its report at the end."""
     os.setsid()
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), resource.RLIM_INFINITY))
     os.chdir(copy)
     os.environ["PYTHONPATH"] = str(copy)
     sys.path.insert(0, str(copy))
