@@ -188,7 +188,12 @@ def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
         result = Result()
         options = ["-p", "no:cacheprovider", "--hypothesis-profile=quick", "--hypothesis-seed=0", "--tb=short"]
         options += [f"--rootdir={copy}", f"--basetemp={copy.with_suffix('.tmp')}"]
-        options += ["--collect-only"] * run.collect_only + ["-x"] * (not run.keep_going)
-        chosen = sorted({test.partition("::")[0] for test in run.tests}) or ["tests"]
-        result.code = int(pytest.main([*options, *chosen], plugins=[Chosen(run.tests, result)]))
+        if run.collect_only:
+            options += ["--collect-only", "--ignore=tests/mutation", "tests"]
+        else:
+            options += ["-x"] * (not run.keep_going) + sorted({test.partition("::")[0] for test in run.tests})
+        if run.tests or run.collect_only:
+            result.code = int(pytest.main(options, plugins=[Chosen(run.tests, result)]))
+        else:
+            result.code = pytest.ExitCode.NO_TESTS_COLLECTED
         report.write_text(json.dumps(vars(result)), encoding="utf-8")
