@@ -59,20 +59,19 @@ def passing(chosen: Sequence[Sequence[tuple[int, str]]], copies: Sequence[Path])
     ]
     results = [result for _, result in trial.run_all(runs, copies, _BASELINE_SECONDS)]
     if any(result.code is None for result in results):
-        sys.exit("The tests do not come to an end before anything is changed.")
+        sys.exit("The tests hang or crash before anything is changed; run them by themselves.")
     if failed := [test for result in results for test in result.failed]:
         sys.exit("These tests fail before anything is changed:\n" + "\n".join(failed))
     return {test: seconds for result in results for test, seconds in result.times.items()}
 
 
 def within(tests: Sequence[tuple[int, str]], times: dict[str, float], budget: float) -> tuple[str, ...]:
-    """The tests in the order of their ranks, the quickest first, as long as their time lasts."""
+    """The tests in the order of their ranks, the quickest first, without those for which there is no time left."""
     chosen, spent = [], 0.0
     for _, test in sorted(tests, key=lambda each: (each[0], times[each[1]])):
-        spent += times[test]
-        if spent > budget:
-            break
-        chosen.append(test)
+        if spent + times[test] <= budget:
+            spent += times[test]
+            chosen.append(test)
     return tuple(chosen)
 
 

@@ -107,3 +107,4 @@ def test_tests_are_run_in_the_order_of_their_ranks_while_the_time_lasts() -> Non
     tests = [(0, "a"), (0, "b"), (1, "d"), (1, "c")]
     assert within(tests, times, 100) == ("b", "a", "c", "d")
     assert within(tests, times, 6) == ("b", "a", "c")
+    assert within([*tests, (2, "b")], times, 5) == ("b", "a", "b")

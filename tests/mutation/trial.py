@@ -173,7 +173,8 @@ def _change(copy: Path, run: Run) -> Callable[[], None]:
 def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
     """What the process does; it writes its report at the end."""
     os.setsid()
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    if run.path:  # unchanged, the pages of all families in one document may take more
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), resource.RLIM_INFINITY))
     os.chdir(copy)
     os.environ["PYTHONPATH"] = str(copy)
