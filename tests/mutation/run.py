@@ -1,0 +1,172 @@
+"""Change the program in one small place at a time, and see whether a test notices.
+
+Our own code because of the two known tools mutmut changes only what stands in functions, and formulas do not, while
+cosmic-ray runs one and the same command for every change, which here would be the whole suite.
+
+    python tests/mutation/run.py --seed 1 -n 100 [--only PATH] [--workers 2] [--timeout 120] [--budget 40] [--json]
+"""
+
+import argparse
+import json
+import random
+import shutil
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import trial
+from choice import Choice
+from places import Mutation, Source, mutations, sources
+
+ROOT = Path(__file__).parent.parent.parent
+_BASELINE_SECONDS = 1800
+#: Build and install the whole, which takes longer than everything else and notices nothing that the others do not.
+_TOO_DEAR = {"test_wheel"}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one change."""
+
+    path: str
+    line: int
+    kind: str
+    before: str
+    after: str
+    outcome: str
+    by: str
+    tests_run: int
+    seconds: float
+
+
+def drawn(found: Sequence[Mutation], number: int, seed: int) -> list[Mutation]:
+    """So many of the changes, each as likely as any other; all of them in another order where there are no more."""
+    return random.Random(seed).sample(found, min(number, len(found)))
+
+
+def passing(chosen: Sequence[Sequence[tuple[int, str]]], copies: Sequence[Path]) -> dict[str, float]:
+    """The seconds of every chosen test in the unchanged tree; the end of the program where one of them fails."""
+    tests = sorted({test for each in chosen for _, test in each})
+    files = sorted({test.partition("::")[0] for test in tests})
+    shares = [set(files[start :: 4 * len(copies)]) for start in range(4 * len(copies))]
+    runs = [
+        trial.Run(tuple(test for test in tests if test.partition("::")[0] in share), keep_going=True)
+        for share in shares
+        if share
+    ]
+    results = [result for _, result in trial.run_all(runs, copies, _BASELINE_SECONDS)]
+    if any(result.code is None for result in results):
+        sys.exit("The tests hang or crash before anything is changed; run them by themselves.")
+    if failed := [test for result in results for test in result.failed]:
+        sys.exit("These tests fail before anything is changed:\n" + "\n".join(failed))
+    return {test: seconds for result in results for test, seconds in result.times.items()}
+
+
+def within(tests: Sequence[tuple[int, str]], times: dict[str, float], budget: float) -> tuple[str, ...]:
+    """The tests in the order of their ranks, the quickest first, without those for which there is no time left."""
+    chosen, spent = [], 0.0
+    for _, test in sorted(tests, key=lambda each: (each[0], times[each[1]])):
+        if spent + times[test] <= budget:
+            spent += times[test]
+            chosen.append(test)
+    return tuple(chosen)
+
+
+def outcomes(
+    places: Sequence[tuple[Source, Mutation]], runs: Sequence[trial.Run], copies: Sequence[Path], limit: float
+) -> Iterator[tuple[int, Outcome]]:
+    """Make every change, and yield its number and what became of it."""
+    for number, result in trial.run_all(runs, copies, limit):
+        source, mutation = places[number]
+        outcome = "timed out" if result.hung else "survived" if result.code in {0, 5} else "killed"
+        by = "" if outcome != "killed" else next(iter(result.failed), "a crash")
+        shown = source.shown(mutation)
+        yield (
+            number,
+            Outcome(
+                *(source.path, source.line(mutation), mutation.kind, *shown, outcome, by),
+                *(len(result.times), round(result.seconds, 1)),
+            ),
+        )
+
+
+def main() -> None:
+    """Read the options, draw, run and report."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seed", type=int, default=1, help="the same seed draws the same places of the same tree")
+    parser.add_argument("-n", type=int, default=100, help="how many changes")
+    parser.add_argument("--only", action="append", default=[], metavar="PATH", help="a file or folder; may be repeated")
+    parser.add_argument("--workers", type=int, default=2, help="how many at the same time")
+    parser.add_argument(
+        "--timeout", type=float, default=120, help="seconds of the processor after which a change counts as noticed"
+    )
+    parser.add_argument("--budget", type=float, default=40, help="seconds of tests for one change, measured unchanged")
+    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    options = parser.parse_args()
+
+    paths = trial.files(ROOT)
+    by_path = {source.path: source for source in sources(ROOT, paths, options.only)}
+    candidates = [mutation for source in by_path.values() for mutation in mutations(source)]
+    places = [(by_path[mutation.path], mutation) for mutation in drawn(candidates, options.n, options.seed)]
+    if not places:
+        sys.exit("There is nothing to change.")
+    with tempfile.TemporaryDirectory(prefix="rldrill-mutation-") as folder:
+        copies = [Path(folder).resolve() / f"copy-{number}" for number in range(options.workers)]
+        found = list(tried(places, copies, paths, options))
+    report(found, len(candidates), options)
+
+
+def tried(
+    places: Sequence[tuple[Source, Mutation]], copies: Sequence[Path], paths: Sequence[str], options: argparse.Namespace
+) -> Iterator[Outcome]:
+    """Choose the tests of every change, see that they pass without it, and yield the outcomes."""
+    trial.load()
+    trial.copied(ROOT, paths, copies[0])
+    ((_, collected),) = trial.run_all([trial.Run(collect_only=True)], copies[:1], _BASELINE_SECONDS)
+    if collected.code != 0:
+        sys.exit("The tests cannot be collected:\n" + "\n".join(collected.failed))
+    for copy in copies[1:]:
+        shutil.copytree(copies[0], copy, symlinks=True)
+    seen = (test for test in collected.seen if Path(test.partition("::")[0]).stem not in _TOO_DEAR)
+    choice = Choice(copies[0], tuple(seen))
+    chosen = [choice.tests(source, mutation) for source, mutation in places]
+    times = passing(chosen, copies)
+    print(f"{len(times)} tests pass unchanged, in {sum(times.values()):.0f} s", file=sys.stderr)
+    runs = [
+        trial.Run(within(tests, times, options.budget), source.path, source.changed(mutation))
+        for tests, (source, mutation) in zip(chosen, places, strict=True)
+    ]
+    for done, (_, outcome) in enumerate(outcomes(places, runs, copies, options.timeout), 1):
+        where = f"{outcome.path}:{outcome.line}"
+        print(
+            f"{done:4}/{len(runs)} {outcome.outcome:9} {outcome.seconds:6.1f} s  {where}  {outcome.by}", file=sys.stderr
+        )
+        yield outcome
+
+
+def report(found: Sequence[Outcome], candidates: int, options: argparse.Namespace) -> None:
+    """Print the survivors and the figures."""
+    count = Counter(outcome.outcome for outcome in found)
+    noticed = len(found) - count["survived"]
+    percentage = round(100 * noticed / len(found), 1)
+    found = sorted(found, key=lambda outcome: (outcome.path, outcome.line))
+    if options.json:
+        figures = {"seed": options.seed, "candidates": candidates, "changes": len(found), "killed": count["killed"]}
+        figures |= {"timed out": count["timed out"], "survived": count["survived"], "percentage": percentage}
+        print(json.dumps(figures | {"outcomes": [asdict(outcome) for outcome in found]}, ensure_ascii=False, indent=1))
+        return
+    for outcome in found:
+        if outcome.outcome == "survived":
+            print(f"{outcome.path}:{outcome.line}: {outcome.kind} (survived {outcome.tests_run} tests)")
+            print(f"  - {outcome.before}\n  + {outcome.after}")
+    print(
+        f"{len(found)} of {candidates} possible changes, seed {options.seed}: {count['killed']} killed, "
+        f"{count['timed out']} timed out, {count['survived']} survived; {percentage} % noticed"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+"""The mutation run: which changes it makes, which it leaves, and which tests it holds against them."""
+
+from pathlib import Path
+
+import pytest
+from choice import Choice
+from places import Mutation, Source, mutations
+from run import drawn, within
+
+
+def changes(text: str) -> set[str]:
+    source = Source("rldrill/x.py", text.encode())
+    return {source.changed(mutation).decode() for mutation in mutations(source)}
+
+
+@pytest.mark.parametrize(
+    ("text", "changed"),
+    [
+        ("γ + x", {"γ - x"}),
+        ("(γ) - (x)", {"(γ) + (x)"}),
+        ("x ** y // z", {"x * y // z", "x ** y / z"}),
+        ("x *= y", {"x /= y"}),
+        ("x < y <= z", {"x <= y <= z", "x < y < z"}),
+        ("x not in y", {"x in y"}),
+        ("x is  not y", {"x is y"}),
+        ("x or y and z", {"x and y and z", "x or y or z"}),
+        ("(x and # and not or\n y)", {"(x or # and not or\n y)"}),
+        ("not(x)", {"(x)"}),
+        ("-x", {"x"}),
+        ("7", {"8"}),
+        ("0", {"1"}),
+        ("True", {"False"}),
+        ("x[0]", {"x[-1]"}),
+        ("x[-1]", {"x[0]"}),
+        ("x[y:]", {"x[(y) + 1:]"}),
+        ("x[1:]", {"x[2:]"}),
+        ("max(x)", {"min(x)"}),
+        ("all(x)", {"any(x)"}),
+        ("x if y else z", {"x if not (y) else z"}),
+        ("[x for x in y if x]", {"[x for x in y if not (x)]"}),
+        ("if x == y: z", {"if x != y: z"}),
+        ("if not x: y", {"if x: y"}),
+        ("def f(x='a'): ...", {'def f(x=""): ...'}),
+        ("class A:\n    x: int = 1", {"class A:\n    x: int = 2"}),
+        ("'1 + 1'", set()),
+        ("f'{x + 1}'", set()),
+        ("x + 'text'", set()),
+        ("x: Literal[1]", set()),
+        ("def f(x: A[0]) -> B[-1]: ...", set()),
+        ("@cache(1)\ndef f(): ...", set()),
+        ("assert x, y + z", set()),
+        ("if TYPE_CHECKING: x = 1", set()),
+        ("REVISION = 1", set()),
+        ("zip(x, strict=True)", set()),
+    ],
+)
+def test_one_small_thing_is_changed(text: str, changed: set[str]) -> None:
+    assert changes(text) == changed
+
+
+def test_a_change_is_shown_by_its_line() -> None:
+    source = Source("rldrill/x.py", b"if (\n    x\n    and y\n): pass")
+    mutation = next(each for each in mutations(source) if each.kind == "and → or")
+    assert source.line(mutation) == 3
+    assert source.shown(mutation) == ("and y", "or y")
+
+
+def test_a_seed_draws_the_same_places() -> None:
+    places = [Mutation("rldrill/x.py", start, start + 1, b"", "") for start in range(50)]
+    assert drawn(places, 5, 1) == drawn(places, 5, 1) != drawn(places, 5, 2)
+    assert sorted(drawn(places, 99, 1)) == places
+
+
+def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) -> None:
+    files = {
+        "problems/td/n_step.py": "",
+        "solutions/td/n_step.py": "from rldrill.solutions.sheet.td import N_STEP\nx = 1",
+        "solutions/sheet/td.py": "N_STEP = Formula('n-step-formula', x + y)\nSLIP = slip('late', x - y)",
+        "tests/test_all.py": "def test_family(name): ...\ndef test_other(): ...",
+        "tests/test_td.py": "def test_identity(): ...",
+        "tests/test_hand.py": "import rldrill\nBOOK = 'n-step/1/7'\ndef test_book(): BOOK\ndef test_other(): ...",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    (tmp_path / "rldrill").mkdir()
+    for room in ("problems", "solutions"):
+        (tmp_path / "rldrill" / room).symlink_to(f"../{room}")
+    cases = ("n-step", "2-n-step", "n-step: late", "n-step-formula", "one-n-step", "n-step-two")
+    other = ("tests/test_td.py::test_identity", "tests/test_hand.py::test_other", "tests/test_hand.py::test_book")
+    choice = Choice(tmp_path, (*(f"tests/test_all.py::test_family[{case}]" for case in cases), *other))
+
+    def ranks(path: str, number: int) -> dict[str, int]:
+        source = Source.read(tmp_path, path)
+        chosen = choice.tests(source, mutations(source)[number])
+        return {test.partition("::test_")[2].removeprefix("family"): rank for rank, test in chosen}
+
+    own = {"[n-step]": 1, "[2-n-step]": 1, "[n-step: late]": 1, "book": 1}
+    assert ranks("solutions/td/n_step.py", 0) == own | {"identity": 2}
+    callers = {"[n-step]": 3, "[2-n-step]": 3, "book": 3, "identity": 1}
+    assert ranks("solutions/sheet/td.py", 0) == callers | {"[n-step-formula]": 0, "[n-step: late]": 1}
+    assert ranks("solutions/sheet/td.py", 1) == callers | {"[n-step-formula]": 1, "[n-step: late]": 0}
+
+
+def test_tests_are_run_in_the_order_of_their_ranks_while_the_time_lasts() -> None:
+    times = {"a": 3.0, "b": 1.0, "c": 2.0, "d": 9.0}
+    tests = [(0, "a"), (0, "b"), (1, "d"), (1, "c")]
+    assert within(tests, times, 100) == ("b", "a", "c", "d")
+    assert within(tests, times, 6) == ("b", "a", "c")
+    assert within([*tests, (2, "b")], times, 5) == ("b", "a", "b")
