@@ -1,10 +1,10 @@
 """Backwards from the goal: the best tail of every state from the best tails of the states after it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
@@ -22,7 +22,7 @@ def solve(given: Given, work: Work) -> None:
 
 def _along(given: Given, work: Work, ways: Ways) -> None:
     R = _rewards(given)
-    values = _totals(given, ways, R, work)
+    values = _totals(given.goal, given.backwards, ways, R, work)
     values = {given.goal: ZERO} | work.answer({state: values[state] for state in ways})
     best = {state: _best(state, after, R, values, work) for state, after in ways.items()}
     work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
@@ -37,11 +37,14 @@ def _rewards(given: Given) -> Rewards:
     return {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
 
 
-def _totals(given: Given, ways: Ways, R: Rewards, work: Work) -> dict[str, Value]:
-    known: dict[str, Any] = {"successors": ways, "edge_reward": R}
-    values: dict[str, Value] = {given.goal: ZERO}
-    for state in given.backwards:
-        values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, V=values, **known)}
+def _totals(goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work) -> dict[str, Value]:
+    """The best totals to the goal from those states before it that lead there."""
+    values: dict[str, Value] = {goal: ZERO}
+    for state in before:
+        after = tuple(name for name in ways[state] if name in values)
+        known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": values}
+        if after:
+            values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
     return values
 
 
@@ -62,14 +65,8 @@ def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
 def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
     work.say(f"The part before {through} must be best too. With {through} for the goal:")
-    there: dict[str, Value] = {through: ZERO}
-    for state in given.backwards[given.backwards.index(through) + 1 :]:
-        after = tuple(name for name in given.onward[state] if name in there)
-        if after:
-            known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": there}
-            there = there | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
-    if given.start not in there:
-        raise NoSolution(f"no path from {given.start} goes through {through}")
+    before = given.backwards[given.backwards.index(through) + 1 :]
+    there = _totals(through, before, given.onward, R, work)
     total = there[given.start] + values[through]
     work.say(f"Both parts together: ${there[given.start]} + ({values[through]}) = {total}$.")
     return total
