@@ -49,6 +49,12 @@ def policy(given: Policy) -> dict[tuple[str, str], Value]:
     return defaultdict(_zero, named)
 
 
+def model_and_policy(mdp: Model, chances: Policy, gamma: Scalar) -> dict[str, Any]:
+    """A model, a policy and the discount, as the Bellman equations need them."""
+    states = (*mdp.states, *mdp.terminal)
+    return model(mdp) | {"pi": policy(chances), "gamma": exact(gamma), "states": states}
+
+
 def motion(given: Motion) -> dict[tuple[str, str, str], Value]:
     """Where actions lead, as p(s′|s, a) with the next state first; what cannot be reached has 0."""
     return defaultdict(

@@ -10,7 +10,7 @@ from typing import Any
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
 from rldrill.solutions.exact import NoSolution
-from rldrill.solutions.formula.formula import Formula, Misconception, _forked
+from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
 
@@ -123,8 +123,8 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
         NoSolution: the problem has no answer.
     """
     work = Work(misconception, carried or {})
-    own = None if misconception is None or misconception.solve is _forked else misconception.solve
-    (own or solver(problem.family).solve)(problem.given, work)
+    slipping = None if misconception is None else misconception.solve
+    (slipping or solver(problem.family).solve)(problem.given, work)
     return work
 
 

@@ -130,10 +130,6 @@ class Work:
     ends: dict[str, int] = field(default_factory=dict)
     read: dict[Formula, None] = field(default_factory=dict)
 
-    def makes(self, slip: Misconception) -> bool:
-        """Whether this working is to make the given slip: solvers ask it where the procedure forks."""
-        return self.misconception == slip
-
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
         return self.misconception in formula.misread

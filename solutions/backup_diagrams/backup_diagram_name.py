@@ -1,11 +1,9 @@
 """A diagram is named by its root, by whether it branches, by its arcs and by how far it reaches."""
 
-from typing import Any
-
 from rldrill.problems.backup_diagrams.backup_diagram_name import Given
 from rldrill.problems.backups import BACKUPS, TITLES, Backup, backup_diagram
 from rldrill.problems.pictures import Node
-from rldrill.solutions.formula.formula import Misconception, fork
+from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.work import Work
 
@@ -34,23 +32,30 @@ _LOOKS: dict[Backup, str] = {
 }
 
 
-def _offered(wrong: Backup) -> Any:
-    return lambda given: any(wrong != item.shows and wrong in item.options for item in given.diagrams)
-
-
-_CHOSEN: dict[Backup, Misconception] = {
-    backup: fork(f"took-it-for-{backup}", _LOOKS[backup], when=_offered(backup)) for backup in BACKUPS
-}
-MISCONCEPTIONS = tuple(_CHOSEN.values())
-
-
 def solve(given: Given, work: Work) -> None:
     """One letter for every diagram."""
     for item in given.diagrams:
-        mistaken = [option for option in item.options if work.makes(_CHOSEN[option])]
-        letter = item.letters[mistaken[0] if mistaken else item.shows]
+        letter = item.letters[item.shows]
         work.say(f"{_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
         work.answer(letter)
+
+
+def _took_it_for(wrong: Backup) -> Misconception:
+    """The slip of taking every diagram for the same one, where that is offered."""
+
+    @slip(
+        f"took-it-for-{wrong}",
+        _LOOKS[wrong],
+        when=lambda given: any(wrong != item.shows and wrong in item.options for item in given.diagrams),
+    )
+    def took_it(given: Given, work: Work) -> None:
+        seen = [item.model_copy(update={"shows": wrong} if wrong in item.options else {}) for item in given.diagrams]
+        solve(given.model_copy(update={"diagrams": seen}), work)
+
+    return took_it
+
+
+MISCONCEPTIONS = tuple(map(_took_it_for, BACKUPS))
 
 
 def oracle(given: Given) -> Answers:

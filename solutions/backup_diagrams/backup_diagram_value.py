@@ -1,6 +1,7 @@
 """The diagram's equation, applied from the leaves up to the root."""
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
@@ -20,98 +21,114 @@ from rldrill.solutions.sheet.bellman import (
 from rldrill.solutions.work import Work
 
 
+def solve(given: Given, work: Work) -> None:
+    """Averages where there is no arc, the best action where there is one."""
+    known = _known(given)
+    work.answer(_root(given, work, known, _inner(given, work, known)))
+
+
+def _known(given: Given) -> dict[str, Any]:
+    Q = {(state, a): exact(value) for state, row in given.action_values.items() for a, value in row.items()}
+    known = knowns.model(given.dynamics) | {"gamma": exact(given.gamma), "pi": knowns.policy(given.policy or {})}
+    return known | {"Q": Q, "actions": _choices(given)}
+
+
+def _choices(given: Given) -> dict[str, tuple[str, ...]]:
+    return {state: tuple(row) for state, row in given.action_values.items()} or given.dynamics.actions
+
+
+def _inner(given: Given, work: Work, known: dict[str, Any]) -> dict[str, Value]:
+    """The values of all states below the root."""
+    if given.action_values and given.policy is not None:
+        return {state: work.step(V_FROM_Q, s=state, **known) for state in given.action_values}
+    values = knowns.values(given.values)
+    for state in given.inner:
+        values = values | {state: work.step(_backup(given), s=state, V=values, **known)}
+    return values
+
+
+def _backup(given: Given) -> Formula:
+    return BELLMAN_OPTIMALITY_V if given.policy is None else BELLMAN_V
+
+
+def _root(given: Given, work: Work, known: dict[str, Any], values: dict[str, Value]) -> Value:
+    state, action = given.root
+    if not given.action_values:
+        return work.step(_backup(given), s=state, V=values, **known)
+    formula = BELLMAN_OPTIMALITY_Q if given.policy is None else BELLMAN_Q
+    return work.step(formula, s=state, a=action, V=values, **known)
+
+
 def _has_policy(given: Given) -> bool:
     return given.policy is not None
 
 
-def _has_arcs(given: Given) -> bool:
-    return given.policy is None
+@slip(
+    "max-for-mean",
+    "There is no arc, so the actions are averaged with the probabilities beside them; only an arc takes the maximum.",
+    when=_has_policy,
+)
+def maximum(given: Given, work: Work) -> None:
+    """As if there were arcs."""
+    solve(given.model_copy(update={"policy": None}), work)
+
+
+@slip(
+    "mean-for-max",
+    "The arc says that only the best action counts, not the mean of all.",
+    when=lambda given: given.policy is None,
+)
+def mean(given: Given, work: Work) -> None:
+    """As if every action were equally probable."""
+    policy = {state: dict.fromkeys(row, Fraction(1, len(row))) for state, row in _choices(given).items()}
+    solve(given.model_copy(update={"policy": policy}), work)
+
+
+@slip(
+    "forgot-policy",
+    "Each action counts with the probability that stands beside its branch.",
+    when=_has_policy,
+)
+def total(given: Given, work: Work) -> None:
+    """As if every action had the probability 1."""
+    policy = {state: dict.fromkeys(row, Fraction(1)) for state, row in _choices(given).items()}
+    solve(given.model_copy(update={"policy": policy}), work)
 
 
 def _discounts(given: Given) -> bool:
     return given.gamma != 1
 
 
-def _is_deep(given: Given) -> bool:
-    return _discounts(given) and bool(given.inner)
+@slip("forgot-gamma", "The value of a next state is discounted by γ.", when=_discounts)
+def forgot_gamma(given: Given, work: Work) -> None:
+    """As if γ were 1."""
+    solve(given.model_copy(update={"gamma": Fraction(1)}), work)
 
 
-MAX_FOR_MEAN = fork(
-    "max-for-mean",
-    "There is no arc, so the actions are averaged with the probabilities beside them; only an arc takes the maximum.",
-    when=_has_policy,
-)
-MEAN_FOR_MAX = fork(
-    "mean-for-max",
-    "The arc says that only the best action counts, not the mean of all.",
-    when=_has_arcs,
-)
-FORGOT_POLICY = fork(
-    "forgot-policy",
-    "Each action counts with the probability that stands beside its branch.",
-    when=_has_policy,
-)
-FORGOT_GAMMA = fork(
-    "forgot-gamma",
-    "The value of a next state is discounted by γ.",
-    when=_discounts,
-)
-GAMMA_ON_REWARD = fork(
+@slip(
     "gamma-on-reward",
     "The reward beside a branch is earned on the way down it: only the value below it is discounted.",
     when=_discounts,
 )
-ONE_LEVEL_ONLY = fork(
+def gamma_on_reward(given: Given, work: Work) -> None:
+    """As if every reward were γ times as much."""
+    known = _known(given)
+    known["R"] = {key: known["gamma"] * reward for key, reward in known["R"].items()}
+    work.answer(_root(given, work, known, _inner(given, work, known)))
+
+
+@slip(
     "discounted-at-one-level-only",
     "Every level of states discounts once more: what lies two levels down is discounted by γ twice.",
-    when=_is_deep,
+    when=lambda given: _discounts(given) and bool(given.inner),
 )
-MISCONCEPTIONS = (MAX_FOR_MEAN, MEAN_FOR_MAX, FORGOT_POLICY, FORGOT_GAMMA, GAMMA_ON_REWARD, ONE_LEVEL_ONLY)
+def one_level(given: Given, work: Work) -> None:
+    """As if γ were 1 at the root."""
+    known = _known(given)
+    work.answer(_root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
 
 
-def solve(given: Given, work: Work) -> None:
-    """Averages where there is no arc, the best action where there is one."""
-    known = knowns.model(given.dynamics) | {"gamma": exact(given.gamma), "pi": _chances(given, work)}
-    if work.makes(FORGOT_GAMMA):
-        known["gamma"] = ONE
-    if work.makes(GAMMA_ON_REWARD):
-        known["R"] = {key: known["gamma"] * reward for key, reward in known["R"].items()}
-    best = given.policy is None
-    if work.makes(MAX_FOR_MEAN) or work.makes(MEAN_FOR_MAX):
-        best = not best
-    root, _ = given.root
-    if given.action_values:
-        work.answer(_action_value(given, work, known, best=best))
-        return
-    formula = BELLMAN_OPTIMALITY_V if best else BELLMAN_V
-    values = knowns.values(given.values)
-    for state in given.inner:
-        values = values | {state: work.step(formula, s=state, V=values, **known)}
-    if work.makes(ONE_LEVEL_ONLY):
-        known["gamma"] = ONE
-    work.answer(work.step(formula, s=root, V=values, **known))
-
-
-def _action_value(given: Given, work: Work, known: dict[str, Any], *, best: bool) -> Value:
-    root, action = given.root
-    known = known | {
-        "Q": {(state, a): exact(value) for state, row in given.action_values.items() for a, value in row.items()},
-        "actions": {state: tuple(row) for state, row in given.action_values.items()},
-    }
-    if best:
-        return work.step(BELLMAN_OPTIMALITY_Q, s=root, a=action, **known)
-    values = {state: work.step(V_FROM_Q, s=state, **known) for state in given.action_values}
-    return work.step(BELLMAN_Q, s=root, a=action, V=values, **known)
-
-
-def _chances(given: Given, work: Work) -> dict[tuple[str, str], Value]:
-    """The policy; without one, every action alike, which is how an arc is misread."""
-    choices = {state: tuple(row) for state, row in given.action_values.items()} or given.dynamics.actions
-    if work.makes(FORGOT_POLICY):
-        return {(action, state): ONE for state, actions in choices.items() for action in actions}
-    if given.policy is not None:
-        return knowns.policy(given.policy)
-    return {(action, state): ONE / len(actions) for state, actions in choices.items() for action in actions}
+MISCONCEPTIONS = (maximum, mean, total, forgot_gamma, gamma_on_reward, one_level)
 
 
 def oracle(given: Given) -> Answers:

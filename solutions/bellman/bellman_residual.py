@@ -7,8 +7,8 @@ import numpy as np
 from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact, is_zero
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import Value, is_zero
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
@@ -21,10 +21,24 @@ from rldrill.solutions.sheet.bellman import (
 from rldrill.solutions.work import Work
 
 
-def _residuals(given: Given) -> list[Value]:
+def solve(given: Given, work: Work) -> None:
+    """One backup of every state, compared with what the values say."""
+    residuals = _residuals(given, work)
+    wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
+    if wrong:
+        work.say(f"The equation does not hold in {joined(wrong)}, so these are not the values.")
+    else:
+        work.say("The equations hold in every state. With γ below 1 they have one solution only, so it is this one.")
+    work.answer(not wrong)
+
+
+def _residuals(given: Given, work: Work) -> dict[str, Value]:
     formula = BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL
-    known = _known(given)
-    return [formula.value({"s": state, **known}) for state in given.mdp.states]
+    known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    values = knowns.state_values(given.values, given.mdp.terminal)
+    residuals = {state: work.step(formula, s=state, V=values, **known) for state in given.mdp.states}
+    answered: dict[str, Value] = work.answer(residuals)
+    return answered
 
 
 def _policy_mixes(given: Given) -> bool:
@@ -32,46 +46,30 @@ def _policy_mixes(given: Given) -> bool:
 
 
 def _wrong(given: Given) -> bool:
-    return any(_residuals(given))
+    return any(_residuals(given, Work()).values())
 
 
 def _wrong_in_part(given: Given) -> bool:
-    return _wrong(given) and not all(_residuals(given))
+    return _wrong(given) and not all(_residuals(given, Work()).values())
 
 
-ONE_STATE = fork(
+@slip(
     "one-state-enough",
     "The values are right only if the residual is 0 in every state.",
     when=_wrong_in_part,
 )
+def one_state(given: Given, work: Work) -> None:
+    """Right as soon as one equation holds."""
+    work.answer(any(map(is_zero, _residuals(given, work).values())))
+
+
 MISCONCEPTIONS = (
     replace(RESIDUAL_SIGN, when=_wrong),
     replace(MAX_FOR_MEAN, when=_policy_mixes),
     RESIDUAL_MEAN,
     FORGOT_GAMMA,
-    ONE_STATE,
+    one_state,
 )
-
-
-def solve(given: Given, work: Work) -> None:
-    """One backup of every state, compared with what the values say."""
-    formula = BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL
-    known = _known(given)
-    residuals = work.answer({state: work.step(formula, s=state, **known) for state in given.mdp.states})
-    wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
-    if wrong:
-        work.say(f"The equation does not hold in {joined(wrong)}, so these are not the values.")
-    else:
-        work.say("The equations hold in every state. With γ below 1 they have one solution only, so it is this one.")
-    work.answer(len(wrong) < len(residuals) if work.makes(ONE_STATE) else not wrong)
-
-
-def _known(given: Given) -> dict[str, Value]:
-    return knowns.model(given.mdp) | {
-        "gamma": exact(given.gamma),
-        "pi": knowns.policy(given.chances),
-        "V": knowns.state_values(given.values, given.mdp.terminal),
-    }
 
 
 def oracle(given: Given) -> Answers:

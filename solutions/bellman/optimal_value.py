@@ -1,20 +1,22 @@
 """The values of the best policy, held against the optimality equation; then best actions and Q*."""
 
+from collections.abc import Mapping
 from fractions import Fraction
-
-from flint import fmpq
+from typing import Any
 
 from rldrill.problems.bellman.optimal_value import Given
 from rldrill.problems.document import joined
-from rldrill.problems.models import Policy, equiprobable
+from rldrill.problems.models import Model, equiprobable
+from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import Value
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
-from rldrill.solutions.policy_values import TERMINAL_VALUE, evaluate_policy, of_states
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
+    BELLMAN_V,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
@@ -22,70 +24,67 @@ from rldrill.solutions.sheet.bellman import (
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V
 from rldrill.solutions.work import Work
 
-GREEDY_ON_REWARD = fork(
+
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
+    """The equations of the best policy, their solution put into the optimality equation, and what follows."""
+    mdp, policy = given.mdp, optimum(given.mdp, given.gamma).policy
+    told = joined([f"in {state} {action}" for state, action in policy.items()])
+    work.say(f"Suppose that these actions are best (policy iteration finds them): {told}. Their values:")
+    known = knowns.model_and_policy(mdp, deterministic(policy), given.gamma)
+    values = evaluation(work, BELLMAN_V, mdp, known)
+    work.say("Put into the optimality equation, no other action is better, so these are the optimal values:")
+    for state in mdp.states:
+        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
+    values |= work.answer(of_states(mdp, values))
+    work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states})
+    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+
+
+def _settle_for(given: Given, work: Work, policy: Mapping[str, str]) -> None:
+    """Take a policy for the best one."""
+    mdp = given.mdp
+    known = knowns.model_and_policy(mdp, deterministic(policy), given.gamma)
+    values = evaluated(work, BELLMAN_V, mdp, known)
+    values |= work.answer(of_states(mdp, values))
+    work.answer({state: (action,) for state, action in policy.items()})
+    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+
+
+@slip(
     "greedy-on-reward",
     "The action with the greatest immediate reward need not be best: what can be earned after it counts too.",
     when=lambda given: given.gamma != 0,
 )
-FIRST_ACTIONS = fork(
+def most_paid(given: Given, work: Work) -> None:
+    """The policy that is best without what comes after."""
+    _settle_for(given, work, optimum(given.mdp, Fraction(0)).policy)
+
+
+@slip(
     "wrong-fixed-policy",
     "These are the values of the policy that always takes the first action; in some state another one is better.",
 )
-RANDOM_POLICY = fork(
+def first_actions(given: Given, work: Work) -> None:
+    """The policy that always takes the first action."""
+    _settle_for(given, work, {state: actions[0] for state, actions in given.mdp.actions.items()})
+
+
+@slip(
     "mean-for-max",
     "These are the values of choosing at random; the optimal value takes the best action in every state.",
 )
+def at_random(given: Given, work: Work) -> None:
+    """The values of the policy that chooses at random."""
+    solve(given, work, _at_random)
+
+
+def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+    return evaluated(work, formula, mdp, {**known, "pi": knowns.policy(equiprobable(mdp))})
+
+
 MISCONCEPTIONS = (
-    GREEDY_ON_REWARD, FIRST_ACTIONS, RANDOM_POLICY, TERMINAL_VALUE, Q_FORGOT_GAMMA, OWN_VALUE
+    most_paid, first_actions, at_random, terminal_value(solve), Q_FORGOT_GAMMA, OWN_VALUE
 )  # fmt: skip
-
-
-def solve(given: Given, work: Work) -> None:
-    """The equations of the best policy, their solution put into the optimality equation, and what follows."""
-    mdp, gamma = given.mdp, exact(given.gamma)
-    policy = _policy(given, work)
-    work.say(f"Suppose that these actions are best (policy iteration finds them): {_told(policy)}. Their values:")
-    values = evaluate_policy(mdp, policy, gamma, work)
-    known = knowns.model(mdp) | {"gamma": gamma}
-    if work.misconception is None:  # values of another policy do not solve the equation
-        work.say("Put into the optimality equation, no other action is better, so these are the optimal values:")
-        for state in mdp.states:
-            work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
-    values = values | work.answer(of_states(mdp, values))
-    if work.makes(TERMINAL_VALUE):
-        values |= knowns.last_rewards(mdp)
-    best = {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
-    if work.makes(GREEDY_ON_REWARD) or work.makes(FIRST_ACTIONS):
-        best = {state: tuple(chances) for state, chances in policy.items()}
-    work.answer(best)
-    work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
-
-
-def _policy(given: Given, work: Work) -> Policy:
-    """The policy whose values are found: the best one, or the one that a mistake takes for it."""
-    mdp = given.mdp
-    if work.makes(RANDOM_POLICY):
-        return equiprobable(mdp)
-    if work.makes(GREEDY_ON_REWARD):
-        chosen = {state: _most_paid(given, state) for state in mdp.states}
-    elif work.makes(FIRST_ACTIONS):
-        chosen = {state: actions[0] for state, actions in mdp.actions.items()}
-    else:
-        chosen = optimum(mdp, given.gamma).policy
-    return {state: {action: Fraction(1)} for state, action in chosen.items()}
-
-
-def _most_paid(given: Given, state: str) -> str:
-    """The action with the greatest expected reward."""
-
-    def reward(action: str) -> fmpq:
-        return sum((exact(row.probability) * exact(row.reward) for row in given.mdp.outcomes[state, action]), ZERO)
-
-    return max(given.mdp.actions[state], key=reward)
-
-
-def _told(policy: Policy) -> str:
-    return joined([f"in {state} {' or '.join(chances)}" for state, chances in policy.items()])
 
 
 def oracle(given: Given) -> Answers:

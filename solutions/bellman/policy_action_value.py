@@ -2,11 +2,11 @@
 
 from rldrill.problems.bellman.policy_action_value import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, swept
-from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_Q,
+    BELLMAN_V,
     OWN_VALUE,
     Q_FORGOT_GAMMA,
     Q_REWARD_UNWEIGHTED,
@@ -14,16 +14,19 @@ from rldrill.solutions.sheet.bellman import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED, Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """Q follows from V: the action is free, and the policy is followed after it."""
-    mdp, gamma = given.mdp, exact(given.gamma)
-    values = evaluate_policy(mdp, given.chances, gamma, work)
-    values = values | work.answer(of_states(mdp, values))
-    known = knowns.model(mdp) | {"gamma": gamma}
+    mdp = given.mdp
+    known = knowns.model_and_policy(mdp, given.chances, given.gamma)
+    values = evaluation(work, BELLMAN_V, mdp, known)
+    values |= work.answer(of_states(mdp, values))
     work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+
+
+MISCONCEPTIONS = (
+    one_backup(solve), terminal_value(solve), TRANSPOSED, Q_FORGOT_GAMMA, OWN_VALUE, Q_REWARD_UNWEIGHTED
+)  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:

@@ -1,19 +1,20 @@
 """The Bellman equations of all states, solved as a linear system."""
 
 from rldrill.problems.bellman.policy_value import Given
-from rldrill.solutions.exact import exact
+from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, swept
-from rldrill.solutions.policy_values import ONE_BACKUP, TERMINAL_VALUE, evaluate_policy, of_states
-from rldrill.solutions.sheet.bellman import TRANSPOSED
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
+from rldrill.solutions.sheet.bellman import BELLMAN_V, TRANSPOSED
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (ONE_BACKUP, TERMINAL_VALUE, TRANSPOSED)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """One equation for every state; what is reached and terminal is worth nothing."""
-    values = evaluate_policy(given.mdp, given.chances, exact(given.gamma), work)
-    work.answer(of_states(given.mdp, values))
+    known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
+
+
+MISCONCEPTIONS = (one_backup(solve), terminal_value(solve), TRANSPOSED)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,41 +1,30 @@
 """Backwards from the goal: the best tail of every state from the best tails of the states after it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
 from rldrill.solutions.work import Work
 
-GREEDY_PATH = fork(
-    "greedy-path",
-    "The way that earns most at once need not begin the best path: what can be earned after it counts too.",
-)
-THROUGH_IGNORED = fork(
-    "through-ignored",
-    "That is the best path of all; the path that is asked for must go through the state that is named.",
-    when=lambda given: given.through not in (None, given.start),
-)
-HEAD_LEFT_OUT = fork(
-    "head-left-out",
-    "That is the best way on from the state that is named; the best way there earns something too.",
-    when=lambda given: given.through not in (None, given.start),
-)
-MISCONCEPTIONS = (GREEDY_PATH, TAIL_LEFT_OUT, THROUGH_IGNORED, HEAD_LEFT_OUT)
-
 Rewards = Mapping[tuple[str, str], Value]
+Ways = Mapping[str, tuple[str, ...]]
 
 
 def solve(given: Given, work: Work) -> None:
     """The best totals, then where they lead, then two best parts put together."""
-    R = {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
-    values = _totals(given, R, work)
-    values = {given.goal: ZERO} | work.answer({state: values[state] for state in given.onward})
-    best = {state: _best(state, after, R, values, work) for state, after in given.onward.items()}
+    _along(given, work, given.onward)
+
+
+def _along(given: Given, work: Work, ways: Ways) -> None:
+    R = _rewards(given)
+    values = _totals(given.goal, given.backwards, ways, R, work)
+    values = {given.goal: ZERO} | work.answer({state: values[state] for state in ways})
+    best = {state: _best(state, after, R, values, work) for state, after in ways.items()}
     work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
     work.say("Each part of it is a best path from where that part begins: this is the principle of optimality.")
     if given.forks:
@@ -44,27 +33,26 @@ def solve(given: Given, work: Work) -> None:
         work.answer(_through(given, given.through, R, values, work))
 
 
-def _totals(given: Given, R: Rewards, work: Work) -> dict[str, Value]:
-    values: dict[str, Value] = {given.goal: ZERO}
-    for state in given.backwards:
-        after = given.onward[state]
-        if work.makes(GREEDY_PATH):
-            after = (_most_paid(state, after, R),)
+def _rewards(given: Given) -> Rewards:
+    return {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
+
+
+def _totals(goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work) -> dict[str, Value]:
+    """The best totals to the goal from those states before it that lead there."""
+    values: dict[str, Value] = {goal: ZERO}
+    for state in before:
+        after = tuple(name for name in ways[state] if name in values)
         known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": values}
-        values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
+        if after:
+            values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
     return values
 
 
 def _best(state: str, after: tuple[str, ...], R: Rewards, values: Mapping[str, Value], work: Work) -> tuple[str, ...]:
-    if work.makes(GREEDY_PATH):
-        return (_most_paid(state, after, R),)
-    tail = dict.fromkeys(after, ZERO) if work.misreads(PRINCIPLE_OF_OPTIMALITY) else values
-    return arg_max(after, [R[state, name] + tail[name] for name in after])
-
-
-def _most_paid(state: str, after: tuple[str, ...], R: Rewards) -> str:
-    most: str = arg_max(after, [R[state, name] for name in after])[0]
-    return most
+    """The next states that are best: each of them alone, in the formula, is worth most."""
+    known: dict[str, Any] = {"edge_reward": R, "V": values}
+    worth = [work.value(PRINCIPLE_OF_OPTIMALITY, s=state, successors={state: (name,)}, **known) for name in after]
+    return arg_max(after, worth)
 
 
 def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
@@ -76,22 +64,50 @@ def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
 
 def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
-    if work.makes(THROUGH_IGNORED):
-        return values[given.start]
-    if work.makes(HEAD_LEFT_OUT):
-        return values[through]
     work.say(f"The part before {through} must be best too. With {through} for the goal:")
-    there: dict[str, Value] = {through: ZERO}
-    for state in given.backwards[given.backwards.index(through) + 1 :]:
-        after = tuple(name for name in given.onward[state] if name in there)
-        if after:
-            known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": there}
-            there = there | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
-    if given.start not in there:
-        raise NoSolution(f"no path from {given.start} goes through {through}")
+    before = given.backwards[given.backwards.index(through) + 1 :]
+    there = _totals(through, before, given.onward, R, work)
     total = there[given.start] + values[through]
     work.say(f"Both parts together: ${there[given.start]} + ({values[through]}) = {total}$.")
     return total
+
+
+@slip(
+    "greedy-path",
+    "The way that earns most at once need not begin the best path: what can be earned after it counts too.",
+)
+def greedy(given: Given, work: Work) -> None:
+    """From every state only the way that earns most at once."""
+    R = _rewards(given)
+    most = {s: arg_max(after, [R[s, name] for name in after])[:1] for s, after in given.onward.items()}
+    _along(given, work, most)
+
+
+def _through_another(given: Given) -> bool:
+    return given.through not in (None, given.start)
+
+
+@slip(
+    "through-ignored",
+    "That is the best path of all; the path that is asked for must go through the state that is named.",
+    when=_through_another,
+)
+def through_ignored(given: Given, work: Work) -> None:
+    """Every path goes through the start."""
+    solve(given.model_copy(update={"through": given.start}), work)
+
+
+@slip(
+    "head-left-out",
+    "That is the best way on from the state that is named; the best way there earns something too.",
+    when=_through_another,
+)
+def head_left_out(given: Given, work: Work) -> None:
+    """As if the path began in the state that is named."""
+    solve(given.model_copy(update={"start": given.through}), work)
+
+
+MISCONCEPTIONS = (greedy, TAIL_LEFT_OUT, through_ignored, head_left_out)
 
 
 def oracle(given: Given) -> Answers:

@@ -6,8 +6,7 @@ from rldrill.problems.dynamic_programming.contraction import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
-from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
     CHANGE_FOR_ERROR,
@@ -25,16 +24,23 @@ from rldrill.solutions.work import Work
 MOST_SWEEPS = 4096
 #: Up to so many sweeps the bound is written out as a fraction.
 WRITTEN_OUT = 8
-STOPS_SHORT = fork(
-    "one-sweep-too-few",
-    "After that many sweeps the bound is still above the accuracy; round up to the next whole number of sweeps.",
-    when=lambda given: given.accuracy is not None,
-)
-MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERROR, STOPS_SHORT)
 
 
 def solve(given: Given, work: Work) -> None:
     """The norm, then the bounds; the smallest k by exact comparisons."""
+    known = _bounds(given, work)
+    if given.accuracy is None:
+        return
+    accuracy = exact(given.accuracy)
+    enough = _sweeps(work, known, accuracy)
+    if enough > WRITTEN_OUT:
+        work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
+    _explain(work, known, accuracy, enough)
+    work.answer(enough)
+
+
+def _bounds(given: Given, work: Work) -> dict[str, Any]:
+    """The parts before the last; what the bound of any number of sweeps is made of."""
     gamma = exact(given.gamma)
     distance = work.step(
         MAX_NORM,
@@ -48,13 +54,7 @@ def solve(given: Given, work: Work) -> None:
         distance = work.answer(work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
     known = {"distance": {0: distance}, "gamma": gamma}
     work.answer(work.step(CONTRACTION, k=given.sweeps, **known))
-    if given.accuracy is None:
-        return
-    enough = _sweeps(work, known, exact(given.accuracy))
-    if enough > WRITTEN_OUT:
-        work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
-    _explain(work, known, exact(given.accuracy), enough)
-    work.answer(max(enough - 1, 0) if work.makes(STOPS_SHORT) else enough)
+    return known
 
 
 def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) -> None:
@@ -67,7 +67,7 @@ def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) ->
             work.step(CONTRACTION, k=k, **known)
             work.say(f"That is {relation} {limit}.")
         else:  # the fraction has more digits than anybody reads
-            value = value_of(work.reading(CONTRACTION), {**known, "k": k})
+            value = work.value(CONTRACTION, k=k, **known)
             work.say(f"After {k} sweeps the bound is about ${decimal(value, 4)}$, {relation} {limit}.")
 
 
@@ -77,17 +77,31 @@ def _sweeps(work: Work, known: dict[str, Any], accuracy: Value) -> int:
     Raises:
         NoSolution: it is out of reach.
     """
-    bound = work.reading(CONTRACTION)
     low, high = 0, MOST_SWEEPS
-    if sign(accuracy - value_of(bound, {**known, "k": high})) < 0:
+    if sign(accuracy - work.value(CONTRACTION, k=high, **known)) < 0:
         raise NoSolution(f"the accuracy takes more than {MOST_SWEEPS} sweeps")
     while low < high:
         middle = (low + high) // 2
-        if sign(accuracy - value_of(bound, {**known, "k": middle})) >= 0:
+        if sign(accuracy - work.value(CONTRACTION, k=middle, **known)) >= 0:
             high = middle
         else:
             low = middle + 1
     return low
+
+
+@slip(
+    "one-sweep-too-few",
+    "After that many sweeps the bound is still above the accuracy; round up to the next whole number of sweeps.",
+    when=lambda given: given.accuracy is not None,
+)
+def stops_short(given: Given, work: Work) -> None:
+    """Rounded down."""
+    known = _bounds(given, work)
+    if given.accuracy is not None:
+        work.answer(max(_sweeps(work, known, exact(given.accuracy)) - 1, 0))
+
+
+MISCONCEPTIONS = (FORGOT_DISTANCE, ONE_POWER_SHORT, SUM_FOR_MAX, CHANGE_FOR_ERROR, stops_short)
 
 
 def oracle(given: Given) -> Answers:

@@ -5,7 +5,7 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import Answers, at, chances, tensors
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
@@ -15,34 +15,43 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-IN_PLACE = fork(
-    "in-place",
-    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
-    when=lambda given: not given.in_place,
-)
-SYNCHRONOUS = fork(
-    "synchronous",
-    "In place, a value found in this sweep is used at once for the states that follow.",
-    when=lambda given: given.in_place,
-)
-MISCONCEPTIONS = (IN_PLACE, SYNCHRONOUS, EVALUATION_MAX_FOR_MEAN, FORGOT_GAMMA)
-
 
 def solve(given: Given, work: Work) -> None:
     """Sweep after sweep, one step for every state."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
-    ends = dict.fromkeys(mdp.terminal, ZERO)
-    values = (knowns.values(given.start) if given.start else dict.fromkeys(mdp.states, ZERO)) | ends
-    newest = work.makes(IN_PLACE) or (given.in_place and not work.makes(SYNCHRONOUS))
+    values = dict.fromkeys(mdp.states, ZERO) | knowns.state_values(given.start or {}, mdp.terminal)
     for sweep in range(1, given.sweeps + 1):
         work.say(f"Sweep {sweep}:")
         old = values
         for state in mdp.states:
-            current = values if newest else old
+            current = values if given.in_place else old
             value = work.step(POLICY_EVALUATION, s=state, V=current, into=numbered(V, sweep), **known)
             values = values | {state: value}
     work.answer({state: values[state] for state in mdp.states})
+
+
+@slip(
+    "in-place",
+    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
+    when=lambda given: not given.in_place,
+)
+def in_place(given: Given, work: Work) -> None:
+    """Sweeps in place instead."""
+    solve(given.model_copy(update={"in_place": True}), work)
+
+
+@slip(
+    "synchronous",
+    "In place, a value found in this sweep is used at once for the states that follow.",
+    when=lambda given: given.in_place,
+)
+def synchronous(given: Given, work: Work) -> None:
+    """Synchronous sweeps instead."""
+    solve(given.model_copy(update={"in_place": False}), work)
+
+
+MISCONCEPTIONS = (in_place, synchronous, EVALUATION_MAX_FOR_MEAN, FORGOT_GAMMA)
 
 
 def oracle(given: Given) -> Answers:

@@ -4,9 +4,8 @@ from typing import Any
 
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
-from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.bellman import BELLMAN_V
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
@@ -15,21 +14,17 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, ONE_SWEEP)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """The policy's values if they are not given, the greedy actions, and whether they are the policy's own."""
     mdp = given.mdp
-    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    known = knowns.model_and_policy(mdp, given.policy, given.gamma)
     if given.values is None:
-        found = evaluated(work, BELLMAN_V, mdp, known | {"pi": knowns.policy(given.policy)})
-        answered = work.answer({state: found[state] for state in mdp.states})
+        values = evaluation(work, BELLMAN_V, mdp, known)
+        values |= work.answer(of_states(mdp, values))
     else:
-        answered = knowns.values(given.values)
-    values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
-    greedy = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
-    greedy = work.answer(greedy)
+        values = knowns.state_values(given.values, mdp.terminal)
+    greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, **known) for s in mdp.states})
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
     optimal = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
     work.say(
@@ -38,6 +33,9 @@ def solve(given: Given, work: Work) -> None:
         else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
     )
     work.answer(optimal)
+
+
+MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, one_sweep(solve))
 
 
 def oracle(given: Given) -> Answers:

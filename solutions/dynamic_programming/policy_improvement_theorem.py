@@ -8,70 +8,85 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import NoSolution, Value, exact, sign
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
-from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.bellman import BELLMAN_Q
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work
 
 
-def _better_here_worse_there(given: Given) -> bool:
-    try:
-        gaps = _gaps(given, Work()).values()
-    except NoSolution:
-        return False
-    return any(gap > 0 for gap in gaps) and any(gap < 0 for gap in gaps)
-
-
-NEW_VALUES = fork(
-    "values-of-the-new-policy",
-    "Q^π(s, π′(s)) takes π′ for one step only and goes on with π; the theorem does not need the values of π′.",
-    when=lambda given: given.policy != given.other,
-)
-ONE_STATE = fork(
-    "one-state-enough",
-    "The inequality must hold in every state; where it fails in one, the theorem says nothing.",
-    when=_better_here_worse_there,
-)
-MISCONCEPTIONS = (NEW_VALUES, ONE_STATE, ONE_SWEEP)
-
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """What one step of the other policy is worth; the theorem applies if that is never a loss."""
-    gaps = _gaps(given, work)
-    applies = all(gap >= 0 for gap in gaps.values())
-    if work.makes(ONE_STATE):
-        applies = any(gap > 0 for gap in gaps.values())
-    elif applies:
+    applies = -1 not in _gaps(given, work, evaluation)
+    if applies:
         work.say("This holds in every state, so $π'$ is at least as good as $π$.")
     else:
         work.say("This does not hold in every state, so the theorem says nothing about $π'$.")
     work.answer(applies)
 
 
-def _gaps(given: Given, work: Work) -> Mapping[str, int]:
+def _gaps(given: Given, work: Work, evaluation: Evaluation = evaluated) -> tuple[int, ...]:
     """Whether one step of the other policy is worth more (1), as much (0) or less (−1) in every state."""
-    mdp = given.mdp
-    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    if given.values is None:
-        found = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": given.policy})
-        answered: Mapping[str, Value] = work.answer({state: found[state] for state in mdp.states})
-    else:
-        answered = knowns.values(given.values)
-    values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
-    if work.makes(NEW_VALUES):
-        after = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": given.other})
-        worth = {pair: after[pair[0]] for pair in given.pairs}
-    else:
-        worth = {(state, a): work.step(BELLMAN_Q, s=state, a=a, V=values, **known) for state, a in given.pairs}
+    values = _values(given, work, evaluation)
+    known = _known(given) | {"V": values}
+    worth = {(state, a): work.step(BELLMAN_Q, s=state, a=a, **known) for state, a in given.pairs}
+    return _compared(given, work, values, worth)
+
+
+def _known(given: Given) -> dict[str, Any]:
+    return knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
+
+
+def _values(given: Given, work: Work, evaluation: Evaluation) -> dict[str, Value]:
+    if given.values is not None:
+        return knowns.state_values(given.values, given.mdp.terminal)
+    values = evaluation(work, POLICY_ITERATION, given.mdp, _known(given) | {"pi": given.policy})
+    return values | work.answer(of_states(given.mdp, values))
+
+
+def _compared(given: Given, work: Work, values: Mapping[str, Value], worth: Any) -> tuple[int, ...]:
     worth = work.answer(worth)
     gaps = {state: sign(worth[state, a] - values[state]) for state, a in given.pairs}
     for state, gap in gaps.items():
         holds = "<" if gap < 0 else "≥"
         work.step(POLICY_IMPROVEMENT_THEOREM, sign=holds, s=state, V=values, pi1=given.other)
-    return gaps
+    return tuple(gaps.values())
+
+
+@slip(
+    "values-of-the-new-policy",
+    "Q^π(s, π′(s)) takes π′ for one step only and goes on with π; the theorem does not need the values of π′.",
+    when=lambda given: given.policy != given.other,
+)
+def new_values(given: Given, work: Work) -> None:
+    """The other policy for ever, not for one step."""
+    values = _values(given, work, evaluated)
+    others = evaluated(work, POLICY_ITERATION, given.mdp, _known(given) | {"pi": given.other})
+    worth = {(state, action): others[state] for state, action in given.pairs}
+    work.answer(-1 not in _compared(given, work, values, worth))
+
+
+def _better_here_worse_there(given: Given) -> bool:
+    try:
+        gaps = _gaps(given, Work())
+    except NoSolution:
+        return False
+    return 1 in gaps and -1 in gaps
+
+
+@slip(
+    "one-state-enough",
+    "The inequality must hold in every state; where it fails in one, the theorem says nothing.",
+    when=_better_here_worse_there,
+)
+def one_state(given: Given, work: Work) -> None:
+    """Better in one state, so better."""
+    work.answer(1 in _gaps(given, work))
+
+
+MISCONCEPTIONS = (new_values, one_state, one_sweep(solve))
 
 
 def oracle(given: Given) -> Answers:

@@ -6,12 +6,13 @@ from typing import Any
 import numpy as np
 
 from rldrill.problems.dynamic_programming.policy_iteration import Given
+from rldrill.problems.models import Model
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
-from rldrill.solutions.policy_values import ONE_SWEEP, evaluated
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
@@ -20,30 +21,20 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-STOPS = fork(
-    "stops-after-one-round",
-    "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
-    when=lambda given: given.rounds > 1,
-)
-MISCONCEPTIONS = (STOPS, ONE_SWEEP, IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD)
 
-
-def solve(given: Given, work: Work) -> None:
+def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """Round after round: the values of the policy, then the greedy actions for them."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     policy, changed = given.start, True
-    values: Mapping[str, Value] = {}
+    values: dict[str, Value] = {}
     for number in range(given.rounds):
         before = policy
-        if number == 0 or not work.makes(STOPS):
-            work.say(f"Evaluation of $π_{{{number}}}$:")
-            values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy}, values)
-        answered = work.answer({state: values[state] for state in mdp.states})
-        values = {**answered, **dict.fromkeys(mdp.terminal, ZERO)}
-        if number == 0 or not work.makes(STOPS):
-            work.say(f"Improvement to $π_{{{number + 1}}}$:")
-            best = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+        work.say(f"Evaluation of $π_{{{number}}}$:")
+        values = evaluation(work, POLICY_ITERATION, mdp, known | {"pi": policy, "V": values})
+        values |= work.answer(of_states(mdp, values))
+        work.say(f"Improvement to $π_{{{number + 1}}}$:")
+        best = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
         improved = work.answer(_improved(policy, best))
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
@@ -57,6 +48,23 @@ def solve(given: Given, work: Work) -> None:
 def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
     """The greedy actions; an old action that is among them is kept."""
     return {state: (policy[state],) if policy[state] in actions else actions for state, actions in best.items()}
+
+
+@slip(
+    "stops-after-one-round",
+    "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
+    when=lambda given: given.rounds > 1,
+)
+def stops(given: Given, work: Work) -> None:
+    """Whatever comes next has the values of the first policy."""
+    solve(given, work, _evaluated_once)
+
+
+def _evaluated_once(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+    return known["V"] or evaluated(work, formula, mdp, known)
+
+
+MISCONCEPTIONS = (stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD)
 
 
 def oracle(given: Given) -> Answers:

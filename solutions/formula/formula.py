@@ -59,15 +59,6 @@ def slip(
     return lambda solve: Misconception(name, says, when, solve)
 
 
-def _forked(given: Any, work: Any) -> None:
-    raise NotImplementedError
-
-
-def fork(name: str, says: str, when: Callable[[Any], bool] | None = None) -> Misconception:
-    """The mistake of going about it the wrong way; solvers ask ``work.makes`` for it."""
-    return Misconception(name, says, when, _forked)
-
-
 @dataclass(frozen=True, eq=False)
 class Formula:
     """One formula, stated once.

@@ -1,7 +1,6 @@
 """Conditional probabilities from the table, compared history by history."""
 
 from collections import defaultdict
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,7 +8,7 @@ import numpy as np
 from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, where
 from rldrill.solutions.exact import ZERO, Value, exact, sign
-from rldrill.solutions.formula.formula import fork
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
     HISTORY_LEFT_OUT,
@@ -20,7 +19,35 @@ from rldrill.solutions.sheet.fundamentals import (
 from rldrill.solutions.work import Work
 
 #: Probabilities by the state before, the present state and the next one.
-Chances = Mapping[tuple[str, str, str], Value]
+Chances = dict[tuple[str, str, str], Value]
+
+
+def solve(given: Given, work: Work) -> None:
+    """The probability asked for after every history, then the other next states, then the comparison."""
+    chances = _chances(given, work)
+    work.recall(MARKOV_PROPERTY)
+    matters = _matters(given, chances)
+    for now in given.present:
+        _compare(given, work, now, chances, differs=now in matters)
+    _conclude(given, work, matters)
+
+
+def _chances(given: Given, work: Work) -> Chances:
+    asked = _asked(given, work)
+    others = [after for after in given.outcomes if after != given.asked]
+    if len(others) == 1:  # the rest to 1
+        return asked
+    return asked | {(*h, after): _probability(given, work, h, after) for h in given.histories for after in others}
+
+
+def _asked(given: Given, work: Work) -> Chances:
+    asked = work.answer({history: _probability(given, work, history, given.asked) for history in given.histories})
+    return {(*history, given.asked): chance for history, chance in asked.items()}
+
+
+def _probability(given: Given, work: Work, history: tuple[str, str], after: str) -> Value:
+    S = dict(enumerate((*history, after)))
+    return work.step(RELATIVE_FREQUENCY, S=S, N=_counts(given), states=_states(given), t=1)
 
 
 def _matters(given: Given, chances: Chances) -> tuple[str, ...]:
@@ -38,59 +65,7 @@ def _counts(given: Given) -> dict[tuple[str, str, str], Value]:
     return defaultdict(lambda: ZERO, {row[:3]: exact(row.weight) for row in given.table})
 
 
-def _right(given: Given) -> Chances:
-    seen = _counts(given)
-    total = {history: sum(seen[(*history, after)] for after in given.outcomes) for history in given.histories}
-    return {(*h, after): seen[(*h, after)] / total[h] for h in given.histories for after in given.outcomes}
-
-
-def _totals(given: Given) -> Chances:
-    seen = _counts(given)
-    return {(*h, ""): sum((seen[(*h, after)] for after in given.outcomes), ZERO) for h in given.histories}
-
-
-def _of_asked(given: Given, chances: Chances) -> Chances:
-    return {key: chance for key, chance in chances.items() if key[2] == given.asked}
-
-
-def _hidden(given: Given) -> bool:
-    right = _right(given)
-    return _matters(given, right) != _matters(given, _of_asked(given, right))
-
-
-def _uneven(given: Given) -> bool:
-    return _verdict(given, _matters(given, _totals(given))) != _verdict(given, _matters(given, _right(given)))
-
-
-ONE_NEXT_STATE = fork(
-    "one-next-state",
-    "The probabilities of all next states must be independent of the history, not only that of the one asked for.",
-    when=_hidden,
-)
-TOTALS_COMPARED = fork(
-    "totals-compared",
-    "Histories need not be equally frequent: compare what follows them, each by its own total.",
-    when=_uneven,
-)
-MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, ONE_NEXT_STATE, TOTALS_COMPARED)
-
-
-def solve(given: Given, work: Work) -> None:
-    """The probability asked for after every history, then the other next states, then the comparison."""
-    known: dict[str, Any] = {"N": _counts(given), "states": _states(given), "t": 1}
-
-    def probability(history: tuple[str, str], after: str) -> Value:
-        return work.step(RELATIVE_FREQUENCY, S=dict(enumerate((*history, after))), **known)
-
-    asked = work.answer({history: probability(history, given.asked) for history in given.histories})
-    chances = {(*history, given.asked): chance for history, chance in asked.items()}
-    if len(given.outcomes) > 2 and not work.makes(ONE_NEXT_STATE):  # of two, the other is the rest to 1
-        others = [after for after in given.outcomes if after != given.asked]
-        chances |= {(*h, after): probability(h, after) for h in given.histories for after in others}
-    work.recall(MARKOV_PROPERTY)
-    matters = _matters(given, _totals(given) if work.makes(TOTALS_COMPARED) else chances)
-    for now in given.present:
-        _compare(given, work, now, chances, differs=now in matters)
+def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:
     verdict = _verdict(given, matters)
     work.answer(verdict[0])
     if len(verdict) > 1:
@@ -129,6 +104,44 @@ def _compare(given: Given, work: Work, now: str, chances: Chances, *, differs: b
                     f"before, but with ${value}$ if {before} did: the history matters, so this is not Markov."
                 )
                 return
+
+
+def _hidden(given: Given) -> bool:
+    return _matters(given, _chances(given, Work())) != _matters(given, _asked(given, Work()))
+
+
+def _totals(given: Given) -> Chances:
+    seen = _counts(given)
+    return {(*h, ""): sum((seen[(*h, after)] for after in given.outcomes), ZERO) for h in given.histories}
+
+
+def _uneven(given: Given) -> bool:
+    right, totals = (_matters(given, chances) for chances in (_chances(given, Work()), _totals(given)))
+    return _verdict(given, totals) != _verdict(given, right)
+
+
+@slip(
+    "one-next-state",
+    "The probabilities of all next states must be independent of the history, not only that of the one asked for.",
+    when=_hidden,
+)
+def one_next_state(given: Given, work: Work) -> None:
+    """Only the next state that was asked for is compared."""
+    _conclude(given, work, _matters(given, _asked(given, work)))
+
+
+@slip(
+    "totals-compared",
+    "Histories need not be equally frequent: compare what follows them, each by its own total.",
+    when=_uneven,
+)
+def totals_compared(given: Given, work: Work) -> None:
+    """How often each history occurs is compared."""
+    _asked(given, work)
+    _conclude(given, work, _matters(given, _totals(given)))
+
+
+MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, one_next_state, totals_compared)
 
 
 def oracle(given: Given) -> Answers:

@@ -55,7 +55,8 @@ with evaluate(False):
     LOOKAHEAD_PI = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s1)), s1, Successors(s, a))
     LOOKAHEAD_STAR = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vstar(s1)), s1, Successors(s, a))
     WITHOUT_GAMMA = SumOver(P(s, a, s1) * (R(s, a, s1) + V(s1)), s1, Successors(s, a))
-    GAMMA_ON_REWARD = SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + V(s1))), s1, Successors(s, a))
+    WITHOUT_GAMMA_PI = SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a))
+    GAMMA_ON_REWARD = SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + Vpi(s1))), s1, Successors(s, a))
 
     FORGOT_POLICY = Misconception(
         "forgot-policy", "Each action counts with the probability π(a|s) with which the policy takes it."
@@ -80,7 +81,7 @@ with evaluate(False):
         misread={
             FORGOT_POLICY: SumOver(LOOKAHEAD_PI, a, Actions(s)),
             DISCOUNTED_REWARD: SumOver(pi(a, s) * GAMMA_ON_REWARD, a, Actions(s)),
-            FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
+            FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA_PI, a, Actions(s)),
             MAX_FOR_MEAN: MaxOver(LOOKAHEAD_PI, a, Actions(s)),
             TRANSPOSED: SumOver(
                 pi(a, s) * SumOver(P(s1, a, s) * (R(s1, a, s) + gamma * Vpi(s1)), s1, States), a, Actions(s)
@@ -110,7 +111,7 @@ with evaluate(False):
         hint="The action is fixed: average only over where it leads.",
         misread={
             Q_REWARD_UNWEIGHTED: SumOver(R(s, a, s1) + P(s, a, s1) * gamma * Vpi(s1), s1, Successors(s, a)),
-            Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vpi(s1)), s1, Successors(s, a)),
+            Q_FORGOT_GAMMA: WITHOUT_GAMMA_PI,
             OWN_VALUE: SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * Vpi(s)), s1, Successors(s, a)),
         },
     )

@@ -164,7 +164,6 @@ with evaluate(False):
         },
     )
 
-    # Misreadings of the optimality equation for Q, as somebody makes them who looks for the best action.
     SUM_FOR_MAX = Misconception(
         "sum-for-max",
         "The distance of two value functions is their greatest difference in any one state, not the sum over all.",
