@@ -1,7 +1,5 @@
 """The action with the greatest value; a missing value is a reward and the best value after it."""
 
-from dataclasses import replace
-
 from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
@@ -18,8 +16,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-_OF_THE_GAPS = (OPTIMAL_Q_BY_VALUE, OPTIMAL_Q_BY_REWARD, OPTIMAL_Q_MEAN_FOR_MAX)
-MISCONCEPTIONS = (SMALLEST_Q, *(replace(mistake, when=lambda given: bool(given.gaps)) for mistake in _OF_THE_GAPS))
+MISCONCEPTIONS = (SMALLEST_Q, OPTIMAL_Q_BY_VALUE, OPTIMAL_Q_BY_REWARD, OPTIMAL_Q_MEAN_FOR_MAX)
 
 
 def solve(given: Given, work: Work) -> None:

@@ -213,12 +213,10 @@ with evaluate(False):
     MEAN_OF_Q_STAR = Misconception(
         "mean-for-max",
         "The optimal policy takes the best action, so the optimal value is the greatest, not the mean.",
-        when=lambda given: not given.parameters(),
     )
     POLICY_FOR_MAX = Misconception(
         "policy-for-max",
         "The optimal value does not depend on the given policy: it is the greatest action value.",
-        when=lambda given: not given.parameters(),
     )
     V_STAR_FROM_Q = Formula(
         "optimal-v-from-q",

@@ -205,7 +205,6 @@ with evaluate(False):
     CHANGE_FOR_ERROR = Misconception(
         "change-for-error",
         "Later sweeps change the values too, by γ, γ², … times as much: together that is the change divided by 1 − γ.",
-        when=lambda given: given.optimum is None,
     )
     ERROR_FROM_CHANGE = Formula(
         "contraction-first-sweep",

@@ -149,12 +149,10 @@ with evaluate(False):
     TAIL_FORGOTTEN = Misconception(
         "tail-forgotten",
         "The rewards go on for ever after the first ones; their return belongs to the sum.",
-        when=lambda given: bool(given.first),
     )
     TAIL_UNDISCOUNTED = Misconception(
         "tail-not-discounted",
         "The return from n steps later is discounted by γⁿ before it is added.",
-        when=lambda given: bool(given.first),
     )
     RETURN_UNROLLED = Formula(
         "return-unrolled",
