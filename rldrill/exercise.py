@@ -1,4 +1,4 @@
-"""The library: a problem with its solution, drawn or brought, that can be shown, solved and checked."""
+"""The library: a problem with its solution, drawn or of your own, that can be shown, solved, checked and graded."""
 
 import reprlib
 from collections.abc import Callable, Iterator, Mapping

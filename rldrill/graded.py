@@ -37,7 +37,7 @@ class GradedPart:
 
     @property
     def accepted(self) -> bool:
-        """Whether the part is right, be it only in going on from an earlier answer."""
+        """Whether the part is right, or follows rightly from an earlier answer."""
         return self.verdict is not None and self.verdict.accepted
 
 

@@ -20,7 +20,7 @@ def typed(value: object, what: str) -> str:
         what: what complaints call it.
 
     Raises:
-        UsageError: it is something that nobody could type.
+        UsageError: it is neither a text nor a number, list or table.
     """
     if isinstance(value, str):
         return value

@@ -42,7 +42,7 @@ class MarkedPart:
         typed: what was typed.
         read: how that was read; empty if it was not.
         verdict: a value of ``Outcome``, or ``missing``.
-        accepted: whether the part is right, be it only in going on from an earlier answer.
+        accepted: whether the part is right, or follows rightly from an earlier answer.
         reason: one or two sentences to the person.
         score: what the answer earns, and what a right one would.
         key: the right answer, as it would be typed.
