@@ -81,4 +81,4 @@ def oracle(given: Given) -> Answers:
     Q = np.array([at(value) for value in given.values.values()])
     greedy = (max(Q) == Q) / np.count_nonzero(max(Q) == Q)
     chances = at(given.epsilon) * np.full(len(Q), 1 / len(Q)) + (1 - at(given.epsilon)) * greedy
-    return (chances, chances @ Q)
+    return (chances, chances @ Q) if given.valued else (chances,)

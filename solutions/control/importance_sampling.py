@@ -60,5 +60,6 @@ def oracle(given: Given) -> Answers:
         ratios.append(wanted / acted)
         returns.append(np.polynomial.Polynomial([at(reward) for reward in episode.rewards])(at(given.gamma)))
     ordinary = np.dot(ratios, returns) / len(returns)
-    weighted = np.average(returns, weights=ratios) if sum(ratios) else np.nan
-    return (ratios if len(ratios) > 1 else ratios[0], ordinary, weighted)
+    if len(ratios) == 1:
+        return (ratios[0], ordinary)
+    return (ratios, ordinary, np.average(returns, weights=ratios) if sum(ratios) else np.nan)
