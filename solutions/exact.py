@@ -14,7 +14,8 @@ from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
 from rldrill.solutions.rational import RationalFunction, generator
 from rldrill.solutions.value import NoSolution as NoSolution
-from rldrill.solutions.value import NotReal
+from rldrill.solutions.value import NotGiven as NotGiven
+from rldrill.solutions.value import NotReal as NotReal
 from rldrill.solutions.value import Value as Value
 
 ZERO = fmpq(0)

@@ -9,7 +9,7 @@ from typing import Any
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
-from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
 
@@ -105,14 +105,14 @@ class Solution:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
         try:
             return run(self.problem, misconception, carried).answers
-        except (NoSolution, ZeroDivisionError, LookupError):
-            return None  # LookupError: it asks for something that a problem from outside does not give
+        except (NoSolution, NotGiven):
+            return None
 
     def following(self, carried: Mapping[str, Any]) -> Mapping[str, Any]:
         """The answers of somebody who goes on correctly from own answers to earlier parts."""
         try:
             return run(self.problem, carried=carried).answers
-        except (NoSolution, ArithmeticError, TypeError, ValueError):
+        except NoSolution:
             return {}  # nothing follows from what was typed
 
 
@@ -121,10 +121,24 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
 
     Raises:
         NoSolution: the problem has no answer.
+        NotGiven: the mistake asks for something that the problem does not give.
+        BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
     work = Work(misconception, carried or {})
     slipping = None if misconception is None else misconception.solve
-    (slipping or solver(problem.family).solve)(problem.given, work)
+    try:
+        (slipping or solver(problem.family).solve)(problem.given, work)
+    except NotGiven as error:
+        if misconception is None:
+            raise BrokenFamily(f"{problem.family.name}: its solver asks for more than is given: {error}.") from error
+        raise
+    asked = [part.label for part in problem.parts]
+    if list(work.answers) != asked:
+        whose = "its solver" if slipping is None else f"the slip {misconception}"
+        raise BrokenFamily(
+            f"{problem.family.name}: the question has the parts {', '.join(asked)}, and {whose} answers "
+            f"{', '.join(work.answers) or 'none'}; both need the same parts in the same order."
+        )
     return work
 
 

@@ -28,5 +28,9 @@ class NoSolution(ArithmeticError):
     """The values given have no answer: a singular matrix, a system without a solution."""
 
 
+class NotGiven(LookupError):
+    """A formula asks for something that the problem does not give."""
+
+
 class NotReal(NoSolution):
     """It is no real number, or one too close to zero to tell from it."""

@@ -10,7 +10,7 @@ from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.rule import is_close, is_right
 from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import Value
+from rldrill.solutions.exact import NotReal, Value
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
@@ -144,7 +144,7 @@ def _matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) 
         return False
     try:
         return not _wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
-    except (ValueError, ArithmeticError):
+    except NotReal:
         return False  # an odd earlier answer leads to what is no real number: nobody can have typed it
 
 

@@ -12,7 +12,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, NoSolution, Value, largest, monomial, sign, simplest
+from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, largest, monomial, sign, simplest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.matrices import is_matrix
 
@@ -174,11 +174,10 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
     """The exact value of an expression.
 
     Raises:
-        TypeError: a value is missing.
+        NotGiven: a value is missing.
         NoSolution: it has no value.
     """
     try:
-        values = [known[name] for name in needs(expression)]
-    except KeyError as error:
-        raise TypeError(f"no value is given for {error.args[0]!r}, which the formula needs") from None
-    return compiled(expression)(*values)
+        return compiled(expression)(*(known[name] for name in needs(expression)))
+    except LookupError as error:
+        raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None

@@ -45,6 +45,7 @@ from rldrill.solutions.formula.nodes.sets import SampleMean as SampleMean
 from rldrill.solutions.formula.nodes.sets import Size as Size
 from rldrill.solutions.formula.nodes.sets import SumOver as SumOver
 from rldrill.solutions.formula.putting_in import PutIn, indexed
+from rldrill.solutions.value import NotGiven
 
 
 class Quantity(Node, sympy.Function):
@@ -62,7 +63,7 @@ class Quantity(Node, sympy.Function):
 
     def _put_in(self, put_in: PutIn) -> Expr:
         if self.code in put_in.known:
-            with suppress(KeyError):  # an unknown of a system, among values that are fixed
+            with suppress(NotGiven):  # an unknown of a system, among values that are fixed
                 return leaf(put_in.value(self))
         return indexed(self, put_in.known)
 

@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 from sympy import Add, Expr, Mul, Pow
 
-from rldrill.solutions.exact import Value, ordered
+from rldrill.solutions.exact import NotGiven, Value, ordered
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Negative, VectorLeaf, computed, leaf, put_in_name
@@ -69,7 +69,7 @@ def _index(expression: Expr, known: Known) -> Expr:
     if all(name in known for name in needs(expression)):
         try:
             return put_in_name(value_of(expression, known))
-        except (KeyError, IndexError):
+        except NotGiven:
             return expression
     return expression
 
