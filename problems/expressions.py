@@ -127,7 +127,12 @@ def written(text: str) -> Math:
 def _within(node: Node, least: int) -> Math:
     """A node in brackets, if it binds less than its surroundings; a fraction never does."""
     inside = _written(node)
-    return inside if rank(node) >= least or isinstance(inside, maths.Fraction) else Fence(inside)
+    return inside if rank(node) >= least or _is_fraction(node) else Fence(inside)
+
+
+def _is_fraction(node: Node) -> bool:
+    """Whether it is set with a line between what stands above and below."""
+    return node.sign in ("/", "%") if isinstance(node, Operation) else whole(node) is None and isinstance(node, Numeral)
 
 
 def _written(node: Node) -> Math:
@@ -139,7 +144,9 @@ def _written(node: Node) -> Math:
             return row(_within(left, PRODUCT), *between, _within(right, PRODUCT))
         case Operation("/", (left, right)):
             return maths.Fraction(_written(left), _written(right))
-        case Operation("^", (Operation("sin" | "cos" | "tan" | "exp" as function, (argument,)), exponent)):
+        case Operation("^", (Operation("sqrt") as root, exponent)):
+            return Script(Fence(_written(root)), above=_written(exponent))
+        case Operation("^", (Operation(function, (argument,)), exponent)) if function in FUNCTIONS:
             return row(Script(word(function), above=_written(exponent)), Fence(_written(argument)))
         case Operation("^", (left, right)):
             return Script(_within(left, ATOM), above=_written(right))
@@ -163,8 +170,9 @@ def _written(node: Node) -> Math:
 def _touches(left: Node, right: Node) -> bool:
     """Whether two factors need no sign between them; two numbers do, and what stands beside a fraction."""
     last = left.parts[-1] if isinstance(left, Operation) and left.sign == "*" else left
-    before, after = (node.sign if isinstance(node, Operation) else "" for node in (last, right))
-    return "/" not in (before, after) and before not in FUNCTIONS and not isinstance(right, Numeral)
+    if isinstance(right, Numeral) or _is_fraction(last) or _is_fraction(right):
+        return False
+    return not isinstance(last, Operation) or last.sign not in FUNCTIONS
 
 
 def written_letter(name: str) -> Math:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rldrill.problems.exact import Parameter, read_fraction, read_scalar, shown
+from rldrill.problems.exact import Logarithm, Parameter, read_fraction, read_scalar, read_weight, shown
 
 
 @pytest.mark.parametrize(
@@ -47,3 +47,20 @@ def test_parameters(written: str, name: str, text: str) -> None:
     parameter = read_scalar(written)
     assert isinstance(parameter, Parameter)
     assert (parameter.symbol, shown(parameter)) == (name, text)
+
+
+@pytest.mark.parametrize("written", ["2-p", "1+p", "p-1", "2p", "ab", "1-ab"])
+def test_what_is_no_parameter(written: str) -> None:
+    with pytest.raises(ValueError, match="is not a number"):
+        read_scalar(written)
+
+
+@pytest.mark.parametrize("written", ["ln 999", "ln(999)", "ln999", " LN 999 "])
+def test_logarithms(written: str) -> None:
+    assert read_weight(written) == Logarithm("ln 999")
+
+
+@pytest.mark.parametrize("written", ["ln 1", "ln 1000", "ln(-2)", "ln(1/2)", "ln(2 + 1)", "ln 0"])
+def test_what_is_no_logarithm_of_a_weight(written: str) -> None:
+    with pytest.raises(ValueError, match="must be the logarithm of a whole number above 1 and below 1000"):
+        read_weight(written)

@@ -11,10 +11,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rldrill.problems.exact import read_fraction
-from rldrill.problems.expressions import letters, parsed, worked_out
+from rldrill.problems.expressions import letters, parsed, worked_out, written
 from rldrill.problems.grammar import read
 from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, nodes, rank
 from rldrill.problems.spelling import Unreadable, respelled
+from rldrill.render.unicode import unicode
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.rational import RationalFunction
 
@@ -93,6 +94,7 @@ STRUCTURES = {
     "√2/2": op("/", op("sqrt", n(2)), n(2)),
     "√(2/3)": op("sqrt", op("/", n(2), n(3))),
     "ln3": op("ln", n(3)),
+    "a¹²³": op("^", a, n(123)),
     "max(a, b; c)": op("max", a, b, c),
 }
 
@@ -137,7 +139,8 @@ def test_files_read_what_answers_read(text: str, value: float) -> None:
     [
         ("1/2γ", 4, "two ways; write brackets"), ("γ/2(γ)", 4, "two ways; write brackets"),
         ("1/γγ", 4, "two ways; write brackets"), ("γ^2γ", 4, "two ways; write brackets"),
-        ("1 2", 3, "two numbers with nothing between"), ("γ 2", 3, "'2' follows without a sign"),
+        ("1 2", 3, "two numbers with nothing between"), ("1 3/4.5", 3, "two numbers with nothing between"),
+        ("γ 2", 3, "'2' follows without a sign"),
         ("½ ½", 3, "two numbers with nothing between"), ("5%γ", 3, "'γ' follows without a sign"),
         ("2/1 3/4", 3, "two ways here"), ("1 3/4γ", 1, "two ways here"), ("1¾^2", 1, "two ways here"),
         ("1 4/4", 1, "must be below one"), ("1 3/0", 1, "divides by zero"), ("2 + 1 3/4²", 5, "two ways here"),
@@ -202,6 +205,7 @@ def test_hostile_texts_in_files_take_no_time(reader: Callable[[str], object], te
 
 def test_the_longest_that_is_read() -> None:
     assert as_dynamics("+".join("1" * 90)) == 90
+    assert as_dynamics("-" + "+".join("1" * 90)) == 88
     with pytest.raises(ValueError, match="more than 180"):
         parsed("+".join("1" * 91))
     with pytest.raises(Unreadable, match="300 operations"):
@@ -209,10 +213,26 @@ def test_the_longest_that_is_read() -> None:
     assert as_answer("+".join("1" * 301)) == 301
     assert as_answer("(" * 40 + "1" + ")" * 40) == 1
     assert as_answer("-" * 40 + "1") == 1
+    assert as_answer("9" * 40) == as_dynamics("9" * 40) == read_fraction("9" * 40) == 10**40 - 1
+    assert as_answer("*".join(["1^1"] * 50)) == 1  # powers side by side are not deep
 
 
 def test_letters_stand_in_their_order_once() -> None:
     assert letters("(u - b ω - m g l sin θ)/(m l²)") == ("u", "b", "ω", "m", "g", "l", "θ")
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("a - (b + c)", "a − (b + c)"), ("a - b + c", "a − b + c"), ("-(a + b)", "−(a + b)"), ("-a*b", "−ab"),
+        ("a*(b + c)", "a(b + c)"), ("(a + b)*c", "(a + b) c"), ("a*(b*c)", "abc"), ("2*3*a", "2·3a"),
+        ("(a + b)^2", "(a + b)²"), ("(-a)^2", "(−a)²"), ("sin(θ)^2", "sin²(θ)"), ("sqrt(x)^2", "(√x)²"),
+        ("sin(θ)*a", "sin(θ)·a"), ("a sin θ", "a sin(θ)"), ("m l² ω", "ml²ω"), ("½θ", "1/2·θ"), ("0.5θ", "1/2·θ"),
+        ("5%*a", "5/100·a"), ("a/b*c", "a/b·c"), ("(a + b)/c", "(a + b)/c"), ("-a/b", "(−a)/b"),
+    ],
+)  # fmt: skip
+def test_how_dynamics_are_set(text: str, shown: str) -> None:
+    assert unicode(written(text)) == shown
 
 
 MIXED = [Numeral(F(whole * 4 + 3, 4), str(F(whole * 4 + 3, 4))) for whole in range(1, 4)]

@@ -275,6 +275,15 @@ def test_angles_survive_being_written() -> None:
     assert problem.family.read(json.loads(json.dumps(problem.data()["given"]))) == problem.given
 
 
+def test_dynamics_may_be_written_as_in_a_book() -> None:
+    # ∂(dω/dt)/∂θ = −(g/l) cos π = 5, ∂(dω/dt)/∂ω = −b/(m l²) = −1/8, and u acts by 1/(m l²) = 1/4.
+    pendulum = {"constants": {"g": 10, "l": 2, "m": 1, "b": "½"}, "state": {"θ": "pi", "ω": 0}, "action": {"u": 0}}
+    for text in ("(u - b*ω - m*g*l*sin(θ))/(m*l^2)", "(u − b ω − m g l sin θ)/(m l²)", "(u-b·ω)/(m l**2) - g/l*sin(θ)"):
+        answers = solved("linearise", dynamics={"θ": "ω", "ω": text}, **pendulum)
+        assert entries(answers["a"]) == [0, 1, 5, fmpq(-1, 8)]
+        assert entries(answers["b"]) == [0, fmpq(1, 4)]
+
+
 def test_an_expression_is_never_executed() -> None:
     with pytest.raises(ValueError, match="column 1: '\\[' is not read inside a number"):
         parsed("[x for x in y]")
