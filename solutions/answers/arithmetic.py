@@ -2,12 +2,12 @@
 
 import operator
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 import sympy
 from flint import arb, fmpq
 
-from rldrill.solutions.answers.source import Unreadable
+from rldrill.problems.spelling import Unreadable
 from rldrill.solutions.closed_forms import exponent as exponent_of
 from rldrill.solutions.closed_forms import folded
 from rldrill.solutions.exact import (
@@ -24,12 +24,6 @@ from rldrill.solutions.exact import (
 )
 from rldrill.solutions.rational import generator
 from rldrill.solutions.value import NotReal
-
-Number: TypeAlias = Value
-
-#: The names of functions, with the least and the most arguments they take.
-FUNCTIONS = {"sqrt": (1, 1), "exp": (1, 1), "ln": (1, 1), "log": (1, 1), "sin": (1, 1), "cos": (1, 1),
-             "tan": (1, 1), "abs": (1, 1), "max": (1, 20), "min": (1, 20)}  # fmt: skip
 
 _EFFORT = 3000  # in hundredths of a millisecond, as measured
 _CONVERSION = 30
@@ -93,7 +87,7 @@ class Arithmetic:
         return self._whole_power(base if below == 1 else self._root(base, below), above)
 
     def call(self, name: str, arguments: Sequence[Value]) -> Value:
-        """A function of some numbers, by its name in ``FUNCTIONS``."""
+        """A function of some numbers, by its name in ``notation.FUNCTIONS``."""
         first = arguments[0]
         if name == "sqrt":
             return self._root(first, 2)

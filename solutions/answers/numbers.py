@@ -10,7 +10,7 @@ from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.grammar import read
 from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, folded, nodes, rank
 from rldrill.problems.spelling import Source, Unreadable, quoted
-from rldrill.solutions.answers.arithmetic import Arithmetic, Number
+from rldrill.solutions.answers.arithmetic import Arithmetic
 from rldrill.solutions.exact import Value
 
 _ECHO = 60
@@ -50,7 +50,7 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
     tree = read(source)
     names = {node.text: _meant(node, parameters) for node in nodes(tree) if isinstance(node, Name)}
 
-    def worth(node: Node, parts: list[Number]) -> Number:
+    def worth(node: Node, parts: list[Value]) -> Value:
         try:
             return _worth(node, parts, names, arithmetic)
         except Unreadable as complaint:  # of the arithmetic, which knows no columns
@@ -79,7 +79,7 @@ def _meant(name: Name, parameters: Sequence[str]) -> str:
     raise Unreadable(message, name.at)
 
 
-def _worth(node: Node, parts: list[Number], names: Mapping[str, str], arithmetic: Arithmetic) -> Number:
+def _worth(node: Node, parts: list[Value], names: Mapping[str, str], arithmetic: Arithmetic) -> Value:
     """What a node is worth, by what its parts are worth."""
     if isinstance(node, Numeral):
         return fmpq(node.value.numerator, node.value.denominator)
