@@ -39,9 +39,6 @@ class Compiler(StrPrinter):
     def _print_Symbol(self, expression: Any) -> str:
         return _checked(str(expression.name))
 
-    def _print_Integer(self, expression: Any) -> str:
-        return str(expression.p)
-
     def _print_Rational(self, expression: Any) -> str:
         return f"Rational({expression.p}, {expression.q})"
 
