@@ -161,6 +161,8 @@ def test_all_that_are_best_in_their_order() -> None:
         (SumOver(i, i, Counting(S(5), n)), 0, "0"),
         (ProductOver(i, i, Counting(S(5), n)), 1, "1"),
         (SumOver(i, i, Counting(S(3), n)) * SumOver(i, i, Counting(S(4), n)), 7 * 4, "(3 + 4)·4"),
+        (MaxOver(i, i, Counting(S(4), n)), 4, "4"),
+        (MaxOver(i, i, Counting(S(3), n)), 4, "max{3; 4}"),
         (Expected(SumOver(i, i, Counting(S(3), n))), 7, "3 + 4"),
     ],
 )
@@ -172,7 +174,20 @@ def test_both_ends_are_counted(formula: Expr, value: int, step: str) -> None:
 
 def test_what_runs_needs_no_value_and_neither_does_a_limit_that_is_only_printed() -> None:
     assert needs(SumOver(i * x, i, Counting(S(1), n, y))) == ("n", "x")
+    assert needs(SumOver(i, i, Counting(x, n, y))) == ("n", "x")
     assert needs(SumOver(SumOver(V(i), i, Places), i, Places)) == ("V", "places")
+
+
+def test_the_limits_are_written_and_the_upper_one_may_be_written_otherwise() -> None:
+    counted = Counting(S(0), n), Counting(S(0), n, alpha), Places
+    signs = [typeset(SumOver(V(i), i, domain)).items[0] for domain in counted]
+    limits = [[unicode(limit) for limit in (sign.below, sign.above) if limit] for sign in signs]
+    assert limits == [["i = 0", "n"], ["i = 0", "α"], ["i"]]
+
+
+def test_a_sum_has_brackets_around_a_sum() -> None:
+    bodies = [typeset(SumOver(body, i, Places)).items[1] for body in (x + V(i), V(i))]
+    assert [isinstance(body, Fence) for body in bodies] == [True, False]
 
 
 def test_a_sum_has_brackets_unless_it_comes_last() -> None:

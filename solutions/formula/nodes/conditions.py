@@ -51,11 +51,8 @@ class Cases(Node):
 
     def _typeset(self, typeset: Typeset) -> Math:
         condition, then, otherwise = self.args
-        lines = (
-            (typeset(then), row(word("if"), Condition._typeset(condition, typeset))),
-            (typeset(otherwise), word("otherwise")),
-        )
-        return Tabular(lines, "{", "")
+        holds = row(word("if"), Condition._typeset(condition, typeset))
+        return Tabular(((typeset(then), holds), (typeset(otherwise), word("otherwise"))), "{", "")
 
     def _compiled(self, compiler: Compiler) -> str:
         condition, then, otherwise = map(compiler, self.args)

@@ -21,7 +21,7 @@ class Leaf(Node):
         return self
 
     def _evaluated(self, _: object) -> Any:
-        return self.args[0]
+        return self.args[0] if self.args else self
 
 
 class PutInName(Leaf, sympy.Symbol):
@@ -31,9 +31,6 @@ class PutInName(Leaf, sympy.Symbol):
 
     def _typeset(self, _: object) -> Math:
         return name(self.name)
-
-    def _evaluated(self, _: object) -> Any:
-        return self
 
 
 class Negative(Leaf):
