@@ -2,7 +2,7 @@
 
 import keyword
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from math import factorial
 from typing import Any
 
@@ -38,9 +38,6 @@ class Compiler(StrPrinter):
 
     def _print_Symbol(self, expression: Any) -> str:
         return _checked(str(expression.name))
-
-    def _print_Integer(self, expression: Any) -> str:
-        return str(expression.p)
 
     def _print_Rational(self, expression: Any) -> str:
         return f"Rational({expression.p}, {expression.q})"
@@ -110,18 +107,8 @@ def _log(value: Value) -> Value:
 
 
 @cache
-def _sine(angle: Value) -> Value:
-    return simplest(sympy.sin(sympy.sympify(angle, strict=True)))
-
-
-@cache
-def _cosine(angle: Value) -> Value:
-    return simplest(sympy.cos(sympy.sympify(angle, strict=True)))
-
-
-@cache
-def _tangent(angle: Value) -> Value:
-    value = simplest(sympy.tan(sympy.sympify(angle, strict=True)))
+def _circular(function: Callable[[Expr], Expr], angle: Value) -> Value:
+    value = simplest(function(sympy.sympify(angle, strict=True)))
     if value is sympy.zoo:
         raise NoSolution("the tangent of a right angle does not exist")
     return value
@@ -142,9 +129,9 @@ _NAMES = {
     "factorial": _factorial,
     "exp": _exp,
     "log": _log,
-    "sin": _sine,
-    "cos": _cosine,
-    "tan": _tangent,
+    "sin": partial(_circular, sympy.sin),
+    "cos": partial(_circular, sympy.cos),
+    "tan": partial(_circular, sympy.tan),
     "pi": sympy.pi,
     "Rational": fmpq,
 }

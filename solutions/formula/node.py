@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from enum import Enum, auto
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from sympy import Expr
 
@@ -11,6 +11,8 @@ from rldrill.problems.mathematics import Math
 if TYPE_CHECKING:
     from rldrill.solutions.formula.compiling import Compiler
     from rldrill.solutions.formula.putting_in import PutIn
+
+Typeset: TypeAlias = Callable[[Expr], Math]
 
 
 class Look(Enum):
@@ -27,14 +29,19 @@ class Look(Enum):
 class Node(Expr):
     """A kind of part that formulas have and sympy has not.
 
-    To add one, write a class; nothing else needs to know of it. It says how it is typeset and evaluated, and
-    gives in ``value`` the function that its compiled form calls with the values of its arguments; the rest may stay.
+    To add one, write a class; nothing else needs to know of it. It says how it is typeset, and by which
+    functions it is computed from the values of its arguments; the rest may stay as it is here.
     """
 
     #: What computes it: compiled formulas can call nothing else, but for a few functions of numbers.
     value: ClassVar[Callable[..., Any]]
     #: What its values are looked up under, if they are given.
     code: ClassVar[str] = ""
+
+    @property
+    def symbolic(self) -> Callable[..., Any]:
+        """What computes it from the values of a step, which are sympy's; without it, it stays what it is."""
+        return self.func
 
     @property
     def look(self) -> Look:
@@ -51,10 +58,10 @@ class Node(Expr):
         """The numbers in it whose digits count, besides those of its arguments."""
         return ()
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:  # noqa: ARG002
+    def _typeset(self, typeset: Typeset) -> Math:  # noqa: ARG002
         raise TypeError(f"{type(self).__name__} has no typesetting")
 
-    def _alone(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _alone(self, typeset: Typeset) -> Math:
         """How it is written between commas or brackets of something else."""
         return typeset(self)
 
@@ -65,8 +72,7 @@ class Node(Expr):
         return self.func(*map(put_in, self.args))
 
     def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        """What a step is worth, as sympy computes it."""
-        return self.func(*map(evaluated, self.args))
+        return self.symbolic(*map(evaluated, self.args))
 
     def _reduced(self, worked_out: Callable[[Expr], Expr]) -> Expr:  # noqa: ARG002
         """The step with inner brackets worked out."""

@@ -23,7 +23,7 @@ from rldrill.problems.mathematics import (
 )
 from rldrill.solutions.formula.compiling import Compiler
 from rldrill.solutions.formula.letters import letter as letter
-from rldrill.solutions.formula.node import Look, Node
+from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.nodes.choices import Clipped as Clipped
 from rldrill.solutions.formula.nodes.choices import Greatest as Greatest
 from rldrill.solutions.formula.nodes.choices import Least as Least
@@ -55,7 +55,7 @@ class Quantity(Node, sympy.Function):
     look = Look.LETTER
     operations = 1  # to look it up
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         return self.layout(*map(typeset, self.args))
 
     def _compiled(self, compiler: Compiler) -> str:

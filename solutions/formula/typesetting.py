@@ -70,11 +70,8 @@ class _Typesetter(Printer):
     def _print_Pow(self, expression: Expr) -> Math:
         return _power(*expression.args)
 
-    def _print_Exp1(self, _: Expr) -> Math:
-        return variable("e")
-
-    def _print_Pi(self, _: Expr) -> Math:
-        return variable("π")
+    def _print_NumberSymbol(self, expression: Expr) -> Math:
+        return variable("e" if expression is sympy.E else "π")
 
     def _print_Abs(self, expression: Expr) -> Math:
         return Fence(typeset(expression.args[0]), "|", "|")

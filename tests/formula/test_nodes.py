@@ -1,7 +1,6 @@
 """A node says itself all that is to be known of it: one class, named nowhere else, has every reading."""
 
 from collections.abc import Callable
-from typing import Any
 
 import pytest
 import sympy
@@ -14,7 +13,7 @@ from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import arg_max, compiled, needs, value_of
-from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.node import Node, Typeset
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.formula.notation import (
     ArgMaxOver,
@@ -25,7 +24,6 @@ from rldrill.solutions.formula.notation import (
     Expected,
     Greatest,
     Indicator,
-    IntegralOver,
     Least,
     MaxOver,
     MeanOver,
@@ -53,19 +51,14 @@ numbers = st.fractions(-9, 9, max_denominator=12).map(lambda value: fmpq(value.n
 class Middle(Node):
     """The value in the middle of an odd number of values."""
 
-    @staticmethod
-    def value(*values: Any) -> Any:
-        return sorted(values)[len(values) // 2]
+    value = symbolic = staticmethod(lambda *values: sorted(values)[len(values) // 2])
 
     @property
     def operations(self) -> int:
         return len(self.args)
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         return row(word("median"), Fence(listed(map(typeset, self.args))))
-
-    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        return sorted(map(evaluated, self.args))[len(self.args) // 2]
 
     def _reduced(self, worked_out: Callable[[Expr], Expr]) -> Expr:
         return Middle(*map(worked_out, self.args))
@@ -90,8 +83,6 @@ def test_a_node_that_does_not_say_how_it_is_written_is_refused() -> None:
 
     with pytest.raises(TypeError, match="Unwritten has no typesetting"):
         typeset(Unwritten(x))
-    with pytest.raises(TypeError, match="IntegralOver cannot be written out"):
-        put_in(IntegralOver(x, x, Places), {"places": (1, 2)})
 
 
 def test_a_compiled_formula_calls_what_its_nodes_name_and_nothing_else() -> None:
@@ -170,6 +161,8 @@ def test_all_that_are_best_in_their_order() -> None:
         (SumOver(i, i, Counting(S(5), n)), 0, "0"),
         (ProductOver(i, i, Counting(S(5), n)), 1, "1"),
         (SumOver(i, i, Counting(S(3), n)) * SumOver(i, i, Counting(S(4), n)), 7 * 4, "(3 + 4)·4"),
+        (MaxOver(i, i, Counting(S(4), n)), 4, "4"),
+        (MaxOver(i, i, Counting(S(3), n)), 4, "max{3; 4}"),
         (Expected(SumOver(i, i, Counting(S(3), n))), 7, "3 + 4"),
     ],
 )
@@ -181,7 +174,20 @@ def test_both_ends_are_counted(formula: Expr, value: int, step: str) -> None:
 
 def test_what_runs_needs_no_value_and_neither_does_a_limit_that_is_only_printed() -> None:
     assert needs(SumOver(i * x, i, Counting(S(1), n, y))) == ("n", "x")
+    assert needs(SumOver(i, i, Counting(x, n, y))) == ("n", "x")
     assert needs(SumOver(SumOver(V(i), i, Places), i, Places)) == ("V", "places")
+
+
+def test_the_limits_are_written_and_the_upper_one_may_be_written_otherwise() -> None:
+    counted = Counting(S(0), n), Counting(S(0), n, alpha), Places
+    signs = [typeset(SumOver(V(i), i, domain)).items[0] for domain in counted]
+    limits = [[unicode(limit) for limit in (sign.below, sign.above) if limit] for sign in signs]
+    assert limits == [["i = 0", "n"], ["i = 0", "α"], ["i"]]
+
+
+def test_a_sum_has_brackets_around_a_sum() -> None:
+    bodies = [typeset(SumOver(body, i, Places)).items[1] for body in (x + V(i), V(i))]
+    assert [isinstance(body, Fence) for body in bodies] == [True, False]
 
 
 def test_a_sum_has_brackets_unless_it_comes_last() -> None:

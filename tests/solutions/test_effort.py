@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from flint import fmpq, fmpq_mat
-from sympy import Expr, Pow, S, evaluate, exp
+from sympy import Expr, Pow, S, evaluate, exp, sqrt
 
 from rldrill.solutions.effort import minutes, whole
 from rldrill.solutions.formula.formula import Formula
@@ -23,6 +23,7 @@ from rldrill.solutions.formula.notation import (
     quantity,
     s,
 )
+from rldrill.solutions.matrices import matrix
 from rldrill.solutions.rational import generator
 from rldrill.solutions.work import Work
 
@@ -82,8 +83,14 @@ def test_a_letter_that_is_left_open_is_as_much_as_nine_digits() -> None:
 
 
 def test_a_larger_matrix_takes_longer() -> None:
-    small, wide, long = (of(A + A, A=fmpq_mat(*shape)) for shape in ((1, 1, [1]), (1, 2, [1, 1]), (1, 2, [1, 11])))
+    small, wide, long = (of(A, A=fmpq_mat(*shape)) for shape in ((1, 1, [1]), (1, 2, [1, 1]), (1, 2, [1, 11])))
     assert small < wide < long
+
+
+def test_a_root_in_a_matrix_takes_longer_than_a_number() -> None:
+    # √2 for 7: the root is drawn (3 s) from a number with the digits of 2 and of 1/2, and is looked up as two.
+    root, seven = (of(A, A=matrix([[entry]])) for entry in (sqrt(2), fmpq(7)))
+    assert root - seven == 3 + ((1 + 2) + 2 - (1 + 1)) * Fraction(3, 2)
 
 
 def system(work: Work, discount: Any) -> None:

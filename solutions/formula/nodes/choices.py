@@ -1,13 +1,13 @@
 """What takes one of a few values as it is: max, min, clip."""
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import sympy
 from sympy import Expr
 
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
-from rldrill.solutions.exact import Value, largest
+from rldrill.solutions.exact import largest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.typesetting import alone
 
@@ -33,40 +33,21 @@ class Greatest(Choice):
     """The greatest of a few values that a formula names one by one, written max(x, y)."""
 
     name = "max"
-
-    @staticmethod
-    def value(*values: Value) -> Value:
-        """The first, if several are the greatest."""
-        return largest(values)
-
-    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        return sympy.Max(*map(evaluated, self.args))
+    value = staticmethod(lambda *values: largest(values))
+    symbolic = sympy.Max
 
 
 class Least(Choice):
     """The least of a few values that a formula names one by one, written min(x, y)."""
 
     name = "min"
-
-    @staticmethod
-    def value(*values: Value) -> Value:
-        """Minus the greatest of the opposites."""
-        return -largest([-value for value in values])
-
-    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        return sympy.Min(*map(evaluated, self.args))
+    value = staticmethod(lambda *values: -largest([-value for value in values]))
+    symbolic = sympy.Min
 
 
 class Clipped(Choice):
     """A value brought between a lower and an upper bound, written clip(x, low, high)."""
 
     name = "clip"
-
-    @staticmethod
-    def value(value: Value, low: Value, high: Value) -> Value:
-        """At most the upper bound, and then at least the lower."""
-        return Greatest.value(low, Least.value(value, high))
-
-    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        value, low, high = map(evaluated, self.args)
-        return sympy.Max(low, sympy.Min(value, high))
+    value = staticmethod(lambda value, low, high: Greatest.value(low, Least.value(value, high)))
+    symbolic = staticmethod(lambda value, low, high: sympy.Max(low, sympy.Min(value, high)))

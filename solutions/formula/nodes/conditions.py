@@ -1,14 +1,13 @@
 """What depends on whether something holds."""
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import sympy
 from sympy import Expr
 
 from rldrill.problems.mathematics import Fence, Glyph, Math, Tabular, listed, relation, row, word
 from rldrill.solutions.formula.compiling import Compiler
-from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.node import Node, Typeset
 from rldrill.solutions.formula.putting_in import PutIn
 
 
@@ -17,8 +16,7 @@ class Condition(Node):
 
     sign: ClassVar[str]
 
-    def sides(self, typeset: Callable[[Expr], Math]) -> Math:
-        """What holds, as one writes it."""
+    def _typeset(self, typeset: Typeset) -> Math:
         sides = list(map(typeset, self.args))
         pairs = zip(sides[::2], sides[1::2], strict=True)
         return listed(row(left, relation(self.sign), right) for left, right in pairs)
@@ -28,14 +26,10 @@ class Indicator(Condition):
     """1 where two things are the same, else 0; of four things, where the first two are and the last two are."""
 
     sign = "="
+    value = staticmethod(lambda *things: int(things[::2] == things[1::2]))
 
-    @staticmethod
-    def value(*things: Any) -> int:
-        """Whether each is the same as the one beside it."""
-        return int(things[::2] == things[1::2])
-
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
-        return row(Glyph("1", "number"), Fence(self.sides(typeset)))
+    def _typeset(self, typeset: Typeset) -> Math:
+        return row(Glyph("1", "number"), Fence(super()._typeset(typeset)))
 
     def _put_in(self, put_in: PutIn) -> Expr:
         return sympy.Integer(put_in.value(self))
@@ -45,14 +39,7 @@ class Member(Condition):
     """Whether something belongs to a finite set; stands in ``Cases``."""
 
     sign = "∈"
-
-    @staticmethod
-    def value(element: Any, domain: Any) -> bool:
-        """Whether it is in it."""
-        return element in domain
-
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
-        return self.sides(typeset)
+    value = staticmethod(lambda element, domain: element in domain)
 
 
 class Cases(Node):
@@ -62,10 +49,10 @@ class Cases(Node):
         """Build it without evaluating anything."""
         return Expr.__new__(cls, condition, sympy.sympify(then, strict=True), sympy.sympify(otherwise, strict=True))
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         condition, then, otherwise = self.args
-        lines = (typeset(then), row(word("if"), condition.sides(typeset))), (typeset(otherwise), word("otherwise"))
-        return Tabular(lines, "{", "")
+        holds = row(word("if"), Condition._typeset(condition, typeset))
+        return Tabular(((typeset(then), holds), (typeset(otherwise), word("otherwise"))), "{", "")
 
     def _compiled(self, compiler: Compiler) -> str:
         condition, then, otherwise = map(compiler, self.args)

@@ -1,6 +1,6 @@
 """What is put into a formula: names, negative numbers, matrices and vectors."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 import sympy
@@ -8,7 +8,7 @@ from sympy import Expr
 
 from rldrill.problems.mathematics import Fence, Math, name
 from rldrill.solutions.exact import ordered, to_sympy
-from rldrill.solutions.formula.node import Look, Node
+from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.typesetting import tabular, typeset_value, vector
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
@@ -21,7 +21,7 @@ class Leaf(Node):
         return self
 
     def _evaluated(self, _: object) -> Any:
-        return self.args[0]
+        return self.args[0] if self.args else self
 
 
 class PutInName(Leaf, sympy.Symbol):
@@ -32,9 +32,6 @@ class PutInName(Leaf, sympy.Symbol):
     def _typeset(self, _: object) -> Math:
         return name(self.name)
 
-    def _evaluated(self, _: object) -> Any:
-        return self
-
 
 class Negative(Leaf):
     """A negative number that was put in: it keeps its brackets."""
@@ -44,7 +41,7 @@ class Negative(Leaf):
     def _typeset(self, _: object) -> Math:
         return Fence(typeset_value(self.args[0]))
 
-    def _alone(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _alone(self, typeset: Typeset) -> Math:
         return typeset(self.args[0])
 
 
@@ -77,7 +74,7 @@ class MatrixLeaf(Leaf):
         """Its entries, though they are in its arguments: what is written down is first looked up."""
         return self.args[0]
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         entry, written = self.args[0][0], self._alone(typeset)
         return Fence(written) if self.scalar and (entry.is_negative or entry.is_Add) else written
 

@@ -7,11 +7,11 @@ import sympy
 from sympy import Expr
 
 from rldrill.problems.mathematics import Fence, Math, Script, Tabular, word
-from rldrill.solutions.formula.node import Look, Node
+from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, computed
 from rldrill.solutions.formula.putting_in import PutIn, evaluated
 from rldrill.solutions.formula.typesetting import alone, closed, look
-from rldrill.solutions.matrices import AnyMatrix, stacked
+from rldrill.solutions.matrices import stacked
 
 T = TypeVar("T")
 
@@ -20,18 +20,15 @@ class Transposed(Node):
     """The transpose of a matrix."""
 
     is_commutative = False
+    value = staticmethod(lambda matrix: matrix.transpose())
+    symbolic = staticmethod(lambda matrix: matrix.T)
 
     @property
     def look(self) -> Look:
         """A grid with a mark is a grid."""
         return Look.GRID if look(self.args[0]) is Look.GRID else Look.OTHER
 
-    @staticmethod
-    def value(matrix: AnyMatrix) -> AnyMatrix:
-        """Rows as columns."""
-        return matrix.transpose()
-
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         body = self.args[0]
         written = typeset(body) if closed(body) else Fence(typeset(body))
         if isinstance(written, Script) and written.above is None:
@@ -41,9 +38,6 @@ class Transposed(Node):
     def _put_in(self, put_in: PutIn) -> Expr:
         body = put_in(self.args[0])
         return body if getattr(body, "scalar", False) else Transposed(body)
-
-    def _evaluated(self, evaluated: Callable[[Expr], Any]) -> Any:
-        return evaluated(self.args[0]).T
 
 
 class Blocks(Node):

@@ -1,16 +1,16 @@
 """What runs over a finite set: sums, products, means and maxima; the sets, and how large they are."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from math import prod
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Integer
 
 from rldrill.problems.mathematics import Big, Fence, Math, Script, listed, operator, relation, row, variable, word
-from rldrill.solutions.exact import ONE, ZERO, Value, largest
+from rldrill.solutions.exact import ONE, ZERO, largest
 from rldrill.solutions.formula.compiling import Compiler, arg_max
-from rldrill.solutions.formula.node import Look, Node
+from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.nodes.choices import Greatest
 from rldrill.solutions.formula.putting_in import PutIn, power_of, product_of, reduced, sum_of
 from rldrill.solutions.formula.typesetting import alone
@@ -18,6 +18,8 @@ from rldrill.solutions.formula.typesetting import alone
 
 class Counting(Node):
     """The whole numbers from the first to the last; ``shown`` is the upper limit as the sheet prints it."""
+
+    value = staticmethod(lambda first, last: range(first, last + 1))
 
     def __new__(cls, first: Expr, last: Expr, shown: Expr | None = None) -> "Counting":
         """Build it without evaluating anything."""
@@ -29,11 +31,6 @@ class Counting(Node):
         """The upper limit as printed is not computed with."""
         return self.args[0].free_symbols | self.args[1].free_symbols
 
-    @staticmethod
-    def value(first: Value, last: Value) -> range:
-        """The last is among them."""
-        return range(first, last + 1)
-
     def _compiled(self, compiler: Compiler) -> str:
         return compiler.call(self, *map(compiler, self.args[:2]))
 
@@ -43,11 +40,11 @@ class Size(Node):
 
     value = staticmethod(len)
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         return Fence(typeset(self.args[0]), "|", "|")
 
     def _put_in(self, put_in: PutIn) -> Expr:
-        return sympy.Integer(put_in.value(self))
+        return Integer(put_in.value(self))
 
 
 class Over(Node):
@@ -58,6 +55,8 @@ class Over(Node):
 
     look = Look.OPEN
     sign: ClassVar[str]
+    #: What becomes of it when its values are put in one by one.
+    written_out: ClassVar[Any]
 
     def __new__(cls, body: Expr, index: sympy.Symbol, domain: Expr) -> "Over":
         """Build it without evaluating anything."""
@@ -88,7 +87,7 @@ class Over(Node):
         """The letters that a value must be given for."""
         return (self.body.free_symbols - {self.index}) | self.domain.free_symbols
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         below: Math = typeset(self.index)
         above: Math | None = None
         if isinstance(self.domain, Counting):
@@ -96,7 +95,7 @@ class Over(Node):
             below, above = row(below, relation("="), typeset(first)), typeset(shown)
         return row(Big(self.sign, below, above), self._written_body(typeset))
 
-    def _written_body(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _written_body(self, typeset: Typeset) -> Math:
         return Fence(typeset(self.body)) if self.body.is_Add else typeset(self.body)
 
     def _compiled(self, compiler: Compiler) -> str:
@@ -106,39 +105,26 @@ class Over(Node):
         return f"[{compiler(self.body)} for {compiler(self.index)} in {compiler(self.domain)}]"
 
     def _put_in(self, put_in: PutIn) -> Expr:
-        name = self.index.name
-        return self._written_out([put_in.knowing(name, item)(self.body) for item in put_in.value(self.domain)])
+        return self.written_out(self._terms(put_in))
 
-    def _written_out(self, terms: list[Expr]) -> Expr:  # noqa: ARG002
-        raise TypeError(f"{type(self).__name__} cannot be written out")
+    def _terms(self, put_in: PutIn) -> list[Expr]:
+        return [put_in.knowing(self.index.name, item)(self.body) for item in put_in.value(self.domain)]
 
 
 class SumOver(Over):
     """Σ over a finite set."""
 
     sign = "Σ"
-
-    @staticmethod
-    def value(values: Sequence[Value]) -> Value:
-        """Nothing makes 0."""
-        return sum(values[1:], values[0]) if values else ZERO  # matrices cannot be added to 0
-
-    def _written_out(self, terms: list[Expr]) -> Expr:
-        return sum_of(terms)
+    value = staticmethod(lambda values: sum(values[1:], values[0]) if values else ZERO)  # 0 + matrix is an error
+    written_out = staticmethod(sum_of)
 
 
 class ProductOver(Over):
     """Π over a finite set."""
 
     sign = "Π"
-
-    @staticmethod
-    def value(values: Sequence[Value]) -> Value:
-        """Nothing makes 1."""
-        return prod(values, start=ONE)
-
-    def _written_out(self, terms: list[Expr]) -> Expr:
-        return product_of(terms)
+    value = staticmethod(lambda values: prod(values, start=ONE))
+    written_out = staticmethod(product_of)
 
 
 class MaxOf(Greatest):
@@ -160,9 +146,7 @@ class MaxOver(Over):
 
     sign = "max"
     value = staticmethod(largest)
-
-    def _written_out(self, terms: list[Expr]) -> Expr:
-        return MaxOf(*terms) if len(terms) > 1 else terms[0]
+    written_out = staticmethod(lambda terms: MaxOf(*terms) if len(terms) > 1 else terms[0])
 
 
 class ArgMaxOver(Over):
@@ -171,7 +155,7 @@ class ArgMaxOver(Over):
     sign = "arg max"
     value = staticmethod(arg_max)
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         if isinstance(self.body, MaxOf):
             return row(Big(self.sign, typeset(self.index)), self.body.braces())
         return super()._typeset(typeset)
@@ -179,8 +163,8 @@ class ArgMaxOver(Over):
     def _compiled(self, compiler: Compiler) -> str:
         return compiler.call(self, compiler(self.domain), self._values(compiler))
 
-    def _written_out(self, terms: list[Expr]) -> Expr:
-        return ArgMaxOver(MaxOf(*terms), self.index, self.domain)
+    def _put_in(self, put_in: PutIn) -> Expr:
+        return ArgMaxOver(MaxOf(*self._terms(put_in)), self.index, self.domain)
 
     def _reduced(self, _: object) -> Expr:
         return ArgMaxOver(reduced(self.body), self.index, self.domain)
@@ -190,14 +174,8 @@ class MeanOver(Over):
     """The unweighted mean over a finite set; no formula of the sheet has it, but mistakes do."""
 
     sign = "mean"
-
-    @staticmethod
-    def value(values: Sequence[Value]) -> Value:
-        """Their sum by their number."""
-        return sum(values, ZERO) / len(values)
-
-    def _written_out(self, terms: list[Expr]) -> Expr:
-        return product_of([sum_of(terms), power_of(sympy.Integer(len(terms)), sympy.S.NegativeOne)])
+    value = staticmethod(lambda values: sum(values, ZERO) / len(values))
+    written_out = staticmethod(lambda terms: product_of([sum_of(terms), power_of(Integer(len(terms)), Integer(-1))]))
 
 
 class SampleMean(MeanOver):
@@ -205,7 +183,7 @@ class SampleMean(MeanOver):
 
     look = Look.OTHER
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         return row(operator("𝔼"), Fence(typeset(self.body), "[", "]"))
 
 
@@ -215,18 +193,17 @@ class IntegralOver(Over):
     look = Look.OTHER
     sign = "∫"
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
+    def _typeset(self, typeset: Typeset) -> Math:
         return row(Big(self.sign), self._written_body(typeset), variable("d"), typeset(self.index))
 
 
 class Expected(Node):
     """An expectation over runs of an agent; what it is worth is computed with one run in its place."""
 
-    def _typeset(self, typeset: Callable[[Expr], Math]) -> Math:
-        return row(Script(variable("𝔼"), variable("π")), Fence(typeset(self.args[0]), "[", "]"))
+    value = staticmethod(lambda value: value)
 
-    def _compiled(self, compiler: Compiler) -> str:
-        return compiler(self.args[0])
+    def _typeset(self, typeset: Typeset) -> Math:
+        return row(Script(variable("𝔼"), variable("π")), Fence(typeset(self.args[0]), "[", "]"))
 
     def _put_in(self, put_in: PutIn) -> Expr:
         return put_in(self.args[0])
