@@ -52,6 +52,8 @@ def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
         rounded: whether the answer was typed with decimals. An expression in a parameter that was not
             must be equivalent; other numbers are held against the tolerance either way.
     """
+    if value == key:
+        return True
     if not parameters(key) and not parameters(value):
         return within(value, key, tolerance(key))
     if equivalent(value, key):
