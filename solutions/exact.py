@@ -52,10 +52,7 @@ def tidy(value: Any) -> Any:
     return value
 
 
-@tidy.register(sympy.Expr)
-def _(value: sympy.Expr) -> Value:
-    surd = surds.read(value)
-    return value if surd is None else surds.write(surd)
+tidy.register(sympy.Expr, lambda value: value if (surd := surds.read(value)) is None else surds.write(surd))
 
 
 @singledispatch
@@ -122,9 +119,7 @@ def _(value: fmpq) -> int:
     return len(above) + (0 if below == "1" else len(below))
 
 
-@digits.register(RationalFunction)
-def _(value: RationalFunction) -> int:
-    return max(map(digits, value.coefficients)) + len(value.coefficients)
+digits.register(RationalFunction, lambda value: max(map(digits, value.coefficients)) + len(value.coefficients))
 
 
 @singledispatch
@@ -139,9 +134,7 @@ def _(value: Any) -> int:
     return int(value.p).bit_length() + int(value.q).bit_length() - 1
 
 
-@bits.register(RationalFunction)
-def _(value: RationalFunction) -> int:
-    return sum(bits(c) for poly in (value.top, value.bottom) for c in poly.coeffs())
+bits.register(RationalFunction, lambda value: sum(map(bits, (*value.top.coeffs(), *value.bottom.coeffs()))))
 
 
 @bits.register(sympy.exp)
@@ -158,7 +151,7 @@ def _(value: sympy.Pow) -> int:
 
 def degree(value: Value) -> int:
     """The greatest power of the open parameter in a rational function; 0 in any other form."""
-    return value.degree if isinstance(value, RationalFunction) else 0
+    return int(max(value.top.degree(), value.bottom.degree())) if isinstance(value, RationalFunction) else 0
 
 
 def is_rational(value: object) -> TypeGuard[fmpq]:
@@ -182,12 +175,12 @@ def is_zero(value: Value) -> bool:
 
 
 def monomial(expression: sympy.Expr) -> Value:
-    """A rational multiple of a power of one open parameter as a rational function; anything else stays as it is."""
+    """A rational multiple of a power of one open parameter as a rational function; others as they are."""
     factor, power = expression.as_coeff_Mul()
     base, exponent = power.as_base_exp()
     if factor.is_Rational and base.is_Symbol and exponent.is_Integer:
         return simplest(factor) * generator(base.name) ** int(exponent)
-    return expression
+    return simplest(expression)
 
 
 def ordered(expression: sympy.Expr) -> sympy.Expr:
@@ -256,15 +249,15 @@ def sign(value: Value) -> int:
 sign.register(fmpq, lambda value: (value > 0) - (value < 0))
 
 
-def clear_sign(value: Value, at: fmpq | None, precision: int) -> int:
-    """−1 or 1 if a real value is that far from zero that so many bits show it, else 0.
+def clear_sign(value: Value, at: fmpq | None, precision: int) -> int | None:
+    """−1 or 1 if so many bits show that a value is not zero, else 0; None where they show no real value.
 
     Raises:
         NotReal: the value is not a real number.
     """
     with ctx.workprec(precision):
         ball = enclosure(value, at)
-        return int(ball > 0) - int(ball < 0) if ball.is_finite() else 0
+        return int(ball > 0) - int(ball < 0) if ball.is_finite() else None
 
 
 def largest(values: Iterable[Value]) -> Value:

@@ -50,10 +50,10 @@ def lowest_terms(expression: sympy.Expr) -> sympy.Expr | None:
     def leaf(part: sympy.Expr) -> Value:
         if part.is_Rational:
             return fraction(part)
-        raised = _exponent(part) * finest
-        if not raised.is_Integer or abs(raised) > _DEGREE:
+        raised = exponent(part)
+        if raised is None or not (raised * finest).is_Integer or abs(raised * finest) > _DEGREE:
             raise _UndecidedError
-        return generator("e") ** int(raised)
+        return generator("e") ** int(raised * finest)
 
     try:
         value = lifted(folded(expression, leaf, power=_power))
@@ -111,8 +111,11 @@ def _quotient(expression: sympy.Expr) -> _Quotient:
             return _Quotient(context.constant(fraction(part)), one)
         if part.is_Symbol:
             return _Quotient(letters[part.name], one)
+        raised = exponent(part)
+        if raised is None:
+            raise _UndecidedError
         above, below = one, one
-        for variable, power in zip(context.gens()[len(names) :], powers[_exponent(part)], strict=True):
+        for variable, power in zip(context.gens()[len(names) :], powers[raised], strict=True):
             above, below = (above * variable**power, below) if power > 0 else (above, below * variable**-power)
         return _Quotient(above, below)
 
@@ -129,13 +132,6 @@ def _exponents(expression: sympy.Expr) -> Sequence[sympy.Expr]:
     """What e is raised to, each once."""
     found = (exponent(part) for part in sympy.preorder_traversal(expression))
     return tuple(dict.fromkeys(raised for raised in found if raised is not None))
-
-
-def _exponent(part: sympy.Expr) -> sympy.Expr:
-    raised = exponent(part)
-    if raised is None:
-        raise _UndecidedError
-    return raised
 
 
 def _rational(expression: sympy.Expr) -> RationalFunction:

@@ -2,6 +2,7 @@
 
 import operator
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any, Protocol, TypeGuard
 
@@ -28,22 +29,11 @@ class AnyMatrix(Protocol):
     def __mul__(self, other: "AnyMatrix | Value | int", /) -> "AnyMatrix": ...
 
 
+@dataclass(frozen=True, slots=True)
 class ExactMatrix:
     """A matrix of any exact values, with the operations of ``fmpq_mat``; made by ``matrix``."""
 
-    __slots__ = ("_rows",)
-
-    def __init__(self, rows: Iterable[Iterable[Value]]) -> None:
-        self._rows = tuple(map(tuple, rows))
-
-    def __repr__(self) -> str:
-        return f"<matrix {self.tolist()}>"
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ExactMatrix) and self._rows == other._rows
-
-    def __hash__(self) -> int:
-        return hash(self._rows)
+    _rows: tuple[tuple[Value, ...], ...]
 
     def __getitem__(self, place: tuple[int, int]) -> Value:
         return self._rows[place[0]][place[1]]
@@ -126,7 +116,7 @@ def matrix(rows: Iterable[Iterable[Value | int]]) -> AnyMatrix:
     lines = [[tidy(simplest(entry)) for entry in line] for line in rows]
     if all(is_rational(entry) for line in lines for entry in line):
         return fmpq_mat(len(lines), len(lines[0]), [entry for line in lines for entry in line])
-    return ExactMatrix(lines)
+    return ExactMatrix(tuple(map(tuple, lines)))
 
 
 def given(rows: Rows) -> AnyMatrix:

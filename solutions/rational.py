@@ -82,11 +82,6 @@ class RationalFunction:
         return self.top(point) / below
 
     @property
-    def degree(self) -> int:
-        """The greater degree of the two polynomials."""
-        return int(max(self.top.degree(), self.bottom.degree()))
-
-    @property
     def coefficients(self) -> tuple[fmpq, ...]:
         """All coefficients that are not zero, as they are written: whole numbers if there is a quotient."""
         top, bottom = self._written()

@@ -18,6 +18,7 @@ from rldrill.solutions.exact import (
     enclosure,
     is_closed,
     is_rational,
+    monomial,
     parameters,
     simplest,
     to_sympy,
@@ -216,11 +217,7 @@ class Arithmetic:
         """An expression in which the irrational parts have gone, as a rational function or a rational number."""
         if not is_closed(number) or len(parameters(number)) > 1 or not _is_ratio(number):
             return number
-        return folded(number, _rational, self.add, self.multiply, self._whole_power)
-
-
-def _rational(leaf: sympy.Expr) -> Value:
-    return generator(leaf.name) if leaf.is_Symbol else simplest(leaf)
+        return folded(number, monomial, self.add, self.multiply, self._whole_power)
 
 
 def _levels(expression: sympy.Expr) -> int:
@@ -231,11 +228,10 @@ def _levels(expression: sympy.Expr) -> int:
 
 
 def _is_ratio(expression: sympy.Expr) -> bool:
-    if expression.is_Pow:
-        return expression.args[1].is_Integer and _is_ratio(expression.args[0])
-    if expression.is_Add or expression.is_Mul:
-        return all(map(_is_ratio, expression.args))
-    return bool(expression.is_Rational or expression.is_Symbol)
+    return all(
+        part.is_Add or part.is_Mul or part.is_Symbol or part.is_Rational or (part.is_Pow and part.args[1].is_Integer)
+        for part in sympy.preorder_traversal(expression)
+    )
 
 
 def _is_plain(argument: sympy.Expr) -> bool:

@@ -52,6 +52,8 @@ def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
         rounded: whether the answer was typed with decimals. An expression in a parameter that was not
             must be equivalent; other numbers are held against the tolerance either way.
     """
+    if value == key:
+        return True
     if not parameters(key) and not parameters(value):
         return within(value, key, tolerance(key))
     if equivalent(value, key):
@@ -78,23 +80,21 @@ def apart(key: Value, other: Value) -> bool:
 def equivalent(value: Value, key: Value) -> bool:
     """Whether two expressions are the same function of the parameter: points first, then a proof.
 
-    What the proof cannot decide (logarithms of the parameter) is the same if no point tells them apart in a
-    thousand bits.
+    What the proof cannot decide (logarithms of the parameter) is the same if both are real at every point, and no
+    point tells them apart in a thousand bits.
     """
     difference = simplest(value - key)
     if not is_closed(difference):
         return bool(difference == 0)
     try:
-        if _differs(difference, value, _FEW_BITS):
+        if any(clear_sign(difference, point, _FEW_BITS) for point in points(value)):
             return False
         proved = vanishes(difference)
-        return not _differs(difference, value, _MANY_BITS) if proved is None else proved
+        if proved is None:
+            return all(clear_sign(difference, point, _MANY_BITS) == 0 for point in points(value))
+        return proved
     except NotReal:
         return False
-
-
-def _differs(difference: Value, value: Value, bits: int) -> bool:
-    return any(clear_sign(difference, point, bits) for point in points(value))
 
 
 def points(value: Value) -> Iterator[fmpq]:

@@ -1,11 +1,12 @@
 """The rule for answers, and the verdicts that come of it."""
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rldrill.problems.catalogue import families, family
@@ -14,9 +15,10 @@ from rldrill.problems.parts import Numbers, Policy, Values
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.answers.rule import is_right, tolerance
+from rldrill.solutions.answers.rule import apart, equivalent, is_close, is_right, tolerance, within
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import parameters, to_sympy
 from rldrill.solutions.rational import generator
 from rldrill.solutions.solution import Solution, solve
 
@@ -45,6 +47,10 @@ def problem(name: str, **given_: object) -> Solution:
         (fmpq(7, 2), fmpq(1, 200)), (fmpq(1234), fmpq(5)), (fmpq(456, 100000), fmpq(1, 200000)),
         (fmpq(0), fmpq(1, 2000)), (fmpq(1), fmpq(1, 200)), (fmpq(999, 1000), fmpq(1, 2000)),
         (fmpq(-10), fmpq(1, 20)), (sympy.exp(3), fmpq(1, 20)), (sympy.sqrt(2), fmpq(1, 200)),
+        (fmpq(1234, 10), fmpq(1, 2)), (fmpq(1234, 10**6), fmpq(5, 10**6)), (fmpq(9996, 10), fmpq(1, 2)),
+        (fmpq(1000), fmpq(5)), (fmpq(1, 1000), fmpq(5, 10**6)), (fmpq(1, 10), fmpq(1, 2000)),
+        # 1 in 10^86 below or above 100 decides, and which side zero is on does not.
+        (100 - sympy.exp(-200), fmpq(1, 20)), (100 + sympy.exp(-200), fmpq(1, 2)), (-sympy.exp(3), fmpq(1, 20)),
     ],
 )  # fmt: skip
 def test_the_tolerance_is_half_a_unit_of_the_third_digit(value: object, half_a_unit: fmpq) -> None:
@@ -81,6 +87,85 @@ def test_the_rule_at_its_bounds(text: str, key: object, right: bool) -> None:
 def test_expressions_are_judged_by_equivalence(text: str, right: bool) -> None:
     reading = read_number(text, ["gamma"])
     assert is_right(reading.value, 1 / (1 - generator("gamma")), rounded=reading.decimal) is right
+
+
+@pytest.mark.parametrize(
+    ("value", "key", "close"),
+    [
+        (fmpq(102), fmpq(100), True), (fmpq(98), fmpq(100), True),  # 2 % of 100 is 2, the bounds included
+        (fmpq(1020001, 10000), fmpq(100), False), (fmpq(979999, 10000), fmpq(100), False),
+        (fmpq(-51), fmpq(-50), True), (fmpq(-49), fmpq(-50), True), (fmpq(-511, 10), fmpq(-50), False),
+        (fmpq(50), fmpq(-50), False), (fmpq(0), fmpq(0), False), (fmpq(1, 10**9), fmpq(0), False),
+        (sympy.sqrt(2) * fmpq(102, 100), sympy.sqrt(2), True), (sympy.exp(3), 1 + sympy.exp(3), False),
+        (generator("gamma"), generator("gamma"), False), (fmpq(1), generator("gamma"), False),
+        (generator("gamma"), fmpq(1), False),
+    ],
+)  # fmt: skip
+def test_close_is_within_two_percent(value: object, key: object, close: bool) -> None:
+    assert is_close(value, key) is close
+
+
+@pytest.mark.parametrize(
+    ("value", "key", "bound", "inside"),
+    [
+        (fmpq(1), fmpq(3), fmpq(2), True), (fmpq(3), fmpq(1), fmpq(2), True), (fmpq(1), fmpq(1), fmpq(0), True),
+        (fmpq(1), fmpq(301, 100), fmpq(2), False), (fmpq(301, 100), fmpq(1), fmpq(2), False),
+        (sympy.sqrt(2), fmpq(0), fmpq(141421, 10**5), False), (sympy.sqrt(2), fmpq(0), fmpq(141422, 10**5), True),
+    ],
+)  # fmt: skip
+def test_a_bound_is_within_itself(value: object, key: object, bound: fmpq, inside: bool) -> None:
+    assert within(value, key, bound) is inside
+
+
+def test_answers_are_apart_where_their_tolerances_do_not_meet() -> None:
+    # Both have a tolerance of 0.005: at a distance of 0.01 one number rounds to both.
+    assert not apart(fmpq(1), fmpq(101, 100))
+    assert apart(fmpq(1), fmpq(1010001, 10**6))
+    assert not apart(sympy.exp(1), sympy.exp(1))
+    gamma = generator("gamma")
+    assert apart(gamma, gamma + fmpq(1, 10**9))
+    assert apart(gamma, fmpq(1))
+    assert not apart(sympy.exp(sympy.Symbol("sigma")) ** 2, sympy.exp(2 * sympy.Symbol("sigma")))
+
+
+gamma_functions = st.builds(
+    lambda a, b, c: (a + b * generator("gamma")) / (c + generator("gamma")),
+    st.integers(-9, 9),
+    st.integers(1, 9),
+    st.integers(1, 9),
+).filter(parameters)
+
+
+@given(gamma_functions, gamma_functions)
+@settings(deadline=None, max_examples=40)
+def test_only_decimals_may_be_off_in_an_expression(key: Any, other: Any) -> None:
+    assert equivalent(key, key) is True
+    assert is_right(key, key, rounded=False)
+    assert equivalent(key, other) is (to_sympy(key) - to_sympy(other)).equals(0)
+    slightly = key * fmpq(100001, 100000)  # a thousandth of a percent is within half a unit of the third digit
+    assert not equivalent(slightly, key)
+    assert is_right(slightly, key, rounded=True)
+    assert not is_right(slightly, key, rounded=False)
+    assert not is_right(key * fmpq(102, 100), key, rounded=True)
+
+
+def test_a_number_is_no_function() -> None:
+    assert not is_right(fmpq(1, 2), generator("gamma"), rounded=True)
+    assert not is_right(generator("gamma"), fmpq(1, 2), rounded=True)
+    assert not equivalent(generator("gamma"), generator("lambda"))
+
+
+@pytest.mark.parametrize("text", ["ln(gamma - 1)", "sqrt(gamma - 1)", "ln(gamma - 2) + sqrt(gamma)"])
+def test_what_is_not_real_between_0_and_1_is_no_answer(text: str) -> None:
+    reading = read_number(text, ["gamma"])
+    assert not is_right(reading.value, 1 / (1 - generator("gamma")), rounded=reading.decimal)
+
+
+def test_what_no_proof_decides_is_compared_in_a_thousand_bits() -> None:
+    assert equivalent(read_number("ln(gamma^2)", ["gamma"]).value, read_number("2 ln(gamma)", ["gamma"]).value)
+    assert not equivalent(
+        read_number("ln(gamma^2)", ["gamma"]).value, read_number("2 ln(gamma) + 1/10^30", ["gamma"]).value
+    )
 
 
 @given(st.fractions(-1000, 1000, max_denominator=500).filter(bool))
