@@ -48,7 +48,7 @@ class PutIn:
         """The same, with one value more."""
         return PutIn({**self.known, name: value})
 
-    def value(self, expression: Expr) -> Value:
+    def value(self, expression: Expr) -> Any:
         """What an expression is worth here."""
         return value_of(expression, self.known)
 
