@@ -81,7 +81,7 @@ def test_a_new_node_is_one_class() -> None:
     assert unicode(typeset(step)) == "5·median(5, 3, 2 − (−2))"
     assert unicode(typeset(reduced(step))) == "5·median(5, 3, 4)"
     assert evaluated(step) == evaluated(reduced(step)) == 20
-    # One part (30 s), one step (6 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
+    # A part (30 s), a step (6 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
     work = Work()
     work.step(Formula("own", x, formula, "Title", "Source", "Hint."), **known)
     solution: Any = SimpleNamespace(problem=SimpleNamespace(parts="a"), lines=work.lines)
