@@ -1,6 +1,9 @@
 """A node says itself all that is to be known of it: one class, named nowhere else, has every reading."""
 
 from collections.abc import Callable
+from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 import sympy
@@ -11,8 +14,10 @@ from sympy import Expr, Integer, Pow, S, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
+from rldrill.solutions.effort import minutes
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import arg_max, compiled, needs, value_of
+from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.node import Node, Typeset
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.formula.notation import (
@@ -42,6 +47,7 @@ from rldrill.solutions.formula.notation import (
 )
 from rldrill.solutions.formula.putting_in import evaluated, put_in, reduced
 from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.work import Work
 
 x, y = letter("x"), letter("y")
 Places = letter("places", "F")
@@ -75,6 +81,11 @@ def test_a_new_node_is_one_class() -> None:
     assert unicode(typeset(step)) == "5·median(5, 3, 2 − (−2))"
     assert unicode(typeset(reduced(step))) == "5·median(5, 3, 4)"
     assert evaluated(step) == evaluated(reduced(step)) == 20
+    # A part (30 s), a step (6 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
+    work = Work()
+    work.step(Formula("own", x, formula, "Title", "Source", "Hint."), **known)
+    solution: Any = SimpleNamespace(problem=SimpleNamespace(parts="a"), lines=work.lines)
+    assert minutes(solution) * 60 == 30 + 6 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
 
 
 def test_a_node_that_does_not_say_how_it_is_written_is_refused() -> None:
