@@ -56,7 +56,7 @@ tidy.register(sympy.Expr, lambda value: value if (surd := surds.read(value)) is 
 
 
 @singledispatch
-def to_sympy(value: Any) -> sympy.Expr:
+def to_sympy(value: Value | int) -> sympy.Expr:
     """Any exact value as a sympy expression."""
     return sympy.sympify(value, strict=True)
 
