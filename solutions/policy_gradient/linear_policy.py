@@ -27,14 +27,10 @@ def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -
     work.answer({state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions})
 
 
-def _has_a_choice(given: Given) -> bool:
-    return any(len(row) > 1 for row in given.features.values())
-
-
 @slip(
     "features-of-the-wrong-action",
     "Every action is valued with its own features f(s, a); those of another action were used.",
-    when=_has_a_choice,
+    when=lambda given: any(len(row) > 1 for row in given.features.values()),
 )
 def wrong_action(given: Given, work: Work) -> None:
     """Every action with the features in the line below, the last with those in the first."""
@@ -49,7 +45,7 @@ def wrong_action(given: Given, work: Work) -> None:
 @slip(
     "smallest-for-greatest",
     "The greedy policy takes the action with the greatest value, not with the smallest.",
-    when=_has_a_choice,
+    when=wrong_action.when,
 )
 def smallest(given: Given, work: Work) -> None:
     """The right values, and the greedy policy for their negatives."""
