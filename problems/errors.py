@@ -2,7 +2,7 @@
 
 
 class UserError(Exception):
-    """Something the user can mend; ``exit_code`` is what the command line ends with."""
+    """Something the user can put right; ``exit_code`` is what the command line ends with."""
 
     exit_code = 2
 

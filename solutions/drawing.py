@@ -17,7 +17,7 @@ from rldrill.solutions.solution import Solution, solve
 
 ATTEMPTS = 2000
 #: The most digits, above and below the line together, that an answer may have at each level.
-HUMANE_DIGITS = {1: 4, 2: 7, 3: 9}
+MOST_DIGITS = {1: 4, 2: 7, 3: 9}
 
 
 def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
@@ -67,12 +67,12 @@ def by_id(text: str) -> Solution:
 
 def flaws(solution: Solution) -> Iterator[str]:
     """What keeps a problem from being a good exam question, cheapest check first."""
-    level = solution.problem.level or max(HUMANE_DIGITS)
+    level = solution.problem.level or max(MOST_DIGITS)
     for part in solution.problem.parts:
         answer = solution.answers[part.label]
         cells = answer_kind(part.kind).cells(answer)
         numbers = [content for content in cells.values() if not isinstance(content, tuple)]
-        if any(digits(number) > HUMANE_DIGITS[level] for number in numbers):
+        if any(digits(number) > MOST_DIGITS[level] for number in numbers):
             yield f"({part.label}) has more digits than a person can handle"
         if numbers and solution.problem.parameters and not any(map(parameters, numbers)):
             yield f"({part.label}) does not depend on what is left open"

@@ -1,6 +1,6 @@
 """A solver for every family, and the solution of a problem: answers, working, what mistakes give."""
 
-import importlib
+import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -33,9 +33,13 @@ def solver(family: Family) -> Solver:
     """The solver of a family.
 
     Raises:
-        BrokenFamily: its module lacks something that a solver must have.
+        BrokenFamily: there is none, or it lacks something that a solver must have.
     """
-    module = importlib.import_module(f"rldrill.solutions.{family.topic}.{family.name.replace('-', '_')}")
+    name = f"rldrill.solutions.{family.topic}.{family.name.replace('-', '_')}"
+    if importlib.util.find_spec(name) is None:
+        path = name.removeprefix("rldrill.").replace(".", "/")
+        raise BrokenFamily(f"{family.name}: there is no {path}.py to solve it; write its solver there.")
+    module = importlib.import_module(name)
     return Solver(
         family,
         _demanded(module, "solve"),

@@ -28,13 +28,23 @@ DIGITS = 3
 _AT_ZERO = fmpq(1, 2000)
 _CLOSE = fmpq(1, 50)
 _POINTS = 6
+_LONGEST = 10**4  # digits
 _FEW_BITS, _MANY_BITS = 64, 1024
 
 
 @lru_cache(maxsize=4096)
 def tolerance(value: Value) -> fmpq:
-    """Half a unit of the third significant digit of a real value; 0.0005 for 0."""
-    return _AT_ZERO if is_zero(value) else fmpq(10) ** (magnitude(value) - DIGITS + 1) / 2
+    """Half a unit of the third significant digit of a real value; 0.0005 for 0.
+
+    Raises:
+        NotReal: it has more digits before or behind the point than anybody writes.
+    """
+    if is_zero(value):
+        return _AT_ZERO
+    exponent = magnitude(value) - DIGITS + 1
+    if abs(exponent) > _LONGEST:
+        raise NotReal("the value has too many digits to be told from others")
+    return fmpq(10) ** exponent / 2
 
 
 def within(value: Value, key: Value, bound: fmpq) -> bool:

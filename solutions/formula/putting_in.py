@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 from sympy import Add, Expr, Mul, Pow
 
-from rldrill.solutions.exact import NotGiven, Value, ordered
+from rldrill.solutions.exact import NotGiven, ordered
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Negative, VectorLeaf, computed, leaf, put_in_name
