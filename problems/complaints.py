@@ -16,7 +16,7 @@ _SAYS = {
     "missing": "is missing; add it",
     "missing_argument": "is missing; add it",
     "unexpected_positional_argument": "is one entry too many; take it out",
-    "extra_forbidden": "is not a field of this family; take it out, or mend its name",
+    "extra_forbidden": "is not a field of this family; take it out, or correct its name",
     "model_type": _TABLE,
     "dict_type": _TABLE,
     "tuple_type": _LIST,

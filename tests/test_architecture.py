@@ -190,3 +190,9 @@ def test_levels_ask_for_more_and_more_work(name: str) -> None:
     work = [median(minutes(draw(name, level, seed)) for seed in range(15)) for level in family(name).levels]
     assert all(easier < harder for easier, harder in pairwise(work)), [float(m) for m in work]
     assert expected.minutes().get(name) == [whole(m) for m in work], f"run 'python tests/golden/write.py {name}'"
+
+
+def test_the_changelog_says_how_many_families_there_are() -> None:
+    told = re.search(r"^- (\d+) families of problems", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
+    assert told
+    assert int(told[1]) == len(families())

@@ -58,7 +58,7 @@ def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Tra
 
 
 def oracle(given: Given) -> Answers:
-    """On arrays; the traces at every time anew, from all visits until then."""
+    """On arrays; the traces of every time from all visits until then."""
     run, states = given.trajectory, given.visited
     V = {state: at(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, 0.0)
     decay = at(given.gamma) * at(given.lam)
