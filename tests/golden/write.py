@@ -1,4 +1,4 @@
-"""Pin problems with their answers, and the minutes of the levels: of the families named, or of all.
+"""Pin problems with their answers, their pages, and the minutes of the levels: of the families named, or of all.
 
     python tests/golden/write.py [FAMILY …]
 
@@ -13,6 +13,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
+from printing import page
 from rldrill.audit import agrees
 from rldrill.exam.expected import FILE as MINUTES
 from rldrill.exercise import Exercise, draw
@@ -20,6 +22,7 @@ from rldrill.problems.catalogue import families, family
 from rldrill.solutions.effort import minutes, whole
 from rldrill.solutions.solution import solver
 
+PAGES = Path(__file__).with_name("pages")
 PROBLEMS = Path(__file__).with_name("problems.json")
 PINNED = range(2)
 MEASURED = range(15)
@@ -56,3 +59,5 @@ times = {
 }
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
+for known in chosen:
+    (PAGES / f"{known.name}.txt").write_text(page(known), encoding="utf-8")

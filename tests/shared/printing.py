@@ -1,0 +1,70 @@
+"""Everything that is printed of a family's first problems: what the golden pages hold, and a test holds them to."""
+
+import hashlib
+import io
+import json
+from collections.abc import Iterable
+
+from rich.console import Console
+
+from rldrill.exercise import Exercise, draw
+from rldrill.print.key import answer_lines
+from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.family import Family
+from rldrill.render.markdown import markdown
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.terminal import asked, render
+from rldrill.render.typst import document
+from rldrill.solutions.answers.kinds import answer_kind
+
+#: As many problems of a level are held to what they were; one of them is shown.
+DRAWN = 40
+
+
+def page(family: Family) -> str:
+    """One problem of every level as the terminal shows it, with working and mistakes; the rest as digests."""
+    return "\n".join(_level(family, level) for level in family.levels)
+
+
+def _level(family: Family, level: int) -> str:
+    exercise = draw(family.name, level, 0)
+    drawn = [draw(family.name, level, seed).problem.data() for seed in range(DRAWN)]
+    everything = [*exercise.question(), *(Paragraph(part.ask) for part in exercise.parts), *exercise.working()]
+    return "\n".join(
+        [
+            f"{'=' * 20} {exercise.id}",
+            _shown(exercise),
+            f"drawn {_digest(json.dumps(drawn, sort_keys=True))}",
+            f"narrow {_digest(_terminal(everything, 48))}",
+            f"typst {_digest(document(tuple(everything)))}",
+            f"markdown {_digest(markdown(tuple(everything)))}",
+            "",
+        ]
+    )
+
+
+def _shown(exercise: Exercise) -> str:
+    lines = [_terminal(exercise.question(), 100)]
+    for part in exercise.parts:
+        kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
+        lines.append(f"{asked(part)}\n  {kind.how_to_type()}")
+        lines.append(_terminal(exercise.hint(part.label), 100))
+        lines.append(_terminal(exercise.working(part.label), 100))
+        lines += [f"  {unicode(line)}" for line in answer_lines(part, value)]
+    for mistake, answers in exercise.solution.mistakes:
+        told = "; ".join(
+            f"({part.label}) {answer_kind(part.kind).write(answers[part.label])}" for part in exercise.parts
+        )
+        lines.append(f"{mistake.name}: {mistake.says} {told}")
+    return "\n".join(line.rstrip() for text in lines for line in text.splitlines())
+
+
+def _terminal(blocks: Iterable[Block], width: int) -> str:
+    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False, markup=False, emoji=False)
+    with console.capture() as capture:
+        console.print(render(blocks))
+    return capture.get()
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
