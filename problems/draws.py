@@ -63,7 +63,7 @@ class Draws:
         """``count`` different whole numbers from ``low`` to ``high``."""
         return tuple(Fraction(number) for number in self.shuffled(range(low, high + 1))[:count])
 
-    def split(self, parts: int, denominators: Sequence[int] = (2, 4, 5, 10)) -> tuple[Fraction, ...]:
+    def split(self, parts: int, denominators: Sequence[int]) -> tuple[Fraction, ...]:
         """Positive probabilities that sum to 1, over one of the denominators that is large enough."""
         whole = self.choice([number for number in denominators if number >= parts])
         cuts = sorted(1 + index for index in self.shuffled(range(whole - 1))[: parts - 1])

@@ -184,3 +184,11 @@ def test_spellings_of_a_letter_may_be_mixed() -> None:
     for key, used in (("lambda", "λ"), ("ϕ", "phi"), ("φ", "ϕ")):
         given = TANK | {"dynamics": {key: f"u - 3*{used}"}, "state": {used: 1}}
         assert str(rldrill.read({"family": "linearise", "given": given}).solve()["a"][0, 0]) == "-3"
+
+
+def test_the_kinds_of_a_union_are_its_models() -> None:
+    from rldrill.problems.control.bandit import Bounds, Estimates, Preferences
+    from rldrill.problems.control.sarsa import Given
+
+    assert family("bandit").kinds == (Estimates, Bounds, Preferences)
+    assert family("sarsa").kinds == (Given,)
