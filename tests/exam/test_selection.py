@@ -1,0 +1,43 @@
+"""Which problems a run asks: levels in their shares, every family before one comes again, versions apart."""
+
+from collections import Counter
+from itertools import islice
+
+from rldrill.exam.planning import plan
+from rldrill.exam.selection import sequence
+from rldrill.problems.catalogue import topics
+
+
+def test_half_of_the_problems_are_of_level_2_and_a_quarter_of_each_other_level() -> None:
+    levels = Counter(level for _, level, _ in islice(sequence((), None, 1), 2000))
+    assert 450 < levels[1] < 550
+    assert 940 < levels[2] < 1060
+    assert 450 < levels[3] < 550
+
+
+def test_a_level_that_is_asked_for_is_the_only_one() -> None:
+    assert {level for _, level, _ in islice(sequence((), 3, 1), 100)} == {3}
+
+
+def test_every_family_comes_once_before_one_comes_again() -> None:
+    names = topics()["control"]
+    asked = [family.name for family, _, _ in islice(sequence(("control",), None, 5), 3 * len(names))]
+    for start in range(0, len(asked), len(names)):
+        assert set(asked[start : start + len(names)]) == set(names)
+    assert asked[: len(names)] != asked[len(names) : 2 * len(names)], "each round has an order of its own"
+
+
+def test_versions_share_families_and_levels_but_no_seed() -> None:
+    first, second = ([*islice(sequence(("bellman",), None, 9, version), 20)] for version in (0, 1))
+    assert [slot[:2] for slot in first] == [slot[:2] for slot in second]
+    assert not {seed for *_, seed in first} & {seed for *_, seed in second}
+
+
+def test_the_same_arguments_plan_the_same_exam_and_another_seed_another_one() -> None:
+    def ids(seed: int) -> list[list[str | None]]:
+        return [[item.id for item in version.exercises] for version in plan(("control",), 4, None, seed, 2).versions]
+
+    assert ids(3) == ids(3)
+    assert ids(3) != ids(4)
+    first, second = ids(3)
+    assert not set(first) & set(second)

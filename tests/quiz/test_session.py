@@ -1,0 +1,77 @@
+"""What a quiz keeps of the answers to a problem: R₁ = 4 and R₀ = 1 + 1/2·4 = 3."""
+
+from fractions import Fraction
+
+import rldrill
+from rldrill.quiz.session import PartRecord, Record, Session, State
+
+EXERCISE = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})
+TWO_VALUES = {"family": "value-from-action-values", "given": {
+    "values": {"s": {"l": 1, "r": 3}, "t": {"l": 2, "r": 6}}, "policy": {"s": {"l": 1}, "t": {"r": 1}}}}  # fmt: skip
+
+
+def record() -> tuple[Record, PartRecord, PartRecord]:
+    fresh = Record.of(EXERCISE)
+    first, second = fresh.parts
+    return fresh, first, second
+
+
+def test_a_right_answer_is_a_first_try() -> None:
+    fresh, first, _ = record()
+    fresh.answer(first, "4")
+    assert first.state is State.DONE
+    assert first.first_time
+    assert first.points == 1
+
+
+def test_a_hint_spoils_the_first_try() -> None:
+    fresh, first, _ = record()
+    first.hinted = True
+    fresh.answer(first, "4")
+    assert first.state is State.DONE
+    assert not first.first_time
+
+
+def test_a_wrong_answer_before_spoils_the_first_try() -> None:
+    fresh, first, _ = record()
+    fresh.answer(first, "7")
+    assert first.state is State.OPEN
+    fresh.answer(first, "4")
+    assert first.tries == 2
+    assert not first.first_time
+
+
+def test_what_cannot_be_read_costs_no_try() -> None:
+    fresh, first, _ = record()
+    fresh.answer(first, "?!")
+    assert first.tries == 0
+    assert first.points == 0
+    fresh.answer(first, "4")
+    assert first.first_time
+
+
+def test_the_points_are_those_of_the_answer_that_was_given_last() -> None:
+    fresh = Record.of(rldrill.read(TWO_VALUES))
+    (part, *_) = fresh.parts  # V^π is 1 and 6
+    fresh.answer(part, "s: 1, t: 5")
+    assert part.points == Fraction(part.part.points, 2)
+    fresh.answer(part, "s: 0, t: 0")
+    assert part.points == 0
+    fresh.answer(part, "?!")
+    assert part.points == 0
+    fresh.answer(part, "s: 1, t: 6")
+    assert part.points == part.part.points
+
+
+def test_a_later_part_follows_the_earlier_answer_that_was_given_last() -> None:
+    fresh, first, second = record()
+    fresh.answer(first, "100")
+    fresh.answer(first, "8")
+    assert not fresh.answer(second, "51").accepted  # 1 + 1/2·100
+    assert fresh.answer(second, "5").accepted  # 1 + 1/2·8
+
+
+def test_a_session_counts_the_problems_that_were_begun() -> None:
+    begun, _, second = record()
+    begun.answer(second, "3")
+    assert Session(2, [begun, Record.of(EXERCISE)]).parts == begun.parts
