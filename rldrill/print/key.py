@@ -5,8 +5,6 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from flint import fmpq
-
 from rldrill.exam.exam import Version
 from rldrill.exercise import Exercise
 from rldrill.print.heading import heading, setup, title
@@ -18,7 +16,7 @@ from rldrill.render.mathematics.typst import text
 from rldrill.render.typst import block, document
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import RULE
-from rldrill.solutions.exact import Value, decimal
+from rldrill.solutions.exact import Value, decimal, exact, is_whole
 
 _DIGITS = 4
 
@@ -69,17 +67,13 @@ def rounded(value: Any) -> tuple[str, Math] | None:
 
     None for a whole number, for an action, and while a parameter is open.
     """
-    if isinstance(value, str | tuple | bool) or (isinstance(value, fmpq) and value.q == 1):
+    if isinstance(value, str | tuple | bool) or is_whole(value):
         return None
     written = decimal(value, _DIGITS)
     if written is None:
         return None
     shortened = Decimal(written)
-    return ("=" if _is_exactly(value, shortened) else "≈"), _decimal(shortened)
-
-
-def _is_exactly(value: Value, shortened: Decimal) -> bool:
-    return isinstance(value, fmpq) and Fraction(int(value.p), int(value.q)) == Fraction(shortened)
+    return ("=" if value == exact(Fraction(shortened)) else "≈"), _decimal(shortened)
 
 
 def _decimal(value: Decimal) -> Math:

@@ -3,9 +3,9 @@
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq_mat
 
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, simplest
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, is_rational, simplest
 
 _NO_UNIQUE = "the equations have no unique solution"
 
@@ -57,7 +57,7 @@ def solve_linear(equations: Mapping[Hashable, Any]) -> dict[Any, Value]:
             lines[index][column] = lines[index].get(column, ZERO) - factor
     constants = {index: side.constant for index, side in enumerate(sides)}
     values = [*(value for line in lines.values() for value in line.values()), *constants.values()]
-    if all(isinstance(value, fmpq) for value in values):
+    if all(is_rational(value) for value in values):
         solution = _solve_rational(lines, constants)
     else:
         solution = _eliminate(lines, constants)

@@ -5,7 +5,7 @@ from flint import fmpq
 
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
-from rldrill.solutions.exact import NoSolution, Value, decimal
+from rldrill.solutions.exact import NoSolution, Value, decimal, is_rational
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.riccati import stationary
@@ -33,7 +33,7 @@ def solve(given: Given, work: Work) -> None:
     known = {name: matrices.given(getattr(given, name)) for name in "ABQR"}
     P = work.answer(_value(work, **known))
     by_time = {"At": {0: known["A"]}, "Bt": {0: known["B"]}, "Rt": {0: known["R"]}, "Pt": {1: P}}
-    if all(isinstance(entry, fmpq) and entry.q > _LONG for entry in P.entries()):
+    if all(is_rational(entry) and entry.q > _LONG for entry in P.entries()):
         work.say("The gain follows from this $P$, and is rounded likewise.")
         L = work.answer(_rounded(work.value(LQR_GAIN, t=0, **by_time)))
     else:
