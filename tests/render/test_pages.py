@@ -11,7 +11,7 @@ import pytest
 from printing import page
 from rldrill.problems.catalogue import families, family
 
-PAGES = Path(__file__).with_name("pages")
+PAGES = Path(__file__).parents[1] / "golden" / "pages"
 
 
 @pytest.mark.parametrize("name", families())
