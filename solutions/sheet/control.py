@@ -25,6 +25,7 @@ from rldrill.solutions.formula.notation import (
     T,
     Vpi,
     a,
+    a1,
     alpha,
     b,
     called,
@@ -69,6 +70,8 @@ N = quantity("N", called("N"))
 U = quantity("U", called("U"))
 H = quantity("H", called("H"))
 rbar = quantity("rbar", subscripted(Accent(variable("r"), "bar")))
+model_reward = quantity("model_reward", called(Accent(variable("r"), "hat")))
+model_next = quantity("model_next", called(Accent(variable("s"), "hat")))
 
 
 def _next_action_is_known_here(given: Any) -> bool:
@@ -221,6 +224,34 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             Q_LEARNING_TARGET_FORGOT_GAMMA: _MAX_WITHOUT_GAMMA,
+        },
+    )
+
+    def _planned(target: Expr) -> Expr:
+        return Q(s, a) + alpha * (target - Q(s, a))
+
+    OWN_STATE_MAX = Misconception(
+        "max-over-own-state",
+        "A planned update takes the greatest action value of the next state in the model, not of the state it updates.",
+    )
+    PLANNED_UPDATE = Formula(
+        "planned-update",
+        Q(s, a),
+        _planned(model_reward(s, a) + gamma * MaxOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))),
+        title="Planned update of Dyna-Q",
+        source="Sutton & Barto 2018, section 8.2",
+        hint="Update as Q-learning does, with the reward and the next state that the model holds for this pair.",
+        sign="←",
+        note="The model holds the reward $r̂$ and the next state $ŝ$ that followed last.",
+        place=Place.BEYOND,
+        misread={
+            MEAN_FOR_MAX: _planned(
+                model_reward(s, a) + gamma * MeanOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))
+            ),
+            FORGOT_GAMMA: _planned(
+                model_reward(s, a) + MaxOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))
+            ),
+            OWN_STATE_MAX: _planned(model_reward(s, a) + gamma * MaxOver(Q(s, a1), a1, Actions(s))),
         },
     )
 

@@ -82,6 +82,20 @@ def test_double_q_learning_with_equal_tables_begins_as_q_learning(run: dict[str,
     assert double["a"] == solved("q-learning", **run)["a"]
 
 
+@given(tables, st.lists(numbers, min_size=3, max_size=3), rates)
+@identity
+def test_planning_once_round_a_circle_is_q_learning_twice_round_it(
+    values: dict[str, Any], rewards: list[str], alpha: str
+) -> None:
+    def circle(rounds: int) -> dict[str, Any]:
+        return {"states": [*STATES * rounds, "a"], "actions": ["x"] * 3 * rounds, "rewards": rewards * rounds}
+
+    rest = {"values": values, "alpha": alpha, "gamma": "1/2"}
+    both = solved("dyna-q", trajectory=circle(1), planned=[[state, "x"] for state in STATES], **rest)
+    assert both["a"] == solved("q-learning", trajectory=circle(1), **rest)["a"]
+    assert both["b"] == solved("q-learning", trajectory=circle(2), **rest)["a"]
+
+
 @given(st.dictionaries(st.sampled_from("uvwxyz"), numbers, min_size=2), chances)
 @identity
 def test_epsilon_greedy_sums_to_one_and_favours_the_best(values: dict[str, str], epsilon: str) -> None:
@@ -146,6 +160,7 @@ RUN: dict[str, Any] = {
     "alpha": "1/2",
     "gamma": "1/2",
 }
+DYNA = RUN | {"planned": [["a", "x"]]}
 EPISODE = {"states": ["s", "end"], "actions": ["x"], "rewards": [1], "terminal": ["end"]}
 SAMPLING: dict[str, Any] = {
     "episodes": [EPISODE], "target": {"s": "x"}, "behaviour": {"s": {"x": 0.5, "y": 0.5}}, "gamma": 1
@@ -166,6 +181,12 @@ PULLS: dict[str, Any] = {"pulls": [["x", 1], ["y", 2]]}
         ("expected-sarsa", RUN | {"policy": {"b": "w"}}, "'w', which does not occur"),
         ("double-q-learning", RUN | {"second": RUN["values"], "updates": [1, 2]}, "1 transitions need as many"),
         ("double-q-learning", RUN | {"second": {"a": {"x": 1}}, "updates": [1]}, "the same states and actions"),
+        ("dyna-q", DYNA | {"planned": []}, "given.planned"),
+        ("dyna-q", DYNA | {"planned": [["b", "x"]]}, "(b, x) is not in the model after the run"),
+        ("dyna-q", DYNA | {"model": [["b", "x", 1, "a"]] * 2}, "(b, x) is given twice"),
+        ("dyna-q", DYNA | {"model": [["b", "z", 1, "a"]]}, "model has 'z' in 'b', which has no value"),
+        ("dyna-q", DYNA | {"model": [["b", "x", 1, "c"]]}, "model leads to 'c', whose action values are missing"),
+        ("dyna-q", DYNA | {"changed": [["a", "x", 1, "a"]]}, "(a, x) must be in the model and not be tried"),
         ("epsilon-greedy", {"values": {"x": 1}, "epsilon": 0.1}, "given.values"),
         ("epsilon-greedy", {"values": {"x": 1, "y": 2}, "epsilon": -1}, "not between 0 and 1"),
         ("importance-sampling", SAMPLING | {"behaviour": {"s": "y"}}, "'x' is taken in 's', where it has no prob"),

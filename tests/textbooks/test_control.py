@@ -62,6 +62,21 @@ def test_double_q_learning_by_hand() -> None:
     assert answers["b"] == {("b", "y"): fmpq(5, 4)}
 
 
+def test_dyna_q_by_hand() -> None:
+    # Section 8.2 with α = γ = 1/2. Real: Q(a, x) = 0 + 1/2·(2 + 1/2·6 − 0) = 5/2, Q(b, y) = 4 + 1/2·(8 − 4) = 6.
+    # The model had a, x → a with −2, which is replaced by → b with 2. Planned: max{6; 6} = 6 is what b is worth, so
+    # Q(a, x) = 5/2 + 1/2·(2 + 3 − 5/2) = 15/4; then Q(b, y) = 6 + 1/2·(8 − 6) = 7 and
+    # Q(a, x) = 15/4 + 1/2·(2 + 7/2 − 15/4) = 37/8.
+    answers = solved(
+        "dyna-q",
+        trajectory={"states": ["a", "b", "end"], "actions": ["x", "y"], "rewards": [2, 8], "terminal": ["end"]},
+        values={"a": {"x": 0, "y": 1}, "b": {"x": 6, "y": 4}}, alpha=0.5, gamma=0.5,
+        model=[["a", "x", -2, "a"]], planned=[["a", "x"], ["b", "y"], ["a", "x"]],
+    )  # fmt: skip
+    assert answers["a"] == {("a", "x"): fmpq(5, 2), ("b", "y"): 6}
+    assert answers["b"] == {("a", "x"): fmpq(37, 8), ("b", "y"): 7}
+
+
 def test_sarsa_lambda_by_hand() -> None:
     # Section 12.7 with one feature per pair; γ = 1, λ = α = 1/2. δ₀ = 1 + 4 − 2 = 3: Q(a, x) = 7/2.
     # Then e(a, x) = 1/2, e(b, y) = 1 and δ₁ = 6 − 4 = 2: Q(a, x) = 7/2 + 1/2·2·1/2 = 4, Q(b, y) = 5.
