@@ -4,10 +4,13 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from pydantic import ValidationError
+
 from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.complaints import sentence
 from rldrill.problems.draws import Draws
-from rldrill.problems.errors import UsageError
-from rldrill.problems.family import Family, Problem
+from rldrill.problems.errors import BrokenFamily, UsageError
+from rldrill.problems.family import Family, Givens, Problem
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
@@ -24,6 +27,7 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
     """Draw a problem and solve it; the same arguments give the same problem, to the letter.
 
     Raises:
+        BrokenFamily: its draws are refused, by its own givens or as questions.
         UsageError: there is no such family or level, or the seed is out of range.
     """
     if isinstance(family, str):
@@ -35,7 +39,7 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
     identity = Identity(family.name, level, seed, family.revision)
     why: Counter[str] = Counter()
     for attempt in range(ATTEMPTS):
-        given = family.draw(level, Draws(f"{identity}#{attempt}"))
+        given = _drawn(family, level, Draws(f"{identity}#{attempt}"))
         try:
             solution = solve(Problem(family, given, identity))
         except NoSolution as error:
@@ -46,7 +50,19 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
             return solution
         why[flaw] += 1
     reasons = "; ".join(f"{count} × {reason}" for reason, count in why.most_common(3))
-    raise RuntimeError(f"{identity}: no acceptable problem in {ATTEMPTS} attempts: {reasons}")
+    raise BrokenFamily(
+        f"{identity}: none of {ATTEMPTS} draws is a good question ({reasons}); draw otherwise, or say with 'when=' for "
+        "which givens a mistake can be made."
+    )
+
+
+def _drawn(family: Family, level: int, rng: Draws) -> Givens:
+    try:
+        return family.draw(level, rng)
+    except ValidationError as error:
+        raise BrokenFamily(
+            f"{family.name}: 'draw' makes givens of level {level} that 'Given' refuses: {sentence(error, tagged=False)}"
+        ) from None
 
 
 def by_id(text: str) -> Solution:
