@@ -155,8 +155,8 @@ def test_a_family_is_complete(name: str) -> None:
     for misconception in twin.misconceptions:
         assert misconception.says.endswith("."), misconception
         assert misconception.is_slip or any(misconception in formula.misread for formula in used), (
-            f"{misconception} misreads no formula that {name} uses: take it out of MISCONCEPTIONS, or state what it reads "
-            "in a formula that is used, under misread="
+            f"{misconception} misreads no formula that {name} uses: take it out of MISCONCEPTIONS, or state what it "
+            "reads in a formula that is used, under misread="
         )
 
 
