@@ -1,5 +1,7 @@
 """Section 9 of the sheet: Bayesian methods."""
 
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from sympy import Pow, evaluate, factorial, log
@@ -457,3 +459,10 @@ with evaluate(False):
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
         },
     )
+
+
+@cache
+def without_command() -> Formula:
+    """The mean after a motion where there are no commands."""
+    with evaluate(False):
+        return replace(KALMAN_MOVE_MEAN, right=At(t) * mean(t - 1))
