@@ -163,7 +163,7 @@ def _steps(given: Given) -> Table:
     return Table(header=header, rows=tuple(rows))
 
 
-def _column(vector: MatrixField) -> str:
+def _column(vector: Rows) -> str:
     numbers = ", ".join(shown(line[0]) for line in vector)
     return f"${numbers}$" if len(vector) == 1 else f"$({numbers})$"
 
