@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from math import factorial
 from typing import Any, NamedTuple
 
-from sympy import Add, Expr, Mul, Pow, evaluate, sqrt
+from sympy import Add, Expr, Mul, Pow, evaluate, exp, sqrt
 
 from rldrill.problems.linear_quadratic import Notation
 from rldrill.problems.mathematics import (
@@ -398,6 +399,7 @@ A_tilde = letter("Atilde", Accent(variable("A"), "tilde"), matrix=True)
 B_tilde = letter("Btilde", Accent(variable("B"), "tilde"), matrix=True)
 dt = letter("dt", row(variable("Δ"), variable("t")))
 unit = letter("unit", "I", matrix=True)
+s1_bar, f1_bar = letter("sbark", _bar("s")), letter("fbark", row(variable("f"), _POINT))
 Ad, Bd = (letter(f"{head}d", Script(variable(head), variable("Δ")), matrix=True) for head in "AB")
 
 with evaluate(False):
@@ -496,6 +498,54 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
+
+
+class Hold(NamedTuple):
+    """A zero-order hold: the matrices of a step, and where the operating point goes in it."""
+
+    state: Formula
+    action: Formula
+    point: Formula
+
+
+def _held(left: Expr, right: Expr, hint: str) -> Formula:
+    source = "Åström & Wittenmark 1997, section 2.3"
+    return Formula("zero-order-hold", left, right, "Zero-order hold", source, hint, place=Place.WORKING)
+
+
+_GROWN = "Without the action the state grows like e to the power A t; write that down, or its series as far as it goes."
+_INTEGRAL = "Integrate e to the power A t, or its series, over the step, and multiply with B."
+_RATES_HELD = "From the operating point the rates are held: the same integral, times f instead of B."
+
+
+@cache
+def nilpotent_hold(order: int) -> Hold:
+    """The hold where so high a power of A vanishes: the series of the exponential ends."""
+    with evaluate(False):
+        integral = [_term(k, k - 1) for k in range(2, order + 1)]
+        moved = Add(s_bar, dt * f_bar, *(term * f_bar for term in integral))
+        return Hold(
+            _held(Ad, Add(unit, *(_term(k, k) for k in range(1, order))), _GROWN),
+            _held(Bd, Add(dt * Bi, *(term * Bi for term in integral)), _INTEGRAL),
+            _held(F_bar, moved, _RATES_HELD),
+        )
+
+
+def _term(order: int, power: int) -> Expr:
+    """A term of the series of the exponential, or of its integral."""
+    return Mul(dt if order == 1 else dt**order / factorial(order), *[Ai] * power)
+
+
+@cache
+def scalar_hold() -> Hold:
+    """The hold of a single state whose rate depends on it."""
+    with evaluate(False):
+        grown = (exp(dt * a1) - 1) / a1
+        return Hold(
+            _held(Ad, exp(dt * a1), _GROWN),
+            _held(Bd, grown * b1, _INTEGRAL),
+            _held(F_bar, s1_bar + grown * f1_bar, _RATES_HELD),
+        )
 
 
 # Differential dynamic programming -------------------------------------------------------------------

@@ -9,6 +9,7 @@ from sympy import Rational, sqrt
 
 import rldrill
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 from rldrill.solutions.exact import to_sympy
 
 
@@ -320,3 +321,71 @@ def test_the_inverted_pendulum_of_the_control_tutorials() -> None:
         ["0.0000", "-0.4545", "31.1818", "0.0000"],
     ]
     assert decimals(answers["b"], 4) == [["0.0000"], ["1.8182"], ["0.0000"], ["4.5455"]]
+
+
+HELD = {"discretisation": "zero-order hold"}
+
+
+def test_the_zero_order_hold_of_the_double_integrator() -> None:
+    # Åström & Wittenmark 1997, example 2.2: with the step h it is (1 h; 0 1) and (h²/2; h).
+    answers = solved(
+        "linearise", dynamics={"x": "v", "v": "u"}, state={"x": 0, "v": 0}, action={"u": 0}, step="1/10", **HELD
+    )
+    assert_is(answers["a"], [[1, Rational(1, 10)], [0, 1]])
+    assert_is(answers["b"], [[Rational(1, 200)], [Rational(1, 10)]])
+
+
+def test_the_zero_order_hold_of_three_integrators_by_hand() -> None:
+    # The snap u moves the acceleration by h u, the velocity by h²/2 u, the position by h³/6 u; h = 6: 6, 18, 36.
+    answers = solved(
+        "linearise", dynamics={"x": "v", "v": "a", "a": "u"}, state={"x": 0, "v": 0, "a": 0}, action={"u": 0}, step=6,
+        **HELD,
+    )  # fmt: skip
+    assert_is(answers["a"], [[1, 6, 18], [0, 1, 6], [0, 0, 1]])
+    assert_is(answers["b"], [[36], [18], [6]])
+
+
+def test_the_zero_order_hold_of_a_number() -> None:
+    # Åström & Wittenmark 1997, example 2.1: dx/dt = αx + βu becomes e^(αh) and (e^(αh) − 1) β/α.
+    system = {"dynamics": {"x": "3*u - 2*x"}, "state": {"x": 5}, "action": {"u": 1}, "step": "1/2"}
+    answers = solved("linearise", **system, **HELD)
+    assert_is(answers["a"], [[sympy.exp(-1)]])
+    assert_is(answers["b"], [[Rational(3, 2) * (1 - sympy.exp(-1))]])
+    # A linear system is its own linearisation, so nothing is left over.
+    assert_is(solved("linearise-affine", **system, **HELD)["a"], [[0]])
+
+
+def test_the_constant_term_of_a_zero_order_hold_by_hand() -> None:
+    # dv/dt = w², dx/dt = v at v = 2, w = 1, with h = 2: near w = 1 dv/dt is 2w − 1, so the −1 adds −h to v, −h²/2 to x.
+    answers = solved(
+        "linearise-affine", dynamics={"x": "v", "v": "w^2"}, state={"x": 3, "v": 2}, action={"w": 1}, step=2, **HELD
+    )
+    assert_is(answers["a"], [[-2], [-2]])
+    assert_is(answers["c"], [[4], [4], [0]])
+
+
+def test_the_sampled_inverted_pendulum_of_michigan() -> None:
+    # Control Tutorials for MATLAB and Simulink, inverted pendulum, digital control: M = 0.5, m = 0.2, b = 0.1,
+    # l = 0.3, I = 0.006, g = 9.8, p = I (M + m) + M m l² = 0.0132; c2d with 0.01 s prints four digits.
+    answers = solved(
+        "linearise",
+        dynamics={
+            "x": "v", "v": "(-(I + m*l^2)*b*v + m^2*g*l^2*phi + (I + m*l^2)*u)/p",
+            "phi": "omega", "omega": "(-m*l*b*v + m*g*l*(M + m)*phi + m*l*u)/p",
+        },
+        constants={"M": "0.5", "m": "0.2", "b": "0.1", "l": "0.3", "I": "0.006", "g": "9.8", "p": "0.0132"},
+        state={"x": 0, "v": 0, "phi": 0, "omega": 0}, action={"u": 0}, step="0.01", **HELD,
+    )  # fmt: skip
+    printed = [
+        [1, 0.009991, 0.0001336, 4.453e-07], [0, 0.9982, 0.02672, 0.0001336],
+        [0, -2.272e-05, 1.002, 0.01001], [0, -0.004544, 0.3119, 1.002],
+    ]  # fmt: skip
+    for line, numbers in zip(written(answers["a"]), printed, strict=True):
+        assert [float(entry) for entry in line] == pytest.approx(numbers, rel=6e-4)
+    column = [float(entry) for (entry,) in written(answers["b"])]
+    assert column == pytest.approx([9.086e-05, 0.01817, 0.0002272, 0.04544], rel=6e-4)
+
+
+def test_a_hold_needs_a_step() -> None:
+    with pytest.raises(FileError, match="step is missing"):
+        solved("linearise", dynamics={"x": "u"}, state={"x": 0}, action={"u": 0}, **HELD)
