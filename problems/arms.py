@@ -20,7 +20,7 @@ _DIAGONAL = tuple(map(read_angle, ("pi/4", "pi/2", "3*pi/4", "-pi/4", "-pi/2")))
 class PlanarArm(Givens):
     """The lengths of an arm's links, and its joint angles, each relative to the link before."""
 
-    lengths: tuple[Exact, ...] = Field(min_length=2, max_length=6)
+    lengths: tuple[Exact, ...] = Field(min_length=1, max_length=6)
     angles: tuple[AngleField, ...]
 
     @model_validator(mode="after")
@@ -40,16 +40,22 @@ def draw_angles(rng: Draws, level: int, count: int) -> tuple[Angle, ...]:
     return tuple(rng.choice(angles) for _ in range(count))
 
 
-def situation(given: PlanarArm) -> tuple[Block, ...]:
-    """The arm in words, its links, and a picture of it."""
+def situation(given: PlanarArm, base: str = "its base is at the origin", axis: str = "x") -> tuple[Block, ...]:
+    """The arm in words, its links, and a picture of it.
+
+    Args:
+        given: the arm.
+        base: where its base is, in words.
+        axis: against which axis the first link's angle counts.
+    """
     rows = tuple(
         (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
         for index, (length, angle) in enumerate(zip(given.lengths, given.angles, strict=True), 1)
     )
     return (
         Paragraph(
-            f"An arm with {len(rows)} links moves in the plane; its base is at the origin. Link $i$ has the length "
-            "$l_i$. $θ_1$ is the angle of the first link against the $x$ axis; every other $θ_i$ is the angle of "
+            f"An arm with {len(rows)} link{'s' * (len(rows) > 1)} moves in the plane; {base}. Link $i$ has the length "
+            f"$l_i$. $θ_1$ is the angle of the first link against the ${axis}$ axis; every other $θ_i$ is the angle of "
             "link $i$ against the link before it. Angles are in radians, counter-clockwise."
         ),
         Beside(

@@ -1,16 +1,19 @@
 """Linear systems with quadratic rewards, as problems give them."""
 
-from typing import Any, Self
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, Scalar
+from rldrill.problems.exact import Exact, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatricesField,
+    MatrixField,
     OpenMatricesField,
     Rows,
     check_shape,
@@ -20,37 +23,95 @@ from rldrill.problems.matrices import (
 
 #: What every such problem says of itself.
 REWARD = "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$"
+#: Today's longest runs; with few states they may be longer, as long as the fractions in them do not grow too much.
+_LONG = 12
+_EFFORT = 100
+
+Convention = Literal["value", "cost-to-go", "xuKP"]
 
 
-class LinearQuadratic(Givens):
+class Notation(NamedTuple):
+    """The letters of state, action, gain and value matrix; whether that matrix is a cost's, and so positive."""
+
+    state: str
+    action: str
+    gain: str
+    value: str
+    costs: bool
+
+
+NOTATIONS: dict[Convention, Notation] = {
+    "value": Notation("s", "a", "L", "P", costs=False),
+    "cost-to-go": Notation("s", "a", "L", "S", costs=True),
+    "xuKP": Notation("x", "u", "K", "P", costs=True),
+}
+
+
+class Discounted(Givens):
+    """What a quadratic cost may have beside Q and R."""
+
+    gamma: Probability = Field(
+        default=Fraction(1), gt=0, exclude_if=lambda gamma: gamma == 1, description="the discount; 1 if left out"
+    )
+
+
+class Conventional(Discounted):
+    """What may also be said of a problem that asks for gains and value matrices: in whose letters."""
+
+    convention: Convention = Field(
+        default="value",
+        exclude_if=lambda convention: convention == "value",
+        description="value: rewards, V(s) = sᵀPs with P negative, a = −Ls; cost-to-go: costs, sᵀSs with S positive, "
+        "a = −Ls; xuKP: costs, xᵀPx with P positive, u = −Kx",
+    )
+
+    @property
+    def notation(self) -> Notation:
+        """The letters of the convention."""
+        return NOTATIONS[self.convention]
+
+
+class LinearQuadratic(Discounted):
     """A system s' = A s + B a with the reward −(sᵀQs + aᵀRa) at the times 0 to ``horizon``, and its start.
 
     Every matrix is a list of rows (a plain number, if it is 1×1). A list of matrices gives one for every
-    time: A and B for 0 to horizon − 1, Q and R for 0 to horizon.
+    time: A, B and N for 0 to horizon − 1, Q and R for 0 to horizon.
     """
 
     A: MatricesField
     B: MatricesField
     Q: MatricesField
     R: OpenMatricesField
+    N: MatricesField | None = Field(
+        default=None, description="the cross term: the cost has 2 sᵀNa, too, before the horizon; none if left out"
+    )
+    Q_T: MatrixField | None = Field(default=None, description="Q at the horizon; as before it, if left out")
     start: tuple[Exact, ...] = Field(min_length=1, max_length=6)
-    horizon: int = Field(ge=1, le=12)
+    horizon: int = Field(ge=1, le=_EFFORT)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         n = len(self.start)
         m = len(self.B[0][0]) if self.B[0] else 0
         where = f"with {n} state{'s' * (n != 1)} and {m} action{'s' * (m != 1)} "
+        if self.horizon > (most := max(_LONG, _EFFORT // n**2)):
+            raise ValueError(f"horizon is {self.horizon}; {where.rstrip()}, {most} is the most")
         for name, series, rows, columns, count in (
             ("A", self.A, n, n, self.horizon), ("B", self.B, n, m, self.horizon),
             ("Q", self.Q, n, n, self.horizon + 1), ("R", self.R, m, m, self.horizon + 1),
+            ("N", self.N or (), n, m, self.horizon), ("Q_T", (self.Q_T,) if self.Q_T else (), n, n, 1),
         ):  # fmt: skip
-            if len(series) not in (1, count):
+            if series and len(series) not in (1, count):
                 raise ValueError(f"{name} holds {len(series)} matrices; give one, or {count} for the times from 0")
             for matrix in series:
                 check_shape(name, matrix, rows, columns, where)
-                if name in "QR":
-                    check_weights(name, matrix, positive=name == "R")
+                if name in ("Q", "R", "Q_T"):
+                    check_weights(name, matrix, positive=False)
+        if self.Q_T and len(self.Q) > 1:
+            raise ValueError("Q_T is given twice, since Q has a matrix for the horizon, too; leave one of them out")
+        if self.N:
+            for time in range(self.horizon):
+                check_cross(by_time(self.Q, time), by_time(self.R, time), by_time(self.N, time))
         return self
 
     @property
@@ -58,21 +119,36 @@ class LinearQuadratic(Givens):
         """How many entries an action has."""
         return len(self.B[0][0])
 
+    @property
+    def state_costs(self) -> tuple[Rows, ...]:
+        """The matrices Q of all times, or one for all."""
+        return self.Q if self.Q_T is None else (*(self.Q * self.horizon), self.Q_T)
+
+    @property
+    def plain(self) -> bool:
+        """Whether there is neither a discount nor a cross term nor a final cost of its own."""
+        return self.gamma == 1 and self.N is None and self.Q_T is None
+
+
+def check_cross(Q: Rows, R: Rows, N: Rows) -> None:
+    """Demand that the cost of a state and an action together is never negative, whatever N adds to it.
+
+    Raises:
+        ValueError: it may be negative.
+    """
+    upper = [(*left, *right) for left, right in zip(Q, N, strict=True)]
+    lower = [(*left, *right) for left, right in zip(zip(*N, strict=True), R, strict=True)]
+    check_weights("with the cross term the matrix of all costs, (Q N; Nᵀ R),", (*upper, *lower), positive=False)
+
 
 def by_time(series: tuple[Rows, ...], time: int) -> Rows:
     """The matrix of a time; a single one holds at all times."""
     return series[time] if len(series) > 1 else series[0]
 
 
-def situation(given: LinearQuadratic) -> tuple[Paragraph | Equation, ...]:
+def situation(given: LinearQuadratic) -> tuple[Block, ...]:
     """The sentences and matrices of the system."""
     scalar = len(given.start) == given.actions == 1
-    lines = []
-    for name in ("A", "B", "Q", "R"):
-        series = getattr(given, name)
-        for time, matrix in enumerate(series):
-            index = "t" if len(series) == 1 else str(time)
-            lines.append(Equation(mathematics(f"{name}_{index}"), (tabular(matrix),), ("=",)))
     constant = all(len(getattr(given, name)) == 1 for name in ("A", "B", "Q", "R"))
     left_open = any(isinstance(entry, Parameter) for matrix in given.R for line in matrix for entry in line)
     return (
@@ -85,9 +161,52 @@ def situation(given: LinearQuadratic) -> tuple[Paragraph | Equation, ...]:
             ("The matrices are the same at all times" if constant else "A matrix with index $t$ holds at all times")
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
-        *lines,
+        *(block for name in ("A", "B", "Q", "R") for block in listed(name, getattr(given, name))),
         Equation(mathematics("s_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",)),
     )
+
+
+def listed(name: str, matrices: Sequence[Rows]) -> list[Equation]:
+    """Matrices by time; a single one has the index t."""
+    indices = ["t"] if len(matrices) == 1 else [f"{{{time}}}" for time in range(len(matrices))]
+    return [
+        Equation(mathematics(f"{name}_{index}"), (tabular(matrix),), ("=",))
+        for index, matrix in zip(indices, matrices, strict=True)
+    ]
+
+
+def quadratic(notation: Notation, index: str = "", *, crossed: bool) -> str:
+    """The cost of a state and an action, as mathematics; ``index`` is ``_t`` where matrices have one."""
+    x, u = f"{notation.state}_t", f"{notation.action}_t"
+    cross = f" + 2 {x}^⊤ N{index} {u}" if crossed else ""
+    return f"{x}^⊤ Q{index} {x}{cross} + {u}^⊤ R{index} {u}"
+
+
+def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
+    """The sentences and matrices of a system of which more is said than of a plain one."""
+    x, u, last = notation.state, notation.action, given.horizon
+    stage, end = quadratic(notation, "_t", crossed=given.N is not None), f"{x}_T^⊤ Q_T {x}_T"
+    earns = f"costs ${stage}$" if notation.costs else f"earns the reward $r({x}_t, {u}_t) = −({stage})$"
+    pays = f"costs ${end}$" if notation.costs else f"earns $−{end}$"
+    left_open = any(isinstance(entry, Parameter) for matrix in given.R for line in matrix for entry in line)
+    discounted = "" if given.gamma == 1 else (
+        f" What comes at time $t$ counts $γ^t$ times, with the discount $γ = {shown(given.gamma)}$."
+    )  # fmt: skip
+    Q_T = Equation(mathematics("Q_T"), (tabular(by_time(given.state_costs, last)),), ("=",))
+    before = given.state_costs[:last] if len(given.Q) > 1 else given.Q
+    return (
+        Paragraph(
+            f"A system has the dynamics ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$. It {earns} at every time "
+            f"$t = {times(0, last - 1)}$, and at the end, at time $T = {last}$, the state alone {pays}.{discounted}"
+        ),
+        Paragraph(
+            "A matrix with index $t$ holds at all times before $T$"
+            + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
+        ),
+        *listed("A", given.A), *listed("B", given.B), *listed("Q", before), Q_T,
+        *listed("R", given.R if len(given.R) == 1 else given.R[:last]), *listed("N", given.N or ()),
+        Equation(mathematics(f"{x}_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",)),
+    )  # fmt: skip
 
 
 def times(first: int, last: int) -> str:

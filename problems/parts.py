@@ -6,6 +6,8 @@ from string import ascii_lowercase
 from typing import ClassVar, TypeAlias
 
 Key: TypeAlias = str | tuple[str, str]
+#: A problem has no more parts than there are letters for them.
+LETTERS = len(ascii_lowercase)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +99,8 @@ def label(index: int) -> str:
     Raises:
         ValueError: a problem has no more than 26 parts.
     """
-    if index >= len(ascii_lowercase):
-        raise ValueError(f"a problem has at most {len(ascii_lowercase)} parts")
+    if index >= LETTERS:
+        raise ValueError(f"a problem has at most {LETTERS} parts")
     return ascii_lowercase[index]
 
 

@@ -43,9 +43,9 @@ class System(Givens):
     """Dynamics in letters, their constants, and an operating point.
 
     Every state's expression in ``dynamics`` is its rate of change; with a ``step`` Δt the system is
-    discretised, s + Δt f(s, a). ``where`` names parts of the expressions, each in terms of those before it.
-    ``picture`` draws it at the operating point: a pendulum by its angle θ from hanging down, an arm by the
-    angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
+    discretised, s + Δt f(s, a), or by a zero-order hold once it is linearised. ``where`` names parts of the
+    expressions, each in terms of those before it. ``picture`` draws it at the operating point: a pendulum by its
+    angle θ from hanging down, an arm by the angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
     """
 
     dynamics: dict[Letter, Expression] = Field(min_length=1, max_length=6)
@@ -54,6 +54,11 @@ class System(Givens):
     state: dict[Letter, AngleField]
     action: dict[Letter, AngleField] = Field(min_length=1, max_length=4)
     step: Annotated[Exact, AfterValidator(_positive)] | None = None
+    discretisation: Literal["euler", "zero-order hold"] = Field(
+        default="euler",
+        exclude_if=lambda discretisation: discretisation == "euler",
+        description="how a step is made: s + Δt f(s, a), or exactly by the linearised rates while the action is held",
+    )
     story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$")
     picture: Look | None = None
 
@@ -71,11 +76,18 @@ class System(Givens):
                 raise ValueError(f"the expression of {name!r} holds {unknown[0]!r}, which has no value")
             if name in self.where:
                 known.add(name)
+        if self.held and self.step is None:
+            raise ValueError("step is missing: for how long the zero-order hold keeps the action; add it")
         if self.story.count("$") % 2:
             raise ValueError("story: a $ is missing")
         if self.picture and (missing := {*_SEEN[self.picture]} - {*self.state, *self.constants}):
             raise ValueError(f"picture: there is no {min(missing)}, which the picture of {self.picture!r} shows")
         return self
+
+    @property
+    def held(self) -> bool:
+        """Whether a step is made by a zero-order hold."""
+        return self.discretisation != "euler"
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -185,7 +197,14 @@ def _values(given: System) -> Iterator[Block]:
 
 
 def discretised(given: System) -> Paragraph:
-    """The sentence that gives the Euler step."""
+    """The sentence that gives the Euler step, or the zero-order hold."""
+    if given.held:
+        return Paragraph(
+            "The rates are linearised at the operating point, $f(s, a) ≈ f(s̄, ā) + A (s − s̄) + B (a − ā)$, and time is "
+            "discretised by a zero-order hold: the action stays $a_t$ for the time "
+            f"$Δ t = {exact_shown(given.step or Fraction(0))}$, and $s_{{t+1}} = F(s_t, a_t)$ is where the linearised "
+            "rates have then led from $s_t$."
+        )
     return Paragraph(
         "Time is discretised by an Euler step: $s_{t+1} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
         f"$Δ t = {exact_shown(given.step or Fraction(0))}$."

@@ -1,6 +1,7 @@
 """Linear systems of problems as formulas need them."""
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -18,11 +19,13 @@ from rldrill.solutions.work import Work
 def known(given: LinearQuadratic) -> dict[str, Any]:
     """The matrices of all times by the formulas' letters."""
     last = given.horizon
-    ends = {"A": last, "B": last, "Q": last + 1, "R": last + 1}
+    by_name = {
+        "A": (given.A, last), "B": (given.B, last), "Q": (given.state_costs, last + 1), "R": (given.R, last + 1),
+        "N": (given.N or (), last if given.N else 0),
+    }  # fmt: skip
     converted: dict[Rows, Any] = {}
-    result: dict[str, Any] = {}
-    for name, end in ends.items():
-        series = getattr(given, name)
+    result: dict[str, Any] = {"gamma": exact(given.gamma)}
+    for name, (series, end) in by_name.items():
         result[f"{name}t"] = {
             time: converted.setdefault(by_time(series, time), matrices.given(by_time(series, time)))
             for time in range(end)
@@ -43,7 +46,11 @@ def number(value: Any) -> Value:
 def cost_to_go(solve: Callable[[Any, Work], None], values: slice) -> Misconception:
     """The mistake of giving the matrix of the cost-to-go, made in those answers of a solver that are a value's."""
 
-    @slip("cost-to-go-given", "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.")
+    @slip(
+        "cost-to-go-given",
+        "That is the matrix S of the cost-to-go; the matrix of the value is P = −S.",
+        when=lambda given: given.convention == "value",
+    )
     def in_costs(given: Any, work: Work) -> None:
         answers = right_answers(solve, given, work)
         answers[values] = [-P for P in answers[values]]
@@ -59,8 +66,7 @@ def array(rows: Rows) -> Array:
 
 
 def arrays(given: LinearQuadratic, time: int) -> Mapping[str, Array]:
-    """The matrices of one time in floating point; A and B of the last time are those of the time before."""
-    return {
-        name: array(by_time(getattr(given, name), min(time, len(getattr(given, name)) - 1)))
-        for name in ("A", "B", "Q", "R")
-    }
+    """The matrices of one time in floating point; A, B and N of the last time are those of the time before."""
+    zero = ((Fraction(0),) * given.actions,) * len(given.start)
+    by_name = {"A": given.A, "B": given.B, "Q": given.state_costs, "R": given.R, "N": given.N or (zero,)}
+    return {name: array(by_time(series, min(time, len(series) - 1))) for name, series in by_name.items()}

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from sympy import Expr
 
 from rldrill.problems.angles import Angle
@@ -14,9 +15,11 @@ from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.oracle import Array
 from rldrill.solutions.sheet.linear_methods import (
     EULER_A,
     EULER_B,
+    EULER_F,
     INPUT_JACOBIAN,
     LINEARISE,
     PART_VALUE,
@@ -27,6 +30,7 @@ from rldrill.solutions.sheet.linear_methods import (
     partial_part,
 )
 from rldrill.solutions.work import Work
+from rldrill.solutions.zero_order_hold import ZeroOrderHold
 
 #: The derivative of an expression by a letter, with the named parts in it that depend on the letter.
 Rule = Callable[[str, str, tuple[str, ...]], Expr]
@@ -38,8 +42,24 @@ def linearised(given: System, work: Work, rule: Rule = dynamics.chained) -> Iter
     """A and then B, of the Euler step if the system has one."""
     work.recall(LINEARISE)
     known = _point(work, given)
-    for formula, euler in ((STATE_JACOBIAN, EULER_A), (INPUT_JACOBIAN, EULER_B)):
-        yield _euler(work, given, euler, _jacobian(work, given, formula, known, rule))
+    A = _jacobian(work, given, STATE_JACOBIAN, known, rule)
+    yield hold(given, A).state(work) if given.held else _euler(work, given, EULER_A, A)
+    B = _jacobian(work, given, INPUT_JACOBIAN, known, rule)
+    yield hold(given, A).action(work, B) if given.held else _euler(work, given, EULER_B, B)
+
+
+def hold(given: System, A: AnyMatrix) -> ZeroOrderHold:
+    """The zero-order hold of a system with this matrix of its rates."""
+    return ZeroOrderHold(A, exact(given.step or 0))
+
+
+def moved_point(given: System, work: Work, state: AnyMatrix, rates: AnyMatrix) -> AnyMatrix:
+    """Where the operating point goes in one step."""
+    if not given.held:
+        moved: AnyMatrix = work.step(EULER_F, sbar=state, dt=exact(given.step or 0), fbar=rates)
+        return moved
+    undiscretised = given.model_copy(update={"step": None, "discretisation": "euler"})
+    return hold(given, next(linearised(undiscretised, Work()))).point(work, state, rates)
 
 
 def _at_zero(given: System, work: Work) -> Iterator[AnyMatrix]:
@@ -157,3 +177,20 @@ def after(given: System) -> Callable[[Mapping[str, complex]], list[complex]]:
         return [values[name] + step * rate for name, rate in zip(given.states, rates, strict=True)]
 
     return function
+
+
+def held_numerically(given: System) -> tuple[Array, Array, Array]:
+    """A and B of a zero-order hold, and where the operating point goes in it, for the independent solvers."""
+    values, n = dynamics.numbers(given), len(given.state)
+    rates = after(given.model_copy(update={"step": None}))
+    A, B = (np.real(dynamics.complex_step(rates, values, by)) for by in (given.states, tuple(given.action)))
+    f = np.real(rates(values))[:, None]
+    larger = np.zeros((n + B.shape[1] + 1,) * 2)
+    larger[:n] = np.hstack([A, B, f])
+    # Squaring a step that is 2²⁰ times shorter, for which three terms of the series are enough.
+    short = larger * float(given.step or 0) / 2**20
+    power = short + short @ short / 2 + short @ short @ short / 6
+    for _ in range(20):
+        power = 2 * power + power @ power
+    A_held, B_held, moved = np.split((np.eye(len(larger)) + power)[:n], [n, n + B.shape[1]], axis=1)
+    return A_held, B_held, np.real([values[name] for name in given.states]) + moved[:, 0]

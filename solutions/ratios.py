@@ -1,22 +1,31 @@
 """PPO's probability ratios in floating point: for the independent solver, and for what can be told apart."""
 
 import math
+from collections.abc import Mapping
 
+from rldrill.problems.exact import Weight
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.oracle import at
 
 
 def new_chance(sample: Sample) -> float:
     """How likely the new policy makes the action."""
-    if sample.preferences is None:
-        return at(sample.new or 0)
-    weights = {action: math.exp(at(value)) for action, value in sample.preferences.items()}
-    return weights[sample.action] / math.fsum(weights.values())
+    return at(sample.new or 0) if sample.preferences is None else _softmax(sample.preferences, sample.action)
+
+
+def old_chance(sample: Sample) -> float:
+    """How likely the old policy made the action."""
+    return at(sample.old or 0) if sample.old_preferences is None else _softmax(sample.old_preferences, sample.action)
+
+
+def _softmax(preferences: Mapping[str, Weight], action: str) -> float:
+    weights = {name: math.exp(at(value)) for name, value in preferences.items()}
+    return weights[action] / math.fsum(weights.values())
 
 
 def outside(sample: Sample, given: Given) -> int:
     """On which side of the clipping range the ratio lies: −1 below, 1 above, 0 inside or at its edge."""
-    ratio, epsilon = new_chance(sample) / at(sample.old), at(given.epsilon)
+    ratio, epsilon = new_chance(sample) / old_chance(sample), at(given.epsilon)
     margin = 1e-9
     return (ratio > 1 + epsilon + margin) - (ratio < 1 - epsilon - margin)
 

@@ -3,6 +3,8 @@
 No library for floating point is needed for it, and the answer is as exact as its decimals say.
 """
 
+from typing import NamedTuple
+
 from flint import fmpq
 
 from rldrill.solutions.exact import NoSolution
@@ -12,23 +14,73 @@ _BITS = 200
 _DOUBLINGS = 40
 
 
-def stationary(A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -> AnyMatrix:
-    """The stabilising cost-to-go matrix S of S = Q + AᵀS(I + BR⁻¹BᵀS)⁻¹A, to some fifty digits.
+class Regulator(NamedTuple):
+    """A system with the costs sᵀQs + 2sᵀNa + aᵀRa, those of every time counted γ times less than before."""
 
-    The structure-preserving doubling algorithm (Chu, Fan, Lin & Wang 2004): after k rounds it has the
-    cost-to-go of a horizon of 2ᵏ steps.
+    A: AnyMatrix
+    B: AnyMatrix
+    Q: AnyMatrix
+    R: AnyMatrix
+    N: AnyMatrix
+    gamma: fmpq
+
+    def gain(self, S: AnyMatrix) -> AnyMatrix:
+        """The best gain, if S is the next state's cost-to-go."""
+        ahead = self.B.transpose() * S * self.gamma
+        return (self.R + ahead * self.B).inv() * (ahead * self.A + self.N.transpose())
+
+    def before(self, S: AnyMatrix) -> AnyMatrix:
+        """The cost-to-go one time earlier."""
+        ahead = self.A.transpose() * S * self.gamma
+        return self.Q + ahead * self.A - (ahead * self.B + self.N) * self.gain(S)
+
+    def charged_ahead(self) -> "Regulator":
+        """The same, but the cost of a state is charged to the action that leads to it: what then is left of S − Q."""
+        ahead, beside = self.A.transpose() * self.Q * self.gamma, self.B.transpose() * self.Q * self.gamma
+        return self._replace(Q=ahead * self.A, R=self.R + beside * self.B, N=self.N + ahead * self.B)
+
+    def uncrossed(self) -> "Regulator | None":
+        """The same for what is added to the action −R⁻¹Nᵀs, with no cross term; None where R is singular."""
+        try:
+            back = self.R.inv() * self.N.transpose()
+        except ZeroDivisionError:
+            return None
+        return self._replace(A=self.A - self.B * back, Q=self.Q - self.N * back, N=self.N * 0)
+
+
+def stationary(regulator: Regulator) -> AnyMatrix:
+    """The stabilising cost-to-go matrix, to some fifty digits.
+
+    Where R is singular, the states' costs are charged to earlier actions until every action has a price of its own.
 
     Raises:
-        NoSolution: the cost-to-go grows without end, or stays but does not make the system stable.
+        NoSolution: the cost-to-go grows without end, or stays but does not make the system stable; or some action
+            never matters.
     """
+    priced, charged = regulator, regulator.Q * 0
+    for _ in range(regulator.A.nrows() + 1):
+        if (uncrossed := priced.uncrossed()) is not None:
+            return _checked(regulator, charged + _doubled(uncrossed))
+        charged, priced = charged + priced.Q, priced.charged_ahead()
+    raise NoSolution("some action costs nothing and changes nothing that does, so no single one is the best")
+
+
+def _doubled(regulator: Regulator) -> AnyMatrix:
+    """The cost-to-go of a system without a cross term, in which every action has a price.
+
+    The structure-preserving doubling algorithm (Chu, Fan, Lin & Wang 2004) for √γ A and √γ B: after k rounds it has
+    the cost-to-go of a horizon of 2ᵏ steps. A stands twice in every product, so that the first one takes γ.
+    """
+    F, B, H, R, _, gamma = regulator
     try:
-        G, H, F = B * R.inv() * B.transpose(), Q, A
+        G = B * R.inv() * B.transpose() * gamma
         for _ in range(_DOUBLINGS):
-            W = (identity(A.nrows()) + G * H).inv()
-            step = F.transpose() * H * W * F
-            F, G, H = map(_short, (F * W * F, G + F * W * G * F.transpose(), H + step))
+            W = (identity(F.nrows()) + G * H).inv()
+            step = F.transpose() * H * W * F * gamma
+            F, G, H = map(_short, (F * W * F * gamma, G + F * W * G * F.transpose() * gamma, H + step))
+            gamma = fmpq(1)
             if _largest(step) < fmpq(1, 2 ** (_BITS - 40)):
-                return _checked(A, B, R, H)
+                return H
             if _largest(H) > 2**_BITS:
                 break
     except ZeroDivisionError:
@@ -36,9 +88,10 @@ def stationary(A: AnyMatrix, B: AnyMatrix, Q: AnyMatrix, R: AnyMatrix) -> AnyMat
     raise NoSolution("the cost-to-go grows without end, since no action keeps the system from running away")
 
 
-def _checked(A: AnyMatrix, B: AnyMatrix, R: AnyMatrix, S: AnyMatrix) -> AnyMatrix:
-    closed = A - B * (R + B.transpose() * S * B).inv() * B.transpose() * S * A
-    for _ in range(12):
+def _checked(regulator: Regulator, S: AnyMatrix) -> AnyMatrix:
+    closed = regulator.A - regulator.B * regulator.gain(S)
+    closed = _short(closed * closed * regulator.gamma)
+    for _ in range(11):
         closed = _short(closed * closed)
     if _largest(closed) >= 1:
         raise NoSolution("no action is worth its price, so the system is left to itself and does not come to rest")

@@ -90,7 +90,7 @@ class Result:
     """Values that a procedure gives together: the solution of a system, a table at its end."""
 
     lefts: tuple[Expr, ...]
-    values: tuple[Value, ...]
+    values: tuple[Any, ...]
 
     def equations(self) -> tuple[Equation, ...]:
         """One line for every value."""
@@ -211,7 +211,7 @@ class Work:
         """Draw pictures between the steps."""
         self.lines += map(Drawn, pictures)
 
-    def give(self, formula: Formula, value: Value) -> None:
+    def give(self, formula: Formula, value: Any) -> None:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
         self.lines.append(Result((formula.left,), (value,)))
 

@@ -1,6 +1,8 @@
 """The Bayesian information criterion of two models, and which of them wins."""
 
+from fractions import Fraction
 from functools import cache
+from string import ascii_lowercase
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -29,14 +31,17 @@ ONE_COIN = {"fair": "$θ = 1/2$", "shared": "$θ$ is unknown", "own": "$θ$ is u
 
 
 class Fitted(Givens):
-    """A model that was fitted: its likelihood at the best parameters, and their number k."""
+    """A model that was fitted: its likelihood at the best parameters, or the logarithm of it, and their number k."""
 
-    likelihood: Exact
+    likelihood: Exact | None = Field(default=None, description="p(D|M, θ) at the best parameters")
+    log_likelihood: Exact | None = Field(default=None, description="its natural logarithm, in place of it")
     k: int = Field(ge=0, le=1000)
 
     @model_validator(mode="after")
     def _possible(self) -> Self:
-        if self.likelihood <= 0:
+        if (self.likelihood is None) == (self.log_likelihood is None):
+            raise ValueError("give either likelihood or log_likelihood")
+        if self.likelihood is not None and self.likelihood <= 0:
             raise ValueError(f"likelihood is {self.likelihood}, which has no logarithm; it must be above 0")
         return self
 
@@ -58,9 +63,14 @@ class Data(Givens):
 
 
 class Given(Givens):
-    """Two fitted models and the number of data, or the tosses of coins."""
+    """Fitted models and the number of data, or the tosses of coins."""
 
-    fitted: dict[Name, Fitted] | None = Field(default=None, min_length=2, max_length=2)
+    criterion: Literal["BIC", "AIC"] = Field(
+        default="BIC",
+        exclude_if=lambda criterion: criterion == "BIC",
+        description="Bayes' or Akaike's; the latter does not need n",
+    )
+    fitted: dict[Name, Fitted] | None = Field(default=None, min_length=2, max_length=10)
     n: int | None = Field(default=None, ge=2, le=10**6)
     data: Data | None = None
 
@@ -68,13 +78,15 @@ class Given(Givens):
     def _one(self) -> Self:
         if (self.fitted is None) == (self.data is None):
             raise ValueError("give either fitted models or data")
-        if (self.fitted is None) != (self.n is None):
+        if (self.fitted is None and self.n is not None) or (self.fitted and self.n is None and self.criterion == "BIC"):
             raise ValueError("n, the number of data, is needed with fitted models, and with them only")
+        if self.fitted and len({model.likelihood is None for model in self.fitted.values()}) > 1:
+            raise ValueError("fitted: give the likelihoods of all models, or the log_likelihoods of all")
         return self
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The two models."""
+        """The models that are compared."""
         return tuple(self.fitted) if self.fitted is not None else self.data.models if self.data is not None else ()
 
 
@@ -118,17 +130,16 @@ def _handy_pairs() -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:
 
 def question(given: Given) -> Question:
     """The models; log-likelihoods unless they are given, both criteria, and the winner."""
-    names = given.names
-    rule = Paragraph('$"BIC"(M) = −2 log p(D|M, θ) + k log n$, where $log$ is the natural logarithm, $ln$.')
-    criteria = Part("What is the BIC of both models?", Values("BIC", names), 2, zero=True)
+    names, criterion = given.names, given.criterion
+    cost = "2 k" if criterion == "AIC" else "k log n"
+    rule = Paragraph(
+        f'$"{criterion}"(M) = −2 log p(D|M, θ) + {cost}$, where $log$ is the natural logarithm, $ln$.'
+        + (" The smallest wins." if criterion == "AIC" or len(names) > 2 else "")
+    )
+    of = "both models" if len(names) == 2 else "every model"
+    criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), 2, zero=True)
     if given.fitted is not None:
-        rows = tuple((name, f"${model.k}$", f"${shown(model.likelihood)}$") for name, model in given.fitted.items())
-        blocks: tuple[Block, ...] = (
-            Paragraph(f"Two models were fitted to $n = {given.n}$ data. Their likelihoods at their best parameters:"),
-            Table(header=("$M$", "parameters $k$", "$p(D|M, θ)$"), rows=rows),
-            rule,
-        )
-        return Question(blocks, (criteria, _winner(names)))
+        return Question((*_fitted(given, given.fitted), rule), (criteria, _winner(given)))
     assert given.data is not None
     tosses = given.data.tosses
     told = ONE_COIN if len(tosses) == 1 else COIN_MODELS
@@ -152,9 +163,30 @@ def question(given: Given) -> Question:
         2,
         zero=True,
     )
-    return Question(blocks, (fit, Part(criteria.ask, criteria.kind, 2, zero=True), _winner(names)))
+    return Question(blocks, (fit, Part(criteria.ask, criteria.kind, 2, zero=True), _winner(given)))
 
 
-def _winner(names: tuple[str, ...]) -> Part:
-    options = dict(zip("ab", names, strict=True))
-    return Part("Which model does the BIC prefer?", Choice(options))
+def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
+    """The models by their numbers."""
+    logarithms = any(model.likelihood is None for model in fitted.values())
+    head, told = ("ln p(D|M, θ)", "log-likelihoods") if logarithms else ("p(D|M, θ)", "likelihoods")
+    rows = tuple(
+        (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
+    )  # fmt: skip
+    count = "Two models" if len(fitted) == 2 else f"{len(fitted)} models"
+    data = "the same data" if given.n is None else f"$n = {given.n}$ data"
+    return (
+        Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),
+        Table(header=("$M$", "parameters $k$", f"${head}$"), rows=rows),
+    )
+
+
+def _number(model: Fitted) -> Fraction:
+    number = model.log_likelihood if model.likelihood is None else model.likelihood
+    assert number is not None, "checked with the givens"
+    return number
+
+
+def _winner(given: Given) -> Part:
+    options = dict(zip(ascii_lowercase, given.names, strict=False))
+    return Part(f"Which model does the {given.criterion} prefer?", Choice(options))

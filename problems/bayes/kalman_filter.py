@@ -11,27 +11,32 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_weights, diagonal, tabular
-from rldrill.problems.parts import Matrix, Numbers, Part
+from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, tabular
+from rldrill.problems.parts import LETTERS, Matrix, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
 REVISION = 2
 
 _ONE = ((Fraction(1),),)
+#: From so many steps on they stand below each other.
+_WIDE = 6
+#: How many entries all covariances together may have: with every step the fractions in them grow.
+_EFFORT = 100
 
 
 class Event(Givens):
     """What happens in one step: a motion with the command u, then unless z is missing a measurement."""
 
-    u: MatrixField
-    z: MatrixField | None = None
+    u: MatrixField | None = Field(default=None, description="the command of the motion, a column; 0 if left out")
+    z: MatrixField | None = Field(default=None, description="what is measured, a column; nothing if left out")
 
 
 class Given(Givens):
     """The first belief, the models A, B, C, the noises of motion and sensor (their covariances), and the steps.
 
-    Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given.
+    Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given. Where no step
+    has a command, there is no B, and the state moves by A and the noise alone.
     """
 
     mean: MatrixField
@@ -41,25 +46,51 @@ class Given(Givens):
     C: MatrixField = Field(default=_ONE, validate_default=True)
     process: MatrixField
     sensor: MatrixField
-    steps: tuple[Event, ...] = Field(min_length=1, max_length=5)
+    steps: tuple[Event, ...] = Field(min_length=1, max_length=_EFFORT)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         n, inputs, readings = len(self.mean), len(self.B[0]), len(self.C)
+        if len(self.steps) > (most := max(5, _EFFORT // n**2)):
+            raise ValueError(
+                f"steps has {len(self.steps)} entries; with {n} component{'s' * (n != 1)} of the state, {most} are the "
+                "most: split the run, and go on from the last belief"
+            )
         for name, matrix, rows, columns in (
             ("mean", self.mean, n, 1), ("covariance", self.covariance, n, n), ("A", self.A, n, n),
-            ("B", self.B, n, inputs), ("C", self.C, readings, n), ("process", self.process, n, n),
-            ("sensor", self.sensor, readings, readings),
+            ("C", self.C, readings, n), ("process", self.process, n, n), ("sensor", self.sensor, readings, readings),
+            *((("B", self.B, n, inputs),) if self.driven else ()),
         ):  # fmt: skip
             check_shape(name, matrix, rows, columns, f"with a mean of {n} and {readings} readings ")
         for event in self.steps:
-            check_shape("u", event.u, inputs, 1, f"with {inputs} inputs ")
+            if event.u is not None:
+                check_shape("u", event.u, inputs, 1, f"with {inputs} inputs ")
             if event.z is not None:
                 check_shape("z", event.z, readings, 1, f"with {readings} readings ")
         check_weights("covariance", self.covariance, positive=False)
         check_weights("process", self.process, positive=False)
         check_weights("sensor", self.sensor, positive=True)
         return self
+
+    @property
+    def driven(self) -> bool:
+        """Whether there are commands at all."""
+        return any(event.u is not None for event in self.steps)
+
+    def command(self, event: Event) -> Rows:
+        """The command of a step; nothing but zeros where none is given."""
+        return event.u or tuple((Fraction(0),) for _ in self.B[0])
+
+    @property
+    def asked(self) -> range:
+        """The steps whose beliefs are asked for: all, or as many of the last as there are letters for."""
+        first, parts = len(self.steps) + 1, 0
+        for event in reversed(self.steps):
+            parts += (1 if self.on_a_line else 2) + (event.z is not None) * (1 if self.on_a_line else 3)
+            if parts > LETTERS:
+                break
+            first -= 1
+        return range(first, len(self.steps) + 1)
 
     @property
     def on_a_line(self) -> bool:
@@ -113,19 +144,26 @@ def _handy() -> tuple[tuple[int, int, int], ...]:
 def question(given: Given) -> Question:
     """The models and the steps; the belief after every motion and every measurement."""
     blocks = _line(given) if given.on_a_line else _models(given)
-    rows = (
-        ("$u_t$", *(_column(event.u) for event in given.steps)),
-        ("$z_t$", *("–" if event.z is None else _column(event.z) for event in given.steps)),
-    )
-    times = tuple(f"${time}$" for time in range(1, len(given.steps) + 1))
     parts: list[Part] = []
-    for time, event in enumerate(given.steps, 1):
-        for ask, kind, points in _wanted(given, time, event):
+    for time in given.asked:
+        for ask, kind, points in _wanted(given, time, given.steps[time - 1]):
             parts.append(Part(ask, kind, points, zero=True))
-    return Question((*blocks, Table(header=("$t$", *times), rows=rows)), tuple(parts))
+    left_out = given.asked[0] - 1
+    told = f"What comes out is asked for from step ${left_out + 1}$ on."
+    return Question((*blocks, _steps(given), *([Paragraph(told)] if left_out else [])), tuple(parts))
 
 
-def _column(vector: MatrixField) -> str:
+def _steps(given: Given) -> Table:
+    """Commands and measurements, a column for every step, or a row where they are many."""
+    lines = [("$t$", *(f"${time}$" for time in range(1, len(given.steps) + 1)))]
+    if given.driven:
+        lines.append(("$u_t$", *(_column(given.command(event)) for event in given.steps)))
+    lines.append(("$z_t$", *("–" if event.z is None else _column(event.z) for event in given.steps)))
+    header, *rows = lines if len(given.steps) < _WIDE else zip(*lines, strict=True)
+    return Table(header=header, rows=tuple(rows))
+
+
+def _column(vector: Rows) -> str:
     numbers = ", ".join(shown(line[0]) for line in vector)
     return f"${numbers}$" if len(vector) == 1 else f"$({numbers})$"
 
@@ -134,10 +172,11 @@ def _line(given: Given) -> tuple[Block, ...]:
     mean, variance, process, sensor = (
         shown(rows[0][0]) for rows in (given.mean, given.covariance, given.process, given.sensor)
     )
+    moves = "it first moves by $u_t$ plus" if given.driven else "its position first changes by"
     return (
         Paragraph(
             f"A robot believes that its position on a line is normal with mean $μ_0 = {mean}$ and variance "
-            f"$Σ_0 = {variance}$. In every step it first moves by $u_t$ plus normal noise of variance "
+            f"$Σ_0 = {variance}$. In every step {moves} normal noise of variance "
             f"$R = {process}$; then it measures its position as $z_t$, with normal noise of variance $Q = {sensor}$. "
             "All noises are independent, with mean $0$."
         ),
@@ -146,9 +185,10 @@ def _line(given: Given) -> tuple[Block, ...]:
 
 def _models(given: Given) -> tuple[Block, ...]:
     named = (
-        ("A", given.A), ("B", given.B), ("R", given.process), ("C", given.C), ("Q", given.sensor),
-        ("μ_0", given.mean), ("Σ_0", given.covariance),
+        ("A", given.A), *((("B", given.B),) if given.driven else ()), ("R", given.process), ("C", given.C),
+        ("Q", given.sensor), ("μ_0", given.mean), ("Σ_0", given.covariance),
     )  # fmt: skip
+    driven = " + B u_t" if given.driven else ""
     told = (
         "A robot's state is its position and its velocity"
         if len(given.mean) == 2
@@ -156,7 +196,7 @@ def _models(given: Given) -> tuple[Block, ...]:
     )
     return (
         Paragraph(
-            f"{told}. In every step it becomes $x_t = A x_{{t−1}} + B u_t + ε_t$, and $z_t = C x_t + δ_t$ is measured. "
+            f"{told}. In every step it becomes $x_t = A x_{{t−1}}{driven} + ε_t$, and $z_t = C x_t + δ_t$ is measured. "
             "The noises $ε_t$ and $δ_t$ are normal and independent, with mean $0$ and covariances $R$ and $Q$. The "
             "first belief is normal, with mean $μ_0$ and covariance $Σ_0$."
         ),

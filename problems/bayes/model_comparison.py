@@ -19,21 +19,38 @@ REVISION = 1
 
 
 class CoinModel(Givens):
-    """What a model says of the probability of heads: that it is ``theta``, or that its prior is Beta(a, b)."""
+    """What a model says of the probability of heads: ``theta``, or its prior: some ``thetas``, or Beta(a, b)."""
 
     theta: Probability | None = None
+    thetas: tuple[tuple[Probability, Probability], ...] | None = Field(
+        default=None, min_length=1, max_length=100, description="the possible θ, each with its prior: [θ, p(θ)]"
+    )
     a: int = Field(default=1, ge=1, le=100)
     b: int = Field(default=1, ge=1, le=100)
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Self:
-        if self.theta is not None and (self.a, self.b) != (1, 1):  # 1 is what files hold where nothing was said
-            raise ValueError("with theta there is no prior Beta(a, b); leave out theta, or a and b")
+        fixed = self.theta is not None or self.thetas is not None
+        if fixed and (self.a, self.b) != (1, 1):  # 1 is what files hold where nothing was said
+            what = "theta" if self.theta is not None else "thetas"
+            raise ValueError(f"with {what} there is no prior Beta(a, b); leave out {what}, or a and b")
+        if self.theta is not None and self.thetas is not None:
+            raise ValueError("give either theta or thetas, its possible values with their priors")
+        if self.thetas is not None:
+            if len(dict(self.thetas)) < len(self.thetas):
+                raise ValueError("thetas: one θ is given twice; add its priors up")
+            check_distribution({str(theta): chance for theta, chance in self.thetas}, "thetas")
         return self
+
+    @property
+    def certain(self) -> tuple[tuple[Fraction, Fraction], ...]:
+        """The possible θ with their priors, where these are a few; none where θ may be anything."""
+        return self.thetas or (() if self.theta is None else ((self.theta, Fraction(1)),))
 
     def allows(self, heads: int, tails: int) -> bool:
         """Whether there can be such tosses."""
-        return not ((self.theta == 0 and heads) or (self.theta == 1 and tails))
+        possible = [not ((theta == 0 and heads) or (theta == 1 and tails)) for theta, chance in self.certain if chance]
+        return any(possible) or not self.certain
 
 
 class Given(Givens):
@@ -120,6 +137,8 @@ def question(given: Given) -> Question:
 def _says(model: CoinModel) -> str:
     if model.theta is not None:
         return f"$θ = {shown(model.theta)}$"
+    if model.thetas is not None:
+        return "; ".join(f"$θ = {shown(theta)}$ with $p(θ) = {shown(chance)}$" for theta, chance in model.thetas)
     if model.a == model.b == 1:
         return 'anything from $0$ to $1$ alike: $"Beta"(1, 1)$'
     return f'unknown, with the prior $"Beta"({model.a}, {model.b})$'

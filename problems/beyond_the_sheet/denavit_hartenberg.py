@@ -4,16 +4,18 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from rldrill.problems import robots
 from rldrill.problems.angles import AngleField, read_angle, text
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.mathematics import mathematics
+from rldrill.problems.matrices import MatrixField, check_shape, tabular
 from rldrill.problems.parts import Matrix, Part
 
 TITLE = "Denavit-Hartenberg transforms"
@@ -31,10 +33,42 @@ class Link(Givens):
 
 
 class Given(Givens):
-    """The links from the base outwards, and what the arm is called."""
+    """The links from the base outwards, and what the arm is called.
+
+    With ``frames`` the pose of every link's frame is asked for, not of the last one alone.
+    """
 
     links: tuple[Link, ...] = Field(min_length=1, max_length=7)
     name: str = Field(default="an arm", max_length=60, pattern=r"^[^$\\]*$")
+    base: MatrixField | None = Field(
+        default=None, description="the 4×4 transform of the base's frame to the world's; none if left out"
+    )
+    frames: bool = Field(
+        default=False,
+        exclude_if=lambda frames: not frames,
+        description="whether the pose of every link's frame is asked for, not of the last one alone",
+    )
+
+    @model_validator(mode="after")
+    def _placed(self) -> Self:
+        if self.base is None:
+            return self
+        check_shape("base", self.base, 4, 4)
+        *axes, last = self.base
+        if list(last) != [0, 0, 0, 1]:
+            raise ValueError("base: the last row of a transform is 0, 0, 0, 1; correct it")
+        (a, b, c), (d, e, f), (g, h, i) = (line[:3] for line in axes)
+        rows = ((a, b, c), (d, e, f), (g, h, i))
+        turned = all(dot(rows[k], rows[m]) == (k == m) for k in range(3) for m in range(k + 1))
+        if not turned or a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) != 1:
+            raise ValueError("base: its 3×3 corner must be a rotation, whose rows are perpendicular and of length 1")
+        return self
+
+    @property
+    def posed(self) -> range:
+        """The links of which the pose is asked for; that of a first link without a base is its transform."""
+        first, count = (1 if self.base else 2), len(self.links)
+        return range(first if self.frames else max(first, count), count + 1)
 
 
 @cache
@@ -62,9 +96,9 @@ def question(given: Given) -> Question:
         for index, link in enumerate(given.links, 1)
     )
     asks = [(f"What is the transform $T_{index}$ of link ${index}$?", 1) for index in range(1, count + 1)]
-    if count > 1:
-        product = " ".join(f"T_{index}" for index in range(1, count + 1))
-        asks.append((f"What is the transform $T = {product}$ from the base to the last link?", 2))
+    for link in given.posed:
+        product = " ".join((*(["T_b"] if given.base else []), *(f"T_{index}" for index in range(1, link + 1))))
+        asks.append((_pose(given, link, product), 2))
     several = {1: "The link", 2: "The first two links", 3: "The first three links"}.get(count, "The links")
     return Question(
         (
@@ -75,6 +109,24 @@ def question(given: Given) -> Question:
                 '$T_i = "Rot"_z(θ_i) "Trans"_z(d_i) "Trans"_x(a_i) "Rot"_x(α_i)$, which takes coordinates of its own '
                 "frame to the frame before it."
             ),
+            *_base(given),
         ),
         tuple(Part(ask, Matrix(4, 4), points=points) for ask, points in asks),
+    )
+
+
+def _pose(given: Given, link: int, product: str) -> str:
+    if not given.frames and given.base is None:
+        return f"What is the transform $T = {product}$ from the base to the last link?"
+    seen = "world" if given.base else "base"
+    which = f"of link ${link}$" if given.frames else "of the last link"
+    return f"What is the transform $T = {product}$ that takes coordinates of the frame {which} to those of the {seen}?"
+
+
+def _base(given: Given) -> tuple[Block, ...]:
+    if given.base is None:
+        return ()
+    return (
+        Paragraph("The base does not stand in the frame of the world; its coordinates are taken there by"),
+        Equation(mathematics("T_b"), (tabular(given.base),), ("=",)),
     )

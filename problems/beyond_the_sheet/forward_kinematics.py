@@ -1,8 +1,15 @@
 """The end point and the orientation of a planar arm."""
 
+from fractions import Fraction
+
+from pydantic import Field
+
+from rldrill.problems.angles import AngleField, read_angle, text
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
+from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
-from rldrill.problems.family import Question
+from rldrill.problems.exact import Exact, shown
+from rldrill.problems.family import Givens, Question
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
@@ -10,8 +17,29 @@ SOURCE = "Siciliano et al. 2009, section 2.9.1"
 REVISION = 1
 
 
+class Base(Givens):
+    """Where the base of an arm is, and how its x axis is turned."""
+
+    x: Exact = Fraction(0)
+    y: Exact = Fraction(0)
+    phi: AngleField = Field(default=read_angle(0), description="the angle of the base's x axis, in radians")
+
+
 class Given(PlanarArm):
-    """An arm; what is asked for is where its end is, and how it points."""
+    """An arm; what is asked for is where its end is, and how it points; with ``frames`` those of every link."""
+
+    base: Base | None = Field(default=None, description="the pose of the base; the origin, if left out")
+    frames: bool = Field(
+        default=False,
+        exclude_if=lambda frames: not frames,
+        description="whether the pose of every link's end is asked for, not of the last one alone",
+    )
+
+    @property
+    def asked(self) -> range:
+        """The links whose ends are asked for."""
+        count = len(self.lengths)
+        return range(1 if self.frames else count, count + 1)
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -22,11 +50,25 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def question(given: Given) -> Question:
-    """Orientation, then position."""
-    return Question(
-        situation(given),
-        (
-            Part("What is the angle $φ$ of the last link against the $x$ axis, in radians?", Number(), zero=True),
-            Part("Where is the end point $(x, y)$ of the last link?", Numbers(("x", "y")), points=2),
-        ),
-    )
+    """Orientation, then position; of every link that is asked for."""
+    if not given.frames:
+        which = [("$φ$ of the last link", "$(x, y)$ of the last link", ("x", "y"))]
+    else:
+        which = [
+            (f"$φ_{i}$ of link ${i}$", f"$(x_{i}, y_{i})$ of link ${i}$", (f"x_{i}", f"y_{i}")) for i in given.asked
+        ]
+    parts = []
+    for angle, end, entries in which:
+        parts += [
+            Part(f"What is the angle {angle} against the $x$ axis, in radians?", Number(), zero=True),
+            Part(f"Where is the end point {end}?", Numbers(entries), points=2, zero=given.frames),
+        ]
+    return Question(_situation(given), tuple(parts))
+
+
+def _situation(given: Given) -> tuple[Block, ...]:
+    if given.base is None:
+        return situation(given)
+    place = f"({shown(given.base.x)}, {shown(given.base.y)})"
+    turned = f"its base is at ${place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
+    return situation(given, f"{turned} against the $x$ axis", "x_0")

@@ -12,7 +12,7 @@ REVISION = 2
 
 
 class Given(System):
-    """A system; what is asked for are A and B, of its Euler step if it has one."""
+    """A system; what is asked for are A and B, of its Euler step or zero-order hold if it has one."""
 
 
 def draw(level: int, rng: Draws) -> Given:

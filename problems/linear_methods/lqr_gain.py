@@ -3,12 +3,13 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import dot
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import dot, shown
+from rldrill.problems.family import Question
+from rldrill.problems.linear_quadratic import Conventional, quadratic
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, is_positive, tabular
 from rldrill.problems.parts import Matrix as MatrixKind
@@ -19,30 +20,40 @@ SOURCE = "Bertsekas 2017, section 3.1"
 REVISION = 1
 
 
-class Given(Givens):
-    """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows."""
+class Given(Conventional):
+    """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows.
+
+    P is the value's matrix, negative; or in a convention of costs the cost-to-go's, positive.
+    """
 
     A: MatrixField
     B: MatrixField
     R: MatrixField
     P: MatrixField
+    N: MatrixField | None = Field(default=None, description="the cross term: the cost has 2 sᵀNa, too; else none")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         n, m = len(self.A), len(self.B[0])
         for name, matrix, rows, columns in (
             ("A", self.A, n, n), ("B", self.B, n, m), ("R", self.R, m, m), ("P", self.P, n, n),
+            *((("N", self.N, n, m),) if self.N else ()),
         ):  # fmt: skip
             check_shape(name, matrix, rows, columns, f"with A {n}×{n} and {m} inputs ")
         for name, matrix in (("R", self.R), ("P", self.P)):
             check_symmetric(name, matrix)
         inputs = tuple(zip(*self.B, strict=True))
+        factor = self.gamma if self.notation.costs else -self.gamma
         curved = tuple(
-            tuple(self.R[i][j] - dot(first, (dot(line, then) for line in self.P)) for j, then in enumerate(inputs))
+            tuple(
+                self.R[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
+                for j, then in enumerate(inputs)
+            )
             for i, first in enumerate(inputs)
         )
         if not is_positive(curved):
-            raise ValueError("R − BᵀPB is not positive definite, so no action is the best; change R, B or P")
+            what = f"R {'+' if factor > 0 else '−'} {'' if self.gamma == 1 else 'γ'}Bᵀ{self.notation.value}B"
+            raise ValueError(f"{what} is not positive definite, so no action is the best; change R, B or P")
         return self
 
 
@@ -64,22 +75,23 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The four matrices; the gain is asked for."""
-    named = (("A_0", given.A), ("B_0", given.B), ("R_0", given.R), ("P_1", given.P))
+    x, u, L, P, in_costs = given.notation
+    named = (
+        ("A_0", given.A), ("B_0", given.B), ("R_0", given.R), *((("N_0", given.N),) if given.N else ()),
+        (f"{P}_1", given.P),
+    )  # fmt: skip
+    cost = quadratic(given.notation, "_t", crossed=given.N is not None)
+    earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
+    value = f"${x}^⊤ {P}_{{t+1}} {x}$" if in_costs else f"$V_{{t+1}}({x}) = {x}^⊤ {P}_{{t+1}} {x}$"
+    what = "The cost-to-go" if in_costs else "The value"
+    discount = "" if given.gamma == 1 else f" It counts $γ$ times, with the discount $γ = {shown(given.gamma)}$."
     blocks = (
         Paragraph(
-            "A linear system $s_{t+1} = A_t s_t + B_t a_t$ earns the reward "
-            "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$. The value from the next time on is "
-            "$V_{t+1}(s) = s^⊤ P_{t+1} s$. At $t = 0$:"
+            f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. {what} from the next time on is "
+            f"{value}.{discount} At $t = 0$:"
         ),
         *(Equation(mathematics(name), (tabular(lines),), ("=",)) for name, lines in named),
     )
     rows, columns = len(given.B[0]), len(given.A)
-    return Question(
-        blocks,
-        (
-            Part(
-                "What is the gain $L_0$ of the optimal action $a_0 = −L_0 s_0$?",
-                MatrixKind(rows, columns),
-            ),
-        ),
-    )
+    ask = f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0$?"
+    return Question(blocks, (Part(ask, MatrixKind(rows, columns)),))

@@ -6,11 +6,13 @@ from itertools import product
 from math import isqrt
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import shown
+from rldrill.problems.family import Question
+from rldrill.problems.linear_quadratic import Conventional, check_cross, quadratic
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, tabular
 from rldrill.problems.parts import Matrix, Part
@@ -22,7 +24,7 @@ _LARGEST = 6
 _LARGEST_ROOT = 40
 
 
-class Given(Givens):
+class Given(Conventional):
     """A (n×n), B (n×m), Q (n×n) and R (m×m), the same at all times; n is at most 6.
 
     Closed forms are found for a scalar system and for one that falls apart into scalar ones; others are
@@ -33,6 +35,9 @@ class Given(Givens):
     B: MatrixField
     Q: MatrixField
     R: MatrixField
+    N: MatrixField | None = Field(
+        default=None, description="the cross term: the cost has 2 sᵀNa, too; none if left out"
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -42,10 +47,13 @@ class Given(Givens):
         where = f"with A {n}×{n} and {m} actions "
         for name, matrix, rows, columns in (
             ("A", self.A, n, n), ("B", self.B, n, m), ("Q", self.Q, n, n), ("R", self.R, m, m),
+            *((("N", self.N, n, m),) if self.N else ()),
         ):  # fmt: skip
             check_shape(name, matrix, rows, columns, where)
         check_weights("Q", self.Q, positive=False)
-        check_weights("R", self.R, positive=True)
+        check_weights("R", self.R, positive=False)
+        if self.N:
+            check_cross(self.Q, self.R, self.N)
         return self
 
 
@@ -100,20 +108,23 @@ def _circulant(diagonal_: Fraction, beside: Fraction) -> Rows:
 def question(given: Given) -> Question:
     """The matrices; P, the gain, and the closed loop."""
     n, m = len(given.A), len(given.B[0])
-    named = (("A", given.A), ("B", given.B), ("Q", given.Q), ("R", given.R))
+    x, u, L, P, in_costs = given.notation
+    named = (("A", given.A), ("B", given.B), ("Q", given.Q), ("R", given.R), *((("N", given.N),) if given.N else ()))
     coupled = n == 2 and _circulant(given.A[0][0], given.A[0][1]) == given.A and given.A[0][1] != 0
     story = "Two equal robots act on each other alike: their system" if coupled else "A system"
+    cost = quadratic(given.notation, crossed=given.N is not None)
+    earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
+    discount = " or discount:" if given.gamma == 1 else (
+        f"; what comes at time $t$ counts $γ^t$ times, with the discount $γ = {shown(given.gamma)}$:"
+    )  # fmt: skip
     return Question(
         (
             Paragraph(
-                f"{story} has the dynamics $s_{{t+1}} = A s_t + B a_t$ and earns the reward "
-                "$r(s_t, a_t) = −(s_t^⊤ Q s_t + a_t^⊤ R a_t)$ at every time $t = 0, 1, 2, …$ without end or discount:"
+                f"{story} has the dynamics ${x}_{{t+1}} = A {x}_t + B {u}_t$ and {earns} at every time "
+                f"$t = 0, 1, 2, …$ without end{discount}"
             ),
             *(Equation(mathematics(name), (tabular(matrix),), ("=",)) for name, matrix in named),
-            Paragraph(
-                "The state has to go to $0$. Of all ways to bring it there, the largest sum of all rewards from the "
-                "state $s$ on is $V(s) = s^⊤ P s$; the best action is $a = −L s$."
-            ),
+            Paragraph(_wanted(given)),
             *(
                 (Paragraph("Sum and difference of the two states are two systems that do not act on each other."),)
                 if coupled
@@ -121,8 +132,21 @@ def question(given: Given) -> Question:
             ),
         ),
         (
-            Part("What is $P$?", Matrix(n, n), points=3),
-            Part("What is the gain $L$?", Matrix(m, n), points=2),
-            Part("What is the matrix $A − B L$ of the closed loop?", Matrix(n, n), zero=True),
+            Part(f"What is ${P}$?", Matrix(n, n), points=3),
+            Part(f"What is the gain ${L}$?", Matrix(m, n), points=2),
+            Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True),
         ),
     )
+
+
+def _wanted(given: Given) -> str:
+    """What the matrix and the gain are those of."""
+    x, u, L, P, in_costs = given.notation
+    to_zero = "The state has to go to $0$" if given.gamma == 1 else (
+        f"The discounted state $γ^{{t/2}} {x}_t$ has to go to $0$"
+    )  # fmt: skip
+    if in_costs:
+        sum_ = f"the smallest sum of all costs from the state ${x}$ on is ${x}^⊤ {P} {x}$"
+    else:
+        sum_ = f"the largest sum of all rewards from the state ${x}$ on is $V({x}) = {x}^⊤ {P} {x}$"
+    return f"{to_zero}. Of all ways to bring it there, {sum_}; the best action is ${u} = −{L} {x}$."

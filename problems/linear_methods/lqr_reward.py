@@ -5,11 +5,11 @@ from typing import Self
 
 from pydantic import model_validator
 
-from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, dot
 from rldrill.problems.family import Question
-from rldrill.problems.linear_quadratic import LinearQuadratic, draw_system, situation
+from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, costs, draw_system, situation
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatricesField, check_shape, tabular
 from rldrill.problems.parts import Number, Part
@@ -26,14 +26,18 @@ _FAR = 6
 
 
 class Given(LinearQuadratic):
-    """A system, and the gain L (or one for every time 0 to horizon) of the actions a = −L s."""
+    """A system, and the gain L (or one for every time 0 to horizon) of the actions a = −L s.
+
+    With a discount, a cross term or a final cost of its own there is no action at the horizon any more.
+    """
 
     L: MatricesField
 
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:
-        if len(self.L) not in (1, self.horizon + 1):
-            raise ValueError(f"L holds {len(self.L)} matrices; give one, or {self.horizon + 1} for the times from 0")
+        count = self.horizon + self.plain
+        if len(self.L) not in (1, count):
+            raise ValueError(f"L holds {len(self.L)} matrices; give one, or {count} for the times from 0")
         for gain in self.L:
             check_shape("L", gain, self.actions, len(self.start), f"with {len(self.start)} states ")
         return self
@@ -72,14 +76,16 @@ def question(given: Given) -> Question:
     sum_ = " + ".join(f"r(s_{time}, a_{time})" for time in range(last + 1)) if last < 3 else (
         f"r(s_0, a_0) + … + r(s_{{{last}}}, a_{{{last}}})"
     )  # fmt: skip
+    told = "The actions are $a_t = −L_t s_t$ at every one of these times"
+    blocks: tuple[Block, ...] = (*situation(given), Paragraph(f"{told}, the last included:"))
+    total = f"What is the total reward $J = {sum_}$"
+    if not given.plain:
+        blocks = (*costs(given, NOTATIONS["value"]), Paragraph(f"{told} before $T$:"))
+        total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
     return Question(
-        (
-            *situation(given),
-            Paragraph("The actions are $a_t = −L_t s_t$ at every one of these times, the last included:"),
-            *gains,
-        ),
+        (*blocks, *gains),
         (
             Part(f"What is the first reward $r(s_0, a_0)${in_open(given)}?", Number()),
-            Part(f"What is the total reward $J = {sum_}${in_open(given)}?", Number(), points=2),
+            Part(f"{total}{in_open(given)}?", Number(), points=2),
         ),
     )

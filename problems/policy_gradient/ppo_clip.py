@@ -1,6 +1,6 @@
 """PPO: the probability ratios, the two terms and the clipped objective of one or more samples."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Self
 
@@ -22,24 +22,31 @@ REVISION = 1
 class Sample(Givens):
     """One action taken in a state, how likely it was and is now, and its advantage.
 
-    The new probability is given as ``new``, or follows from the new policy's ``preferences`` in that state.
+    The new probability is given as ``new``, or follows from the new policy's ``preferences`` in that state; so does the
+    old one from ``old`` or ``old_preferences``.
     """
 
     state: Name
     action: Name
-    old: Probability
+    old: Probability | None = None
+    old_preferences: dict[Name, WeightField] | None = Field(
+        default=None, description="the old policy's preferences in that state, in place of old"
+    )
     new: Probability | None = None
     preferences: dict[Name, WeightField] | None = None
     advantage: Exact
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.old == 0:
+        if self.old is not None and self.old == 0:
             raise ValueError("old: the action was taken, so its probability was not 0")
         if (self.new is None) == (self.preferences is None):
             raise ValueError("give either the new probability or the new policy's preferences")
-        if self.preferences is not None and self.action not in self.preferences:
-            raise ValueError(f"preferences: the preference of {self.action!r} is missing")
+        if (self.old is None) == (self.old_preferences is None):
+            raise ValueError("give either the old probability or the old policy's preferences")
+        for name, preferences in (("preferences", self.preferences), ("old_preferences", self.old_preferences)):
+            if preferences is not None and self.action not in preferences:
+                raise ValueError(f"{name}: the preference of {self.action!r} is missing")
         return self
 
 
@@ -55,12 +62,21 @@ class Given(Givens):
             raise ValueError(
                 "samples: give preferences of the same actions in all of them, or new probabilities in all"
             )
+        if len({tuple(sample.old_preferences or ()) for sample in self.samples}) > 1:
+            raise ValueError(
+                "samples: give old_preferences of the same actions in all of them, or old probabilities in all"
+            )
         return self
 
     @property
     def actions(self) -> tuple[str, ...]:
         """The actions that preferences are given of; none, where the new probabilities are given."""
         return tuple(self.samples[0].preferences or ())
+
+    @property
+    def old_actions(self) -> tuple[str, ...]:
+        """The actions that the old policy's preferences are given of; none, where the old probabilities are given."""
+        return tuple(self.samples[0].old_preferences or ())
 
 
 #: Old and new probability of an action that became clearly more likely; reversed, clearly less; or hardly changed.
@@ -120,6 +136,7 @@ def question(given: Given) -> Question:
         Paragraph(f"PPO learns from the {wanted} below, taken by the old policy; $A_t$ is the estimated advantage."),
         _samples_table(given),
         *([Paragraph("The new policy is softmax in its preferences $h(s, a)$.")] if given.actions else []),
+        *([Paragraph("The old policy is softmax in its preferences $h_{old}(s, a)$.")] if given.old_actions else []),
         Paragraph(
             "With the ratio $ρ_t$ of new to old probability, the unclipped term is $u_t = ρ_t A_t$ and the clipped one "
             f"$c_t$ has $ρ_t$ clipped to the range from $1 − ε$ to $1 + ε$, with $ε = {shown(given.epsilon)}$."
@@ -136,16 +153,17 @@ def _asked(what: str, letter: str, times: range) -> Part:
 
 
 def _samples_table(given: Given) -> Table:
+    old = tuple(f'$h_{{old}}(s_t, "{action}")$' for action in given.old_actions) or ("$π_{old}(a_t|s_t)$",)
     new = tuple(f'$h(s_t, "{action}")$' for action in given.actions) or ("$π_θ(a_t|s_t)$",)
     return Table(
-        header=("$t$", "$s_t$", "$a_t$", "$π_{old}(a_t|s_t)$", *new, "$A_t$"),
+        header=("$t$", "$s_t$", "$a_t$", *old, *new, "$A_t$"),
         rows=tuple(
             (
                 f"${time}$",
                 sample.state,
                 sample.action,
-                f"${shown(sample.old)}$",
-                *(f"${shown(value)}$" for value in _new(sample)),
+                *(f"${shown(value)}$" for value in _either(sample.old, sample.old_preferences)),
+                *(f"${shown(value)}$" for value in _either(sample.new, sample.preferences)),
                 f"${shown(sample.advantage)}$",
             )
             for time, sample in enumerate(given.samples)
@@ -153,5 +171,5 @@ def _samples_table(given: Given) -> Table:
     )
 
 
-def _new(sample: Sample) -> tuple[Weight, ...]:
-    return (sample.new,) if sample.new is not None else tuple((sample.preferences or {}).values())
+def _either(chance: Fraction | None, preferences: Mapping[str, Weight] | None) -> tuple[Weight, ...]:
+    return (chance,) if chance is not None else tuple((preferences or {}).values())

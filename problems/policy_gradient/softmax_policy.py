@@ -6,11 +6,12 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact
+from rldrill.problems.exact import Parameter, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weights
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Part, Values
+from rldrill.problems.parts import Number, Part, Values
+from rldrill.problems.phrases import check_one_open, in_open
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Softmax policy"
@@ -21,12 +22,16 @@ REVISION = 1
 class Given(Givens):
     """The weights θ, and in one state the features of every action."""
 
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=20)
+    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20)
     features: dict[Name, FeatureVector] = Field(min_length=2)
+    entropy: bool = Field(
+        default=False, exclude_if=lambda entropy: not entropy, description="whether the policy's entropy is asked for"
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_features(self.features, len(self.theta))
+        check_one_open(self)
         return self
 
 
@@ -45,22 +50,21 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """Weights and features; first the preferences, then the probabilities."""
     actions = tuple(given.features)
+    opened = "".join(f" The number ${shown(Parameter(name))} > 0$ is left open." for name in given.parameters())
     blocks = (
         Paragraph("In state $s$ the actions have these features:"),
         features_table(given.features),
         Paragraph(
             f"The weights are ${weights(given.theta)}$. The policy is softmax in the preferences "
-            "$h(s, a) = θ^⊤ f(s, a)$."
+            f"$h(s, a) = θ^⊤ f(s, a)$.{opened}"
         ),
     )
-    return Question(
-        blocks,
-        (
-            Part("What is the preference $h(s, a)$ of every action?", Values("h", actions), zero=True),
-            Part(
-                "With which probability $π(a|s)$ is every action taken?",
-                Values("π", actions),
-                points=2,
-            ),
-        ),
-    )
+    left_open = in_open(given)
+    parts = [
+        Part(f"What is the preference $h(s, a)$ of every action{left_open}?", Values("h", actions), zero=True),
+        Part(f"With which probability $π(a|s)$ is every action taken{left_open}?", Values("π", actions), points=2),
+    ]
+    if given.entropy:
+        ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"
+        parts.append(Part(f"{ask}{left_open}?", Number(), points=2))
+    return Question(blocks, tuple(parts))

@@ -1,15 +1,18 @@
 """Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
 
+from functools import reduce
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
 import sympy
 
-from rldrill.problems.bayes.bic import Data, Given
+from rldrill.problems.bayes.bic import Data, Fitted, Given
+from rldrill.problems.document import joined
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD
+from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD, akaike
 from rldrill.solutions.work import Work
 
 
@@ -19,21 +22,28 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _compare(given: Given, work: Work, better: int) -> None:
-    """The first model wins where the sign of its BIC minus the other's is ``better``."""
+    """The model wins of which the sign of its criterion minus any other's is ``better``."""
     names = given.names
     if given.fitted is not None:
         n = exact(given.n or 0)
         free = {name: exact(model.k) for name, model in given.fitted.items()}
-        fit = {name: sympy.log(to_sympy(exact(model.likelihood))) for name, model in given.fitted.items()}
+        fit = {name: _logarithm(model) for name, model in given.fitted.items()}
     else:
         assert given.data is not None
         n = exact(sum(map(sum, given.data.tosses.values())))
         free = {name: exact(free_parameters(given.data, name)) for name in names}
         fit = work.answer({name: _fit(work, given.data, name) for name in names})
+    formula = BIC if given.criterion == "BIC" else akaike()
     criteria = work.answer(
-        {name: work.step(BIC, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
+        {name: work.step(formula, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
     )
-    work.answer(_winner(work, criteria, names, better))
+    work.answer(_winner(work, given, criteria, better))
+
+
+def _logarithm(model: Fitted) -> Value:
+    if model.log_likelihood is not None:
+        return exact(model.log_likelihood)
+    return sympy.log(to_sympy(exact(model.likelihood or 0)))
 
 
 def free_parameters(data: Data, model: str) -> int:
@@ -63,13 +73,16 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     return shorter
 
 
-def _winner(work: Work, criteria: dict[str, Value], names: tuple[str, ...], better: int) -> str:
-    numbers = " and ".join(f"BIC({name}) ≈ {float(enclosure(value).mid()):.4g}" for name, value in criteria.items())
-    work.say(f"In numbers, {numbers}; the smaller one wins.")
-    difference = sign(criteria[names[0]] - criteria[names[1]])
-    if difference == 0:
-        raise NoSolution("both models have the same BIC")
-    return "a" if difference == better else "b"
+def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
+    name = given.criterion
+    numbers = [f"{name}({model}) ≈ {float(enclosure(value).mid()):.4g}" for model, value in criteria.items()]
+    two = len(numbers) == 2
+    work.say(f"In numbers, {joined(numbers)}; the {'smaller' if two else 'smallest'} one wins.")
+    models = list(criteria)
+    best = reduce(lambda one, other: other if sign(criteria[other] - criteria[one]) == better else one, models)
+    if any(sign(criteria[best] - criteria[other]) == 0 for other in models if other != best):
+        raise NoSolution(f"{'both' if two else 'the best'} models have the same {name}")
+    return ascii_lowercase[models.index(best)]
 
 
 @slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
@@ -84,7 +97,12 @@ MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 def oracle(given: Given) -> Answers:
     """Every θ of a fine grid tried, then its neighbourhood; products of chances rather than sums of logs."""
     if given.fitted is not None:
-        fit = np.array([np.log(at(model.likelihood)) for model in given.fitted.values()])
+        fit = np.array(
+            [
+                np.log(at(model.likelihood)) if model.likelihood is not None else at(model.log_likelihood or 0)
+                for model in given.fitted.values()
+            ]
+        )
         free = [model.k for model in given.fitted.values()]
         n = given.n or 0
     else:
@@ -99,8 +117,9 @@ def oracle(given: Given) -> Answers:
         fit = np.array([fits[name] for name in given.names])
         free = [{"fair": 0, "shared": 1, "own": len(counts)}[name] for name in given.names]
         n = int(pooled.sum())
-    criteria = np.log(float(n)) * np.array(free) - 2 * fit
-    winner = "ab"[int(criteria.argmin())]
+    price = np.log(float(n)) if given.criterion == "BIC" else 2.0
+    criteria = price * np.array(free) - 2 * fit
+    winner = ascii_lowercase[int(criteria.argmin())]
     return (criteria, winner) if given.fitted is not None else (fit, criteria, winner)
 
 

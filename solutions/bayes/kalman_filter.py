@@ -1,5 +1,6 @@
 """The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from rldrill.solutions.sheet.bayes import (
     KALMAN_MOVE_MEAN,
     PROCESS_NOISE_FORGOTTEN,
     VARIANCES_FOR_INVERSES,
+    without_command,
 )
 from rldrill.solutions.work import Work
 
@@ -32,40 +34,50 @@ def solve(given: Given, work: Work) -> None:
     }  # fmt: skip
     one = identity(len(given.mean))
     for time, event in enumerate(given.steps, 1):
+        answer = work.answer if time in given.asked else _unasked
         known: dict[str, Any] = {name: {time: model} for name, model in models.items()} | {"t": time, "identity": one}
         known |= {
             "mean": {time - 1: mean},
             "covariance": {time - 1: covariance},
-            "moved": {time: given_matrix(event.u)},
+            "moved": {time: given_matrix(given.command(event))},
         }
-        mean = work.step(KALMAN_MOVE_MEAN, **known)
+        mean = work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)
         if not given.on_a_line:
-            mean = work.answer(mean)
+            mean = answer(mean)
         covariance = work.step(KALMAN_MOVE_COVARIANCE, **known)
         if not given.on_a_line:
-            covariance = work.answer(covariance)
+            covariance = answer(covariance)
         else:
-            mean, covariance = _answered(work, mean, covariance)
+            mean, covariance = _answered(answer, mean, covariance)
         if event.z is not None:
             known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
             known["read"] = {time: given_matrix(event.z)}
-            mean, covariance = _measured(given, work, known)
+            mean, covariance = _measured(given, work, answer, known)
 
 
-def _measured(given: Given, work: Work, known: dict[str, Any]) -> tuple[Any, Any]:
+#: What to go on with after an answer.
+Answering = Callable[[Any], Any]
+
+
+def _unasked(value: Any) -> Any:
+    """What comes out of a step that is not asked for."""
+    return value
+
+
+def _measured(given: Given, work: Work, answer: Answering, known: dict[str, Any]) -> tuple[Any, Any]:
     gain = work.step(KALMAN_GAIN, **known)
     if given.on_a_line:
         known = known | {"Kt": {known["t"]: gain}}
         mean, covariance = work.step(KALMAN_MEAN, **known), work.step(KALMAN_COVARIANCE, **known)
-        return _answered(work, mean, covariance)
-    known = known | {"Kt": {known["t"]: work.answer(gain)}}
-    mean = work.answer(work.step(KALMAN_MEAN, **known))
-    return mean, work.answer(work.step(KALMAN_COVARIANCE, **known))
+        return _answered(answer, mean, covariance)
+    known = known | {"Kt": {known["t"]: answer(gain)}}
+    mean = answer(work.step(KALMAN_MEAN, **known))
+    return mean, answer(work.step(KALMAN_COVARIANCE, **known))
 
 
-def _answered(work: Work, mean: Any, covariance: Any) -> tuple[Any, Any]:
+def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
     """Mean and variance on a line as one answer, and as matrices to go on with."""
-    first, second = work.answer((mean[0, 0], covariance[0, 0]))
+    first, second = answer((mean[0, 0], covariance[0, 0]))
     return matrix([[first]]), matrix([[second]])
 
 
@@ -73,6 +85,8 @@ def oracle(given: Given) -> Answers:
     """All states and readings as one Gaussian in the first state and all noises; then conditioned at once."""
     answers: list[Any] = []
     A, B, C, R, Q = (_array(rows) for rows in (given.A, given.B, given.C, given.process, given.sensor))
+    if not given.driven:
+        B = np.zeros((len(A), len(given.B[0])))
     n, m, count = len(A), len(C), len(given.steps)
     spread = np.zeros((n + count * (n + m),) * 2)
     spread[:n, :n] = _array(given.covariance)
@@ -82,19 +96,24 @@ def oracle(given: Given) -> Answers:
         motion = n + step * (n + m)
         sensor = motion + n
         spread[motion:sensor, motion:sensor], spread[sensor : sensor + m, sensor : sensor + m] = R, Q
-        state, mean = A @ state, A @ mean + B @ _array(event.u)[:, 0]
+        state, mean = A @ state, A @ mean + B @ _array(given.command(event))[:, 0]
         state[:, motion:sensor] += np.eye(n)
-        answers += _asked(given, *seen.posterior(state, mean, spread))
-        if event.z is not None:
-            reading = C @ state
-            reading[:, sensor : sensor + m] += np.eye(m)
-            before = seen
-            seen = before.with_more(reading, _array(event.z)[:, 0] - C @ mean)
-            if not given.on_a_line:
-                here = seen.posterior(state, mean, spread)[0]
-                shifted = (before.with_more(reading, _array(event.z)[:, 0] - C @ mean + unit) for unit in np.eye(m))
-                answers.append(np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1))
+        asked = step + 1 in given.asked
+        if asked:
             answers += _asked(given, *seen.posterior(state, mean, spread))
+        if event.z is None:
+            continue
+        reading = C @ state
+        reading[:, sensor : sensor + m] += np.eye(m)
+        before = seen
+        seen = before.with_more(reading, _array(event.z)[:, 0] - C @ mean)
+        if not asked:
+            continue
+        if not given.on_a_line:
+            here = seen.posterior(state, mean, spread)[0]
+            shifted = (before.with_more(reading, _array(event.z)[:, 0] - C @ mean + unit) for unit in np.eye(m))
+            answers.append(np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1))
+        answers += _asked(given, *seen.posterior(state, mean, spread))
     return answers
 
 

@@ -8,7 +8,15 @@ from rldrill.problems.bayes.model_comparison import CoinModel, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import BAYES, BEST_FIT, EVIDENCE, FIXED_COIN, MODEL_COMPARISON, POSTERIOR_ODDS
+from rldrill.solutions.sheet.bayes import (
+    BAYES,
+    BEST_FIT,
+    EVIDENCE,
+    FIXED_COIN,
+    MODEL_COMPARISON,
+    POSTERIOR_ODDS,
+    few_values,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (BEST_FIT,)
@@ -35,6 +43,9 @@ def solve(given: Given, work: Work) -> None:
 def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -> Any:
     if model.theta is not None:
         return work.step(FIXED_COIN, M=name, share=exact(model.theta), **tosses)
+    if model.thetas is not None:
+        thetas, priors = ({i: exact(pair[which]) for i, pair in enumerate(model.thetas, 1)} for which in (0, 1))
+        return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, n=len(thetas), **tosses)
     return work.step(EVIDENCE, M=name, beta_a=model.a, beta_b=model.b, **tosses)
 
 
@@ -44,12 +55,13 @@ def oracle(given: Given) -> Answers:
     theta, weights = (nodes + 1) / 2, weights / 2
     evidence = []
     for model in given.models.values():
-        if model.theta is None:
+        if not model.certain:
             density = theta ** (model.a - 1) * (1 - theta) ** (model.b - 1) * weights
             likelihood = theta**given.heads * (1 - theta) ** given.tails
             evidence.append(float((density / density.sum() * likelihood).sum()))
         else:
-            evidence.append(at(model.theta) ** given.heads * (1 - at(model.theta)) ** given.tails)
+            chances = np.array([[at(theta), at(chance)] for theta, chance in model.certain]).T
+            evidence.append(float(chances[0] ** given.heads * (1 - chances[0]) ** given.tails @ chances[1]))
     joint = np.array(evidence) * [at(given.prior[name]) for name in given.models]
     after = joint[0] / joint[1] if len(joint) == 2 else joint / joint.sum()
     return (evidence, after, bool(joint[0] > joint[1:].max() * (1 + 1e-9)))

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 from rldrill.problems.beyond_the_sheet.denavit_hartenberg import Given, Link
+from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import Misconception
-from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.beyond_the_sheet import CHAIN, CRAIGS, LINK_TRANSFORM, WRONG_ORDER
 from rldrill.solutions.work import Work
@@ -25,22 +25,22 @@ def solve(given: Given, work: Work) -> None:
         "alink": {index: exact(link.a) for index, link in enumerate(given.links, 1)},
     }
     transforms = [work.answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
-    if len(transforms) > 1:
-        work.answer(_product(work, transforms))
-
-
-def _product(work: Work, transforms: list[AnyMatrix]) -> AnyMatrix:
-    total = transforms[0]
-    for index, transform in enumerate(transforms[1:], 2):
+    if given.base is None:
+        total, rest, first = transforms[0], transforms[1:], 2
+    else:
+        total, rest, first = matrices.given(given.base), transforms, 1
+    for index, transform in enumerate(rest, first):
         total = work.step(CHAIN, before=total, after=transform, i=index)
-    return total
+        if index in given.posed:
+            total = work.answer(total)
 
 
 def oracle(given: Given) -> Answers:
     """Four elementary motions for each link, one after the other."""
     transforms = [_moved(link) for link in given.links]
-    product = np.linalg.multi_dot([np.eye(4), np.eye(4), *transforms])
-    return [*transforms, *([product] if len(transforms) > 1 else [])]
+    base = np.eye(4) if given.base is None else np.array([[at(entry) for entry in row] for row in given.base])
+    poses = [np.linalg.multi_dot([base, np.eye(4), *transforms[:link]]) for link in given.posed]
+    return [*transforms, *poses]
 
 
 def _moved(link: Link) -> Array:

@@ -1,29 +1,42 @@
 """The angle of every link, then the links added as vectors."""
 
+from typing import Any
+
+import numpy as np
+
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
 from rldrill.solutions import arms
+from rldrill.solutions.dynamics import angle, radians
+from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.oracle import Answers
-from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y, LINK_ANGLE, poses
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """The last link's angle is the orientation; the sums go on from all of them."""
+    """A link's angle is its orientation; the sums go on from all of them."""
     arm = arms.known(given)
-    angles = arms.link_angles(work, arm)
-    last = len(angles)
-    arm["phi"] = angles | {last: work.answer(angles[last])}
-    work.answer((work.step(FORWARD_X, **arm), work.step(FORWARD_Y, **arm)))
+    base = given.base
+    if base is not None:
+        arm |= {"phi": {0: angle(base.phi)}, "x0": exact(base.x), "y0": exact(base.y)}
+    forms = (LINK_ANGLE, FORWARD_X, FORWARD_Y) if base is None and not given.frames else poses(moved=base is not None)
+    angles: dict[int, Any] = {}
+    for link in given.asked:
+        angles |= {index: work.step(forms[0], i=index, **arm) for index in range(len(angles) + 1, link + 1)}
+        angles[link] = work.answer(angles[link])
+        known = arm | {"phi": angles, "n": link}
+        work.answer((work.step(forms[1], **known), work.step(forms[2], **known)))
 
 
 @slip("sine-for-cosine", "With angles from the x axis, the cosines give x and the sines give y: they were exchanged.")
 def exchanged(given: Given, work: Work) -> None:
     """y for x, and x for y."""
-    heading, (x, y) = right_answers(solve, given, work)
-    work.answer(heading)
-    work.answer((y, x))
+    answers = iter(right_answers(solve, given, work))
+    for heading, (x, y) in zip(answers, answers, strict=True):
+        work.answer(heading)
+        work.answer((y, x))
 
 
 MISCONCEPTIONS = (ABSOLUTE_ANGLES, exchanged)
@@ -31,5 +44,13 @@ MISCONCEPTIONS = (ABSOLUTE_ANGLES, exchanged)
 
 def oracle(given: Given) -> Answers:
     """Rotations of the complex plane, from the last link inwards."""
-    end = arms.end_point(given, arms.joint_angles(given))
-    return (end[2], end[:2])
+    base, angles = given.base, arms.joint_angles(given)
+    origin = complex(at(base.x), at(base.y)) if base else 0j
+    turned = radians(base.phi) if base else 0.0
+    answers: list[Any] = []
+    for link in given.asked:
+        shorter = given.model_copy(update={"lengths": given.lengths[:link]})
+        x, y, heading = arms.end_point(shorter, angles[:link])
+        end = origin + complex(x, y) * np.exp(1j * turned)
+        answers += [heading + turned, (end.real, end.imag)]
+    return answers

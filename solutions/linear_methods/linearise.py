@@ -4,7 +4,7 @@ import numpy as np
 
 from rldrill.problems.linear_methods.linearise import Given
 from rldrill.solutions import dynamics
-from rldrill.solutions.linearisation import Linearised, after, linearised, slips
+from rldrill.solutions.linearisation import Linearised, after, held_numerically, linearised, slips
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import FORGOT_IDENTITY
 from rldrill.solutions.work import Work
@@ -21,6 +21,8 @@ MISCONCEPTIONS = (*slips(solve), FORGOT_IDENTITY)
 
 def oracle(given: Given) -> Answers:
     """Complex steps through the dynamics, or through their Euler step."""
+    if given.held:
+        return held_numerically(given)[:2]
     values, step = dynamics.numbers(given), after(given)
     return (
         np.real(dynamics.complex_step(step, values, given.states)),

@@ -4,9 +4,8 @@ import numpy as np
 
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
-from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.linearisation import Linearised, after, linearised, rates, slips
+from rldrill.solutions.linearisation import Linearised, after, held_numerically, linearised, moved_point, rates, slips
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import (
@@ -14,7 +13,6 @@ from rldrill.solutions.sheet.linear_methods import (
     AUGMENTED_A,
     AUGMENTED_B,
     C_IS_F,
-    EULER_F,
     FORGOT_IDENTITY,
 )
 from rldrill.solutions.work import Work
@@ -25,8 +23,7 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     A, B = differentiated(given, work)
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
-    assert given.step is not None, "checked with the givens"
-    f_bar = work.step(EULER_F, sbar=s_bar, dt=exact(given.step), fbar=rates(work, given))
+    f_bar = moved_point(given, work, s_bar, rates(work, given))
     _augmented(work, A, B, work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
 
 
@@ -53,10 +50,14 @@ def oracle(given: Given) -> Answers:
     """Complex steps for both matrices; C is where the tangent plane stands at zero."""
     values = dynamics.numbers(given)
     step = after(given)
-    A, B = (dynamics.complex_step(step, values, by) for by in (given.states, tuple(given.action)))
+    if given.held:
+        A, B, moved = held_numerically(given)
+    else:
+        A, B = (dynamics.complex_step(step, values, by) for by in (given.states, tuple(given.action)))
+        moved = np.real(step(values))
     n, m = B.shape
     operating = np.real([values[name] for name in (*given.states, *given.action)])
-    C = np.real(step(values)) - np.hstack([A, B]) @ operating
+    C = moved - np.hstack([A, B]) @ operating
     return (
         C,
         np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]),

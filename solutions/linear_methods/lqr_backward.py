@@ -7,44 +7,64 @@ import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic
+from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
     IN_COSTS,
-    LQR_ACTION,
     LQR_GAIN,
-    LQR_RICCATI,
-    LQR_TERMINAL,
     NO_TERMINAL,
     POSITIVE_S,
     TRANSPOSED_A,
+    Quadratic,
+    quadratic,
 )
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """Two parts for every time; the last is the action."""
-    work.say(IN_COSTS)
+    """Two parts for every time that is asked for; the last is the action."""
+    lqr = _formulas(given)
+    if lqr.gain is LQR_GAIN:
+        work.say(IN_COSTS)
     known = linear_quadratic.known(given)
-    P = {given.horizon: work.step(LQR_TERMINAL, T=given.horizon, **known)}
+    P = {given.horizon: work.step(lqr.terminal, T=given.horizon, **known)}
     L: dict[int, Any] = {}
     for time in reversed(range(given.horizon)):
-        L = {time: work.answer(work.step(LQR_GAIN, t=time, Pt=P, **known))}
-        P = P | {time: work.answer(work.step(LQR_RICCATI, t=time, Pt=P, Lt=L, **known))}
-    work.answer(work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+        L = {time: _gain(lqr, work, time, Pt=P, **known)}
+        L = {time: work.answer(L[time])} if time in given.asked else L
+        P = P | {time: work.step(lqr.riccati, t=time, Pt=P, Lt=L, **known)}
+        P = P | {time: work.answer(P[time])} if time in given.asked else P
+    work.answer(work.step(lqr.action, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+
+
+def _formulas(given: Given) -> Quadratic:
+    return quadratic(given.notation, discounted=given.gamma != 1, crossed=given.N is not None)
+
+
+def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
+    try:
+        gain: AnyMatrix = work.step(lqr.gain, t=time, **known)
+    except NoSolution:
+        raise NoSolution(
+            f"at time {time} the matrix that is to be inverted for the gain is singular: some action costs nothing "
+            "there and changes nothing that does, so no single one is the best; make R positive definite"
+        ) from None
+    return gain
 
 
 @slip("gain-from-same-time", "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.")
 def same_time(given: Given, work: Work) -> None:
     """The right value matrices, and every gain from that of its own time."""
-    known = linear_quadratic.known(given)
+    lqr, known = _formulas(given), linear_quadratic.known(given)
     L: dict[int, Any] = {}
-    for time, P in zip(reversed(range(given.horizon)), right_answers(solve, given, work)[VALUES], strict=True):
-        L = {time: work.answer(work.step(LQR_GAIN, t=time, Pt={time + 1: P}, **known))}
+    for time, P in zip(given.asked, right_answers(solve, given, work)[VALUES], strict=True):
+        L = {time: work.answer(_gain(lqr, work, time, Pt={time + 1: P}, **known))}
         work.answer(P)
-    work.answer(work.step(LQR_ACTION, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+    work.answer(work.step(lqr.action, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
 
 
 #: Which answers are value matrices: every second one.
@@ -56,32 +76,41 @@ MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, same_time, COST
 
 
 def oracle(given: Given) -> Answers:
-    """The best plan for every unit state as one least-squares problem over all remaining actions at once."""
+    """The best plan for every unit state: all remaining states and actions at once, the dynamics as constraints."""
     answers = []
-    m = given.actions
+    m, sign = given.actions, 1 if given.notation.costs else -1
     gain: Array = np.zeros((m, len(given.start)))
-    for time in range(given.horizon - 1, -1, -1):
-        plan, worth = _best(given, time)
+    for time in given.asked:
+        plan, cost = _best(given, time)
         gain = -plan[:m]
-        answers += [gain, worth]
+        answers += [gain, sign * cost]
     return [*answers, -gain @ np.array([at(entry) for entry in given.start])]
 
 
 def _best(given: Given, first: int) -> tuple[Array, Array]:
-    """The best actions from a time on, as a matrix acting on the state, and the matrix of their worth."""
-    n, m, last = len(given.start), given.actions, given.horizon
-    count = last + 1 - first
-    reach: Array = np.eye(n)  # of the state by the first state, and by all actions
-    steer: Array = np.zeros((n, m * count))
-    H, F, W = np.zeros((m * count, m * count)), np.zeros((m * count, n)), np.zeros((n, n))
+    """Actions and states from a time on by the first state, and the matrix of what they cost.
+
+    The plan holds a_0, s_1, a_1, s_2 and so on; a state is scaled by the root of its discount.
+    """
+    n, m, count, root = len(given.start), given.actions, given.horizon - first, at(given.gamma) ** 0.5
+    size = (m + n) * count
+    H, E = np.zeros((size, size)), np.zeros((n * count, size))
+    slope, origin = np.zeros((size, n)), np.zeros((n * count, n))
     for step in range(count):
         now = linear_quadratic.arrays(given, first + step)
-        here = slice(m * step, m * (step + 1))
-        H += steer.T @ now["Q"] @ steer
-        F += steer.T @ now["Q"] @ reach
-        W += reach.T @ now["Q"] @ reach
-        H[here, here] += now["R"]
-        reach, steer = now["A"] @ reach, now["A"] @ steer
-        steer[:, here] += now["B"]
-    plan = np.linalg.inv(-H) @ F
-    return np.asarray(plan, dtype=float), -(W + F.T @ plan)
+        action = slice((m + n) * step, (m + n) * step + m)
+        after = slice(action.stop, action.stop + n)
+        lines = slice(n * step, n * (step + 1))
+        H[action, action] = now["R"]
+        H[after, after] = linear_quadratic.arrays(given, first + step + 1)["Q"]
+        E[lines, action], E[lines, after] = root * now["B"], -np.eye(n)
+        if step == 0:
+            slope[action], origin[lines] = now["N"].T, -root * now["A"]
+        else:
+            before = slice(action.start - n, action.start)
+            H[before, action], H[action, before] = now["N"], now["N"].T
+            E[lines, before] = root * now["A"]
+    saddle = np.block([[H, E.T], [E, np.zeros((n * count,) * 2)]])
+    plan = np.linalg.solve(saddle, np.vstack([-slope, origin]))[:size]
+    here = linear_quadratic.arrays(given, first)["Q"]
+    return np.asarray(plan, dtype=float), here + plan.T @ H @ plan + plan.T @ slope + slope.T @ plan

@@ -3,9 +3,11 @@
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_gain import Given
+from rldrill.solutions import linear_quadratic
+from rldrill.solutions.exact import exact
 from rldrill.solutions.matrices import given as matrix
 from rldrill.solutions.oracle import Answers, Array, at
-from rldrill.solutions.sheet.linear_methods import FORGOT_R, IN_COSTS, LQR_GAIN, POSITIVE_S, TRANSPOSED_A
+from rldrill.solutions.sheet.linear_methods import FORGOT_R, IN_COSTS, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, quadratic
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED_A)
@@ -13,20 +15,23 @@ MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED_A)
 
 def solve(given: Given, work: Work) -> None:
     """One application; times are counted from t = 0."""
-    work.say(IN_COSTS)
-    known = {"At": {0: matrix(given.A)}, "Bt": {0: matrix(given.B)}, "Rt": {0: matrix(given.R)}}
-    work.answer(work.step(LQR_GAIN, t=0, Pt={1: matrix(given.P)}, **known))
+    lqr = quadratic(given.notation, discounted=given.gamma != 1, crossed=given.N is not None)
+    if lqr.gain is LQR_GAIN:
+        work.say(IN_COSTS)
+    known = {f"{name}t": {0: matrix(getattr(given, name))} for name in ("ABRN" if given.N else "ABR")}
+    work.answer(work.step(lqr.gain, t=0, Pt={1: matrix(given.P)}, gamma=exact(given.gamma), **known))
 
 
 def oracle(given: Given) -> Answers:
     """The best action for each unit state, as the stationary point of r + V found from the Hessian."""
-    A, B, R, P = (
-        np.array([[at(entry) for entry in line] for line in lines]) for lines in (given.A, given.B, given.R, given.P)
-    )
+    A, B, R, P = (linear_quadratic.array(rows) for rows in (given.A, given.B, given.R, given.P))
+
+    N = np.zeros_like(B) if given.N is None else linear_quadratic.array(given.N)
+    ahead = at(given.gamma) * (-P if given.notation.costs else P)
 
     def worth(s: Array, a: Array) -> float:
         after = A @ s + B @ a
-        return float(after @ P @ after - a @ R @ a)
+        return float(after @ ahead @ after - a @ R @ a - 2 * s @ N @ a)
 
     n, m = B.shape
     gain = np.zeros((m, n))

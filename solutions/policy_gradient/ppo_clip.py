@@ -1,15 +1,17 @@
 """Ratio, the two terms and their minimum for every sample; then the mean."""
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from rldrill.problems.policy_gradient.ppo_clip import Given
+from rldrill.problems.exact import Weight
+from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.exact import Value, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.ratios import new_chance, outside
+from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
     PPO,
@@ -40,7 +42,12 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
     ratios = []
     for time, sample in enumerate(given.samples):
         pair = sample.action, sample.state
-        chances = {"new_chance": {pair: _new(given, time, work)}, "old_chance": {pair: exact(sample.old)}}
+        if sample.preferences and sample.old_preferences:
+            work.say(f"The new policy and the old one at time ${time}$:")
+        chances = {
+            "new_chance": {pair: _chance(work, sample, sample.new, sample.preferences)},
+            "old_chance": {pair: _chance(work, sample, sample.old, sample.old_preferences)},
+        }
         ratios.append(work.step(PPO_RATIO, t=time, **known, **chances))
     known["rho"] = _given(work, ratios)
     known["unclipped"] = _given(work, [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
@@ -71,14 +78,12 @@ def _given(work: Work, values: Sequence[Value]) -> dict[int, Value]:
     return dict(enumerate(work.answer(tuple(values))))
 
 
-def _new(given: Given, time: int, work: Work) -> Value:
-    sample = given.samples[time]
-    if sample.preferences is None:
-        return exact(sample.new or 0)
-    preferences = {(sample.state, action): exact(value) for action, value in sample.preferences.items()}
-    return simplest(
-        work.step(SOFTMAX_POLICY, s=sample.state, a=sample.action, H=preferences, choices=tuple(sample.preferences))
-    )
+def _chance(work: Work, sample: Sample, chance: Fraction | None, preferences: Mapping[str, Weight] | None) -> Value:
+    """How likely a policy makes the action: given, or by its preferences."""
+    if preferences is None:
+        return exact(chance or 0)
+    by_pair = {(sample.state, action): exact(value) for action, value in preferences.items()}
+    return simplest(work.step(SOFTMAX_POLICY, s=sample.state, a=sample.action, H=by_pair, choices=tuple(preferences)))
 
 
 @slip(
@@ -108,7 +113,7 @@ def oracle(given: Given) -> Answers:
         # Written by cases: what a better action may gain, and a worse one may lose, is bounded.
         return advantage * (min(ratio, 1 + epsilon) if advantage > 0 else max(ratio, 1 - epsilon))
 
-    ratios = np.array([new_chance(sample) / at(sample.old) for sample in given.samples])
+    ratios = np.array([new_chance(sample) / old_chance(sample) for sample in given.samples])
     advantages = np.array([at(sample.advantage) for sample in given.samples])
     worth = [objective(r, a) for r, a in zip(ratios, advantages, strict=True)]
     answers: list[Any] = [

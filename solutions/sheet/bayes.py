@@ -1,5 +1,7 @@
 """Section 9 of the sheet: Bayesian methods."""
 
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from sympy import Pow, evaluate, factorial, log
@@ -80,6 +82,9 @@ theta_of = quantity("theta_of", lambda index: Script(_THETA, index))
 log_likelihood = letter("log_likelihood", row(word("ln"), _given(variable("M"), _THETA)))
 k = letter("free", "k")
 bic = quantity("bic", called(word("BIC")))
+aic = quantity("aic", called(word("AIC")))
+theta_at = quantity("theta_at", subscripted(_THETA))
+prior_at = quantity("prior_at", lambda index: row(variable("p"), Fence(Script(_THETA, index))))
 
 # Samples and lines
 x = quantity("x", lambda index: Script(variable("x"), index))
@@ -400,7 +405,7 @@ with evaluate(False):
     BEST_FIT = Misconception(
         "best-fit-for-evidence",
         "The evidence averages the likelihood over the prior of θ; the likelihood at the best θ is too good.",
-        when=lambda given: any(model.theta is None for model in given.models.values()),
+        when=lambda given: any(not model.certain for model in given.models.values()),
     )
     EVIDENCE = Formula(
         "evidence",
@@ -457,3 +462,39 @@ with evaluate(False):
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
         },
     )
+
+
+@cache
+def without_command() -> Formula:
+    """The mean after a motion where there are no commands."""
+    with evaluate(False):
+        return replace(KALMAN_MOVE_MEAN, right=At(t) * mean(t - 1))
+
+
+@cache
+def akaike() -> Formula:
+    """The other criterion, which charges every parameter the same."""
+    with evaluate(False):
+        return replace(
+            BIC,
+            left=aic(M),
+            right=-2 * log_likelihood + 2 * k,
+            title="Akaike's information criterion",
+            source="Burnham & Anderson 2002, section 2.2",
+            hint="k counts the free parameters, each of which costs 2; the smallest AIC wins.",
+            note="",
+            misread={},
+        )
+
+
+@cache
+def few_values() -> Formula:
+    """The evidence of a coin whose θ is one of a few values."""
+    with evaluate(False):
+        return replace(
+            FIXED_COIN,
+            right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, n)),
+            title="Evidence of a coin whose θ is one of a few values",
+            source="MacKay 2003, section 3.2, with a sum for the integral",
+            hint="Weigh the likelihood at every possible θ with the prior of that θ, and add.",
+        )

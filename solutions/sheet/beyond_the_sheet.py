@@ -1,10 +1,12 @@
 """What the lecture names without formulas: kinematics of arms, and meta-learning."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
 
-from sympy import cos, evaluate, sin
+from sympy import Add, Expr, cos, evaluate, sin
 
-from rldrill.problems.mathematics import Fence, Math, Script, listed, row, variable, word
+from rldrill.problems.mathematics import Fence, Math, Script, listed, number, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
@@ -27,6 +29,8 @@ j = letter("j")
 theta = quantity("thetaj", subscripted("θ"))
 phi = quantity("phi", subscripted("φ"))
 length = quantity("length", subscripted("l"))
+x_of, y_of = quantity("xof", subscripted("x")), quantity("yof", subscripted("y"))
+x0, y0 = letter("x0", Script(variable("x"), number(0))), letter("y0", Script(variable("y"), number(0)))
 x, y, heading = letter("xe", "x"), letter("ye", "y"), letter("headinge", "φ")
 Jx, Jy = quantity("Jx", _jacobian_entry("x")), quantity("Jy", _jacobian_entry("y"))
 Jacobian = letter("Jac", "J", matrix=True)
@@ -105,6 +109,22 @@ with evaluate(False):
         note="The same for three links, where the orientation is the third row.",
         place=Place.BEYOND,
     )
+
+
+@cache
+def poses(*, moved: bool) -> tuple[Formula, Formula, Formula]:
+    """The angle and the end of any link, perhaps on a base that is moved and turned."""
+    with evaluate(False):
+        turned = (phi(0),) if moved else ()
+        return (
+            replace(LINK_ANGLE, right=Add(*turned, SumOver(theta(j), j, Counting(1, i))), misread={}),
+            _end(FORWARD_X, x_of(n), (x0,) if moved else (), cos),
+            _end(FORWARD_Y, y_of(n), (y0,) if moved else (), sin),
+        )
+
+
+def _end(formula: Formula, left: Expr, start: tuple[Expr, ...], turn: Callable[[Expr], Expr]) -> Formula:
+    return replace(formula, left=left, right=Add(*start, SumOver(length(i) * turn(phi(i)), i, Counting(1, n))))
 
 
 # Denavit and Hartenberg ------------------------------------------------------------------------------

@@ -1,10 +1,14 @@
 """Section 7 of the sheet: linear methods."""
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from functools import cache
+from math import factorial
+from typing import Any, NamedTuple
 
-from sympy import Add, Expr, Pow, evaluate, sqrt
+from sympy import Add, Expr, Mul, Pow, evaluate, exp, sqrt
 
+from rldrill.problems.linear_quadratic import Notation
 from rldrill.problems.mathematics import (
     Accent,
     Fence,
@@ -26,6 +30,7 @@ from rldrill.solutions.formula.notation import (
     SumOver,
     T,
     Transposed,
+    gamma,
     i,
     letter,
     quantity,
@@ -50,7 +55,9 @@ Rt = _matrix("Rt", "R")
 Lt = _matrix("Lt", "L")
 St = _matrix("St", "s")
 Ut = _matrix("Ut", "a")
+Nt = _matrix("Nt", "N")
 rt = quantity("rt", _reward_layout)
+last_reward = quantity("lastReward", lambda time: row(variable("r"), Fence(Script(variable("s"), time))))
 J = letter("J")
 
 #: How a working in values of P reads for somebody who learnt it in costs.
@@ -159,6 +166,69 @@ with evaluate(False):
     )
 
 
+@cache
+def rollout(*, crossed: bool) -> tuple[Formula, Formula]:
+    """Reward and total with a discount, and perhaps with a cross term."""
+    state, action = St(t), Ut(t)
+    with evaluate(False):
+        both = (2 * Transposed(state) * Nt(t) * action,) if crossed else ()
+        cost = Add(Transposed(state) * Qt(t) * state, *both, Transposed(action) * Rt(t) * action)
+        return (
+            replace(LQR_REWARD, right=-cost, misread={}),
+            replace(LQR_TOTAL, right=SumOver(gamma**t * rt(t), t, Counting(0, T))),
+        )
+
+
+@cache
+def at_the_end() -> Formula:
+    """The reward of the last state alone."""
+    with evaluate(False):
+        return replace(LQR_REWARD, left=last_reward(T), right=-(Transposed(St(T)) * Qt(T) * St(T)), misread={})
+
+
+class Quadratic(NamedTuple):
+    """The formulas of LQR in the letters of one convention, with all that the costs of a problem have."""
+
+    terminal: Formula
+    gain: Formula
+    riccati: Formula
+    action: Formula
+    #: The gain that is the same at all times.
+    always: type[Quantity]
+
+
+@cache
+def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadratic:
+    """LQR as it is written in a convention; the sheet's own formulas, where nothing is added to them."""
+    state, action, gain, value = (
+        quantity(code, subscripted(head), matrix=True)
+        for code, head in zip(("St", "Ut", "Lt", "Pt"), notation[:4], strict=True)
+    )
+    always = quantity("Lt", lambda _: variable(notation.gain), matrix=True)
+    if not (notation.costs or discounted or crossed):
+        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, always)
+    A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
+    with evaluate(False):
+        ahead = (gamma,) if discounted else ()
+        both = Mul(*ahead, Transposed(B), after, A)
+        square = Mul(*ahead, Transposed(B), after, B)
+        turned = Mul(*ahead, Transposed(A), after, B)
+        bracket = R + square if notation.costs else square - R
+        if crossed:
+            both, turned = (both + Transposed(N), turned + N) if notation.costs else (both - Transposed(N), turned - N)
+        return Quadratic(
+            replace(LQR_TERMINAL, left=value(T), right=Qt(T) if notation.costs else -Qt(T), misread={}),
+            replace(LQR_GAIN, left=gain(t), right=Pow(bracket, -1) * both, misread={}),
+            replace(
+                LQR_RICCATI,
+                left=value(t),
+                right=(Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A) - turned * gain(t),
+            ),
+            replace(LQR_ACTION, left=action(t), right=-gain(t) * state(t)),
+            always,
+        )
+
+
 def _unit(size: int) -> tuple[tuple[int, ...], ...]:
     return tuple(tuple(int(row == column) for column in range(size)) for row in range(size))
 
@@ -169,12 +239,14 @@ Bi = letter("Bi", "B", matrix=True)
 Qi = letter("Qi", "Q", matrix=True)
 Pi = letter("Pi", "P", matrix=True)
 Li = letter("Li", "L", matrix=True)
+Ni = letter("Ni", "N", matrix=True)
 modes = letter("modes", "T", matrix=True)
 Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
 #: The gain that is the same at all times.
 L_always = quantity("Lt", lambda _: variable("L"), matrix=True)
 closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
 a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
+n1 = letter("Nk", "N")
 p1, beta = letter("Pk", "P"), letter("betak", "β")
 
 with evaluate(False):
@@ -234,6 +306,51 @@ with evaluate(False):
     )
 
 
+class Stationary(NamedTuple):
+    """The formulas of the infinite horizon in the letters of one convention."""
+
+    equation: Formula
+    beta: Formula
+    root: Formula
+    closed_loop: Formula
+
+
+@cache
+def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Stationary:
+    """The infinite horizon as it is written in a convention; the sheet's own formulas, where nothing is added."""
+    if not (notation.costs or discounted or crossed):
+        return Stationary(LQR_STATIONARY, LQR_BETA, LQR_ROOT, LQR_CLOSED_LOOP)
+    value, gain = letter(f"{notation.value}i", notation.value, matrix=True), letter(f"{notation.gain}i", notation.gain,
+                                                                                    matrix=True)  # fmt: skip
+    loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
+    with evaluate(False):
+        ahead = (gamma,) if discounted else ()
+        turned = Mul(*ahead, Transposed(Ai), value, Bi)
+        if crossed:
+            turned = turned + (Ni if notation.costs else -Ni)
+        beta_right = Mul(*ahead, b1**2, q1) + (Mul(*ahead, a1**2) - 1) * r1
+        product = q1 * r1
+        if crossed:
+            beta_right = beta_right - Mul(2, *ahead, a1, b1, n1)
+            product = product - n1**2
+        root = beta + sqrt(beta**2 + Mul(4, *ahead, b1**2, product))
+        scalar = letter(f"{notation.value}k", notation.value)
+        return Stationary(
+            replace(
+                LQR_STATIONARY,
+                left=value,
+                right=(Qi if notation.costs else -Qi) + Mul(*ahead, Transposed(Ai), value, Ai) - turned * gain,
+                note="",
+            ),
+            replace(LQR_BETA, right=beta_right, note=""),
+            replace(
+                LQR_ROOT, left=scalar, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2), misread={},
+                note="",
+            ),
+            replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
+        )  # fmt: skip
+
+
 # Linearisation --------------------------------------------------------------------------------------
 def _letter(name: Math) -> Math:
     """The name of a state or action as its letter: θ₁ for ``θ_1``."""
@@ -282,6 +399,7 @@ A_tilde = letter("Atilde", Accent(variable("A"), "tilde"), matrix=True)
 B_tilde = letter("Btilde", Accent(variable("B"), "tilde"), matrix=True)
 dt = letter("dt", row(variable("Δ"), variable("t")))
 unit = letter("unit", "I", matrix=True)
+s1_bar, f1_bar = letter("sbark", _bar("s")), letter("fbark", row(variable("f"), _POINT))
 Ad, Bd = (letter(f"{head}d", Script(variable(head), variable("Δ")), matrix=True) for head in "AB")
 
 with evaluate(False):
@@ -380,6 +498,54 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
+
+
+class Hold(NamedTuple):
+    """A zero-order hold: the matrices of a step, and where the operating point goes in it."""
+
+    state: Formula
+    action: Formula
+    point: Formula
+
+
+def _held(left: Expr, right: Expr, hint: str) -> Formula:
+    source = "Åström & Wittenmark 1997, section 2.3"
+    return Formula("zero-order-hold", left, right, "Zero-order hold", source, hint, place=Place.WORKING)
+
+
+_GROWN = "Without the action the state grows like e to the power A t; write that down, or its series as far as it goes."
+_INTEGRAL = "Integrate e to the power A t, or its series, over the step, and multiply with B."
+_RATES_HELD = "From the operating point the rates are held: the same integral, times f instead of B."
+
+
+@cache
+def nilpotent_hold(order: int) -> Hold:
+    """The hold where so high a power of A vanishes: the series of the exponential ends."""
+    with evaluate(False):
+        integral = [_term(k, k - 1) for k in range(2, order + 1)]
+        moved = Add(s_bar, dt * f_bar, *(term * f_bar for term in integral))
+        return Hold(
+            _held(Ad, Add(unit, *(_term(k, k) for k in range(1, order))), _GROWN),
+            _held(Bd, Add(dt * Bi, *(term * Bi for term in integral)), _INTEGRAL),
+            _held(F_bar, moved, _RATES_HELD),
+        )
+
+
+def _term(order: int, power: int) -> Expr:
+    """A term of the series of the exponential, or of its integral."""
+    return Mul(dt if order == 1 else dt**order / factorial(order), *[Ai] * power)
+
+
+@cache
+def scalar_hold() -> Hold:
+    """The hold of a single state whose rate depends on it."""
+    with evaluate(False):
+        grown = (exp(dt * a1) - 1) / a1
+        return Hold(
+            _held(Ad, exp(dt * a1), _GROWN),
+            _held(Bd, grown * b1, _INTEGRAL),
+            _held(F_bar, s1_bar + grown * f1_bar, _RATES_HELD),
+        )
 
 
 # Differential dynamic programming -------------------------------------------------------------------

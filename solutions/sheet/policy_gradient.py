@@ -3,9 +3,10 @@
 Weights, features and gradients are vectors; weights and features are also known by their entries.
 """
 
+from functools import cache
 from typing import Any
 
-from sympy import evaluate, exp
+from sympy import evaluate, exp, log
 
 from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -55,6 +56,10 @@ def _feature(index: Math, *arguments: Math) -> Math:
     return row(Script(variable("f"), index), Fence(listed(arguments)))
 
 
+def _entropy(state: Math) -> Math:
+    return row(variable("H"), Fence(row(variable("π"), Fence(row(variable("·"), punctuation("|"), state)))))
+
+
 def _score(action: Math, state: Math) -> Math:
     chance = row(variable("π"), Fence(row(action, punctuation("|"), state)))
     return row(_NABLA, word("log"), chance)
@@ -84,6 +89,7 @@ unclipped = quantity("unclipped", subscripted("u"))
 clipped = quantity("clipped", subscripted("c"))
 L_t = quantity("L_t", subscripted("L"))
 L = letter("L")
+of_policy = quantity("entropy", _entropy)
 Samples = letter("samples", "B")
 
 
@@ -414,3 +420,18 @@ with evaluate(False):
         hint="Average the objective over the samples.",
         place=Place.WORKING,
     )
+
+
+@cache
+def entropy() -> Formula:
+    """How undecided a policy is in a state."""
+    with evaluate(False):
+        return Formula(
+            "entropy",
+            of_policy(s),
+            -SumOver(pi(b, s) * log(pi(b, s)), b, Choices),
+            title="Entropy of a policy",
+            source="Cover & Thomas 2006, section 2.1",
+            hint="Weigh the logarithm of every probability with the probability itself, add, and change the sign.",
+            place=Place.BEYOND,
+        )

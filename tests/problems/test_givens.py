@@ -116,7 +116,7 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("lqr-backward", LQR | {"start": []}, "given.start: is empty; it needs at least 1 entry."),
         ("lqr-backward", LQR | {"horizon": "x"}, "given.horizon: 'x' is not a whole number; write one, such as 3."),
         ("lqr-backward", LQR | {"horizon": 0}, "given.horizon: 0 is too small; it must be at least 1."),
-        ("lqr-backward", LQR | {"horizon": 99}, "given.horizon: 99 is too large; it must be at most 12."),
+        ("lqr-backward", LQR | {"horizon": 999}, "given.horizon: 999 is too large; it must be at most 100."),
         ("bayes-rule", RULE | {"prior": {"sun": 1}}, "given.prior: has 1 entry; it needs at least 2 entries."),
         ("bayes-rule", RULE | {"prior": {}}, "given.prior: is empty; it needs at least 2 entries."),
         ("bayes-rule", RULE | {"prior": [1, 2]}, "given.prior: must be a table, in which every name has its value."),

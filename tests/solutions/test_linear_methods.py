@@ -187,7 +187,7 @@ def test_systems_that_do_not_fit_are_one_sentence(changed: dict[str, Any], messa
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
-        ({"R": 0}, "R must be positive definite"),
+        ({"R": -1}, "R must be positive semidefinite"),
         ({"Q": -1}, "Q must be positive semidefinite"),
         ({"B": [[1], [2]]}, "B is 2×1"),
         ({"A": [[[1]], [[1]], [[1]]]}, "A holds 3 matrices"),
@@ -195,6 +195,14 @@ def test_systems_that_do_not_fit_are_one_sentence(changed: dict[str, Any], messa
         ({"A": [[1], 1]}, "a matrix is a list of rows"),
         ({"A": "one"}, "given.A"),
         ({"horizon": 0}, "given.horizon"),
+        ({"horizon": 10**9}, "given.horizon: 1000000000 is too large"),
+        ({"start": [0, 0, 0], "horizon": 13}, "horizon is 13; with 3 states and 1 action, 12 is the most"),
+        ({"N": 2}, "with the cross term the matrix of all costs"),
+        ({"N": [[1, 0]]}, "N is 1×2"),
+        ({"Q": [1, 1, 1], "Q_T": 2}, "Q_T is given twice"),
+        ({"gamma": 0}, "given.gamma"),
+        ({"convention": "x"}, "given.convention: 'x' is not possible here; write 'value', 'cost-to-go' or 'xuKP'"),
+        ({"Q": 0, "R": 0}, "at time 1 the matrix that is to be inverted for the gain is singular"),
     ],
 )
 def test_systems_with_wrong_weights_are_one_sentence(changed: dict[str, Any], message: str) -> None:

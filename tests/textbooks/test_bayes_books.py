@@ -9,6 +9,7 @@ import sympy
 from flint import fmpq
 
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 
 
 def test_the_pushed_door_of_probabilistic_robotics() -> None:
@@ -296,3 +297,67 @@ def test_the_weather_in_the_land_of_oz() -> None:
     beliefs = list(solved("bayes-predict", belief=start, motion={"a day": motion}, actions=["a day"] * 6).values())
     assert list(beliefs[1].values()) == [fmpq(7, 16), fmpq(3, 16), fmpq(3, 8)]
     assert [rounded(chance, 3) for chance in beliefs[5].values()] == ["0.400", "0.200", "0.400"]
+
+
+def test_the_regression_of_rs_manual() -> None:
+    # R, help(AIC): lm(Fertility ~ ., data = swiss) has AIC 326.0716 and BIC 339.0226, with log-likelihood −156.0358, 47
+    # data and 7 parameters.
+    fitted = {"all": {"log_likelihood": "-156.0358", "k": 7}, "worse": {"log_likelihood": "-180", "k": 2}}
+    akaike, bayes = solved("bic", criterion="AIC", fitted=fitted), solved("bic", fitted=fitted, n=47)
+    assert rounded(akaike["a"]["all"], 4) == "326.0716"
+    assert rounded(bayes["a"]["all"], 4) == "339.0226"
+    assert akaike["b"] == bayes["b"] == "a"
+
+
+def test_speed_and_stopping_distance_of_cars_in_r() -> None:
+    # logLik, AIC and BIC of lm(dist ~ speed, data = cars) are −206.5784 (df = 3), 419.1569 and 424.8929, from 50 data.
+    # Of the mean alone: −25 (ln 2π + ln 650.7796 + 1) = −232.9012. A fourth parameter without any use costs 2.
+    fitted = {
+        "mean": {"log_likelihood": "-232.9012", "k": 2},
+        "line": {"log_likelihood": "-206.57843", "k": 3},
+        "more": {"log_likelihood": "-206.57843", "k": 4},
+    }
+    akaike, bayes = solved("bic", criterion="AIC", fitted=fitted), solved("bic", fitted=fitted, n=50)
+    assert [rounded(akaike["a"][model], 4) for model in fitted] == ["469.8024", "419.1569", "421.1569"]
+    assert rounded(bayes["a"]["line"], 4) == "424.8929"
+    assert akaike["b"] == bayes["b"] == "b"
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"fitted": {"a": {"k": 1}, "b": {"k": 2, "likelihood": 1}}, "n": 9}, "give either likelihood or log_likel"),
+        (
+            {"fitted": {"a": {"k": 1, "log_likelihood": 1}, "b": {"k": 2, "likelihood": 1}}, "n": 9},
+            "the likelihoods of",
+        ),
+        ({"fitted": {"a": {"k": 1, "likelihood": 1}, "b": {"k": 2, "likelihood": 1}}}, "n, the number of data"),
+    ],
+)
+def test_fitted_models_that_do_not_fit_together(given: Any, message: str) -> None:
+    with pytest.raises(FileError, match=message):
+        solved("bic", **given)
+
+
+def test_a_coin_that_is_one_of_two_by_hand() -> None:
+    # θ is 1/4 or 3/4, each with 1/2; two heads and a tail: (1/16·3/4 + 9/16·1/4)/2 = (3 + 9)/128 = 3/32. Of a uniform
+    # prior the evidence is 2!1!/4! = 1/12, so the odds are 9/8.
+    models = {"two": {"thetas": [["1/4", "1/2"], ["3/4", "1/2"]]}, "any": {}}
+    answers = solved("model-comparison", models=models, prior={"two": "1/2", "any": "1/2"}, heads=2, tails=1)
+    assert answers == {"a": {"two": fmpq(3, 32), "any": fmpq(1, 12)}, "b": fmpq(9, 8), "c": True}
+
+
+@pytest.mark.parametrize(
+    ("model", "message"),
+    [
+        ({"thetas": [["1/4", "1/2"]]}, "thetas: the probabilities sum to 1/2, not to 1"),
+        ({"thetas": [["1/4", "1/2"], [0.25, "1/2"]]}, "one θ is given twice"),
+        ({"thetas": [["1/4", 1]], "a": 2}, "with thetas there is no prior Beta"),
+        ({"thetas": [["1/4", 1]], "theta": "1/2"}, "give either theta or thetas"),
+        ({"thetas": [[0, 1]]}, "'some' has the prior 0 or does not allow these tosses"),
+    ],
+)
+def test_values_of_a_coin_that_do_not_fit(model: Any, message: str) -> None:
+    with pytest.raises(FileError, match=message):
+        solved("model-comparison", models={"any": {}, "some": model}, prior={"any": "1/2", "some": "1/2"},
+               heads=2, tails=1)  # fmt: skip

@@ -8,6 +8,7 @@ from flint import fmpq
 from sympy import Rational, pi, sqrt
 
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 from rldrill.solutions.exact import to_sympy
 
 
@@ -108,3 +109,52 @@ def test_maml_on_a_parabola_in_jaxs_documentation() -> None:
     # The notebook on MAML in JAX's documentation: g(x) = x² at x = 2 has the gradient 4; after a step of 1 it is at −2;
     # the gradient of the objective g(x − g′(x)) = x² is 4 again, and x less this is −2. So c = 2, m = 0 and α = β = 1.
     assert solved("maml-step", theta=2, tasks=[[2, 0]], alpha=1, beta=1) == {"a": -2, "b": -2}
+
+
+def test_the_elbow_of_the_planar_arm_and_a_base_that_is_turned() -> None:
+    # The arm of Siciliano above: its first link ends at (2 cos π/6, 2 sin π/6) = (√3, 1). On a base at (1, −1), turned
+    # by π/2, that becomes (1 − 1, −1 + √3), and the end (√3, 2) becomes (1 − 2, −1 + √3).
+    arm: dict[str, Any] = {"lengths": [2, 1], "angles": ["pi/6", "pi/3"], "frames": True}
+    answers = solved("forward-kinematics", **arm)
+    assert answers == {"a": pi / 6, "b": (sqrt(3), 1), "c": pi / 2, "d": (sqrt(3), 2)}
+    moved = solved("forward-kinematics", **arm, base={"x": 1, "y": -1, "phi": "pi/2"})
+    assert (moved["a"], moved["c"]) == (2 * pi / 3, pi)
+    ends = [to_sympy(entry) for label in "bd" for entry in moved[label]]
+    assert all(sympy.simplify(a - b) == 0 for a, b in zip(ends, [0, sqrt(3) - 1, -1, sqrt(3) - 1], strict=True))
+
+
+def test_an_arm_of_one_link() -> None:
+    assert solved("forward-kinematics", lengths=[2], angles=["pi/2"]) == {"a": pi / 2, "b": (0, 2)}
+    answers = solved("jacobian", lengths=[2], angles=["pi/2"], rates=[3])
+    assert_is(answers["a"], [[-2], [0]])
+    assert answers["b"] == (-6, 0)
+
+
+BASE = [[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]
+
+
+def test_the_frames_of_two_links_on_a_base_by_hand() -> None:
+    # Both links turn by π/2 and go 1 along their own x: from the origin to (0, 1), then to (−1, 1), turned by π. The
+    # base takes (x, y) to (5 − y, 6 + x) and turns by another π/2.
+    link = {"theta": "pi/2", "d": 0, "a": 1, "alpha": 0}
+    answers = solved("denavit-hartenberg", links=[link, link], base=BASE, frames=True)
+    assert_is(answers["a"], [[0, -1, 0, 0], [1, 0, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]])
+    assert_is(answers["c"], [[-1, 0, 0, 4], [0, -1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]])
+    assert_is(answers["d"], [[0, 1, 0, 4], [-1, 0, 0, 5], [0, 0, 1, 7], [0, 0, 0, 1]])
+    last = solved("denavit-hartenberg", links=[link, link], base=BASE)
+    assert last["c"] == answers["d"]
+
+
+@pytest.mark.parametrize(
+    ("base", "message"),
+    [
+        ([[1]], "base is 1×1, but it must be 4×4"),
+        ([*BASE[:3], [0, 0, 1, 1]], "the last row of a transform is 0, 0, 0, 1"),
+        ([[2, 0, 0, 0], *BASE[1:]], "its 3×3 corner must be a rotation"),
+        ([[0, 1, 0, 0], *BASE[1:]], "its 3×3 corner must be a rotation"),  # a reflection
+    ],
+)
+def test_bases_that_are_no_transforms(base: Any, message: str) -> None:
+    link = {"theta": "pi/2", "d": 0, "a": 1, "alpha": 0}
+    with pytest.raises(FileError, match=message):
+        solved("denavit-hartenberg", links=[link], base=base)

@@ -6,19 +6,16 @@ from typing import Any
 import pytest
 from flint import fmpq
 
+import rldrill
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 
 ONE_METRE = {"A": [[1, 1], [0, 1]], "C": [[1, 0]]}
 
 
-def filtered(readings: list[Any], *, mean: Any, covariance: Any, **models: Any) -> list[tuple[Any, Any]]:
-    """All beliefs of a filter in one dimension, over as many readings as wanted."""
-    beliefs: list[tuple[Any, Any]] = []
-    for first in range(0, len(readings), 5):
-        steps = [{"u": 0, "z": z} for z in readings[first : first + 5]]
-        beliefs += solved("kalman-filter", mean=mean, covariance=covariance, steps=steps, **models).values()
-        mean, covariance = (Fraction(int(value.numerator), int(value.denominator)) for value in beliefs[-1])
-    return beliefs
+def filtered(readings: list[Any], **given: Any) -> list[tuple[Any, Any]]:
+    """All beliefs of a filter in one dimension without commands."""
+    return list(solved("kalman-filter", steps=[{"z": z} for z in readings], **given).values())
 
 
 def flat(matrix: Any) -> list[Any]:
@@ -114,3 +111,32 @@ def test_the_altitude_of_a_rocket() -> None:
     for mean_and_covariance, numbers in printed.items():
         found = [float(rounded(value, 6)) for label in mean_and_covariance for value in flat(beliefs[label])]
         assert found == pytest.approx(numbers, abs=0.051)  # one decimal, rounded or cut
+
+
+def test_fifty_readings_of_one_voltage_by_hand() -> None:
+    # Without noise of the motion the inverse variances add up: from N(0, 1), after 50 readings of 3 with variance 2,
+    # 1/Σ = 1 + 50/2 = 26, and μ = (0·1 + 25·3)/26. Of the 100 beliefs, those from step 38 on are asked for.
+    beliefs = filtered([3] * 50, mean=0, covariance=1, process=0, sensor=2)
+    assert len(beliefs) == 26
+    assert beliefs[-1] == (fmpq(75, 26), fmpq(1, 26))
+    assert beliefs[0] == (fmpq(3 * 37, 2) / (1 + fmpq(37, 2)), 1 / (1 + fmpq(37, 2)))
+
+
+def test_a_state_without_commands_needs_neither_b_nor_u() -> None:
+    # Constant velocity, everything 1: μ̄ = A (1 1)ᵀ = (2 1)ᵀ, Σ̄ = A Aᵀ + I = (3 1; 1 2), K = (3 1)ᵀ/4,
+    # μ = (2 1)ᵀ + K (4 − 2) = (7/2 3/2)ᵀ.
+    unit = [[1, 0], [0, 1]]
+    exercise = rldrill.read({"family": "kalman-filter", "given": {
+        **ONE_METRE, "mean": [[1], [1]], "covariance": unit, "process": unit, "sensor": 1, "steps": [{"z": 4}],
+    }})  # fmt: skip
+    answers = exercise.solve()
+    assert flat(answers["a"]) == [2, 1]
+    assert flat(answers["d"]) == [fmpq(7, 2), fmpq(3, 2)]
+    assert "u" not in str(exercise.question()).split("xₜ = ", 1)[1].split(",", 1)[0]
+
+
+def test_a_run_that_is_too_long_says_how_many_steps_are_possible() -> None:
+    steps = [{"z": 1}] * 26
+    with pytest.raises(FileError, match="with 2 components of the state, 25 are the most"):
+        solved("kalman-filter", **ONE_METRE, mean=[[1], [1]], covariance=[[1, 0], [0, 1]], process=[[0, 0], [0, 0]],
+               sensor=1, steps=steps)  # fmt: skip

@@ -7,7 +7,9 @@ import sympy
 from flint import fmpq
 from sympy import Rational, sqrt
 
+import rldrill
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 from rldrill.solutions.exact import to_sympy
 
 
@@ -68,6 +70,91 @@ def test_the_system_of_scipys_manual_in_decimals() -> None:
     assert max(abs(entry) for entry in left_over) < Rational(1, 10**11)
     assert P[0, 0] == -1  # the first state has no effect on anything: it costs 1, once
     assert P[0, 1] == 0
+
+
+DOUBLE_INTEGRATOR = {"A": [[1, 1], [0, 1]], "B": [[0], [1]]}
+
+
+def test_deadbeat_control_by_hand() -> None:
+    # Nothing is paid for the action and the position alone costs: from (p, v) the position of time 1 is p + v whatever
+    # one does, and a = −p − 2v makes that of time 2 zero, and the velocity after it. So the costs are
+    # p² + (p + v)², and the closed loop is nilpotent.
+    answers = solved("lqr-infinite", **DOUBLE_INTEGRATOR, Q=[[1, 0], [0, 0]], R=0)
+    assert_is(answers["a"], [[-2, -1], [-1, -1]])
+    assert_is(answers["b"], [[1, 2]])
+    assert_is(answers["c"] * answers["c"], [[0, 0], [0, 0]])
+    # Over two steps, with the velocity paid for at the end: L₁ = (0 1) stops it, which leaves S₁ = (2 1; 1 1).
+    finite = solved("lqr-backward", **DOUBLE_INTEGRATOR, Q=[[1, 0], [0, 0]], R=0, Q_T=[[1, 0], [0, 1]], start=[4, 0],
+                    horizon=2)  # fmt: skip
+    assert_is(finite["a"], [[0, 1]])
+    assert_is(finite["b"], [[-2, -1], [-1, -1]])
+    assert_is(finite["c"], [[1, 2]])
+    assert_is(finite["e"], [[-4]])
+
+
+def test_deadbeat_control_of_a_number_by_hand() -> None:
+    # S = Q + A²S − A²S = Q; L = A/B; A − BL = 0.
+    answers = solved("lqr-infinite", A=2, B=4, Q=3, R=0)
+    assert [answers[label][0, 0] for label in "abc"] == [-3, fmpq(1, 2), 0]
+
+
+def test_a_discount_by_hand() -> None:
+    # A = B = Q = R = 1, γ = 1/2: γS² − (γ + γ − 1)S − 1 = 0, so S = √2 and L = (S/2)/(1 + S/2) = √2 − 1.
+    for convention, sign_of in (("value", -1), ("cost-to-go", 1), ("xuKP", 1)):
+        answers = solved("lqr-infinite", A=1, B=1, Q=1, R=1, gamma="1/2", convention=convention)
+        assert_is(answers["a"], [[sign_of * sqrt(2)]])
+        assert_is(answers["b"], [[sqrt(2) - 1]])
+        assert_is(answers["c"], [[2 - sqrt(2)]])
+
+
+def test_a_cross_term_by_hand() -> None:
+    # A = B = Q = R = 1, N = 1/2: S² − (1 − 2·1/2)S − (1 − 1/4) = 0, so S = √3/2;
+    # L = (S + N)/(1 + S) = (√3 + 1)/(2 + √3) = √3 − 1.
+    answers = solved("lqr-infinite", A=1, B=1, Q=1, R=1, N="1/2")
+    assert_is(answers["a"], [[-sqrt(3) / 2]])
+    assert_is(answers["b"], [[sqrt(3) - 1]])
+
+
+def test_a_cross_term_in_a_larger_system_is_another_feedback() -> None:
+    # (a + s₂)² + s₁² = a² + 2 a s₂ + s₂² + s₁²: with u = a + s₂ it is the system A − B(0 1) = (1 1; 0 0) with Q = (1 0;
+    # 0 0), R = 1, so both have the same S, and the gains differ by (0 1).
+    crossed = solved("lqr-infinite", **DOUBLE_INTEGRATOR, Q=[[1, 0], [0, 1]], R=1, N=[[0], [1]])
+    other = solved("lqr-infinite", A=[[1, 1], [0, 0]], B=[[0], [1]], Q=[[1, 0], [0, 0]], R=1)
+    assert written(crossed["a"]) == written(other["a"])
+    difference = [float(a - b) for a, b in zip(written(crossed["b"])[0], written(other["b"])[0], strict=True)]
+    assert difference == pytest.approx([0, 1], abs=1e-11)
+
+
+def test_a_discount_a_cross_term_and_a_final_cost_over_one_step_by_hand() -> None:
+    # S₁ = 3, γ = 1/2, N = 1/2: K₀ = (3/2 + 1/2)/(1 + 3/2) = 4/5; P₀ = 1 + 3/2 − (3/2 + 1/2)·4/5 = 9/10; u₀ = −4/5·5.
+    given = {"A": 1, "B": 1, "R": 1, "gamma": "1/2", "N": "1/2"}
+    run = {"Q": 1, "Q_T": 3, "start": [5], "horizon": 1}
+    for convention, P in (("value", fmpq(-9, 10)), ("cost-to-go", fmpq(9, 10)), ("xuKP", fmpq(9, 10))):
+        answers = solved("lqr-backward", **given, **run, convention=convention)
+        assert [answers[label][0, 0] for label in "abc"] == [fmpq(4, 5), P, -4]
+        gain = solved("lqr-gain", **given, P=-3 if convention == "value" else 3, convention=convention)
+        assert gain["a"][0, 0] == fmpq(4, 5)
+    # With a = −4/5 s from 5: −(25 + 5·(−4) + 16) = −21, then s = 1, which costs 3, half.
+    rollout = solved("lqr-reward", **given, **run, L="4/5")
+    assert rollout == {"a": -21, "b": -21 - fmpq(3, 2)}
+    assert rollout["b"] == fmpq(-9, 10) * 25
+
+
+def test_the_letters_of_the_convention_stand_in_question_and_working() -> None:
+    given = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [5], "horizon": 1, "convention": "xuKP"}
+    exercise = rldrill.read({"family": "lqr-backward", "given": given})
+    assert "uₜ = −Kₜxₜ" in str(exercise.question())
+    assert "costs xₜᵀQₜxₜ + uₜᵀRₜuₜ" in str(exercise.question())
+    assert "K₀ = (1 + 1)⁻¹" in str(exercise.working())
+    assert "S" not in str(exercise.working())
+
+
+def test_a_long_horizon_gives_quotients_of_fibonacci_numbers() -> None:
+    # As by hand above, S is F₂₍ₖ₊₁₎/F₂ₖ₊₁ after k steps: after 20 of them 267914296/165580141. The first 12 times are
+    # asked for.
+    answers = solved("lqr-backward", A=1, B=1, Q=1, R=1, start=[1], horizon=20)
+    assert len(answers) == 25
+    assert answers["x"][0, 0] == fmpq(-267914296, 165580141)
 
 
 PENDULUM = {
@@ -234,3 +321,71 @@ def test_the_inverted_pendulum_of_the_control_tutorials() -> None:
         ["0.0000", "-0.4545", "31.1818", "0.0000"],
     ]
     assert decimals(answers["b"], 4) == [["0.0000"], ["1.8182"], ["0.0000"], ["4.5455"]]
+
+
+HELD = {"discretisation": "zero-order hold"}
+
+
+def test_the_zero_order_hold_of_the_double_integrator() -> None:
+    # Åström & Wittenmark 1997, example 2.2: with the step h it is (1 h; 0 1) and (h²/2; h).
+    answers = solved(
+        "linearise", dynamics={"x": "v", "v": "u"}, state={"x": 0, "v": 0}, action={"u": 0}, step="1/10", **HELD
+    )
+    assert_is(answers["a"], [[1, Rational(1, 10)], [0, 1]])
+    assert_is(answers["b"], [[Rational(1, 200)], [Rational(1, 10)]])
+
+
+def test_the_zero_order_hold_of_three_integrators_by_hand() -> None:
+    # The snap u moves the acceleration by h u, the velocity by h²/2 u, the position by h³/6 u; h = 6: 6, 18, 36.
+    answers = solved(
+        "linearise", dynamics={"x": "v", "v": "a", "a": "u"}, state={"x": 0, "v": 0, "a": 0}, action={"u": 0}, step=6,
+        **HELD,
+    )  # fmt: skip
+    assert_is(answers["a"], [[1, 6, 18], [0, 1, 6], [0, 0, 1]])
+    assert_is(answers["b"], [[36], [18], [6]])
+
+
+def test_the_zero_order_hold_of_a_number() -> None:
+    # Åström & Wittenmark 1997, example 2.1: dx/dt = αx + βu becomes e^(αh) and (e^(αh) − 1) β/α.
+    system = {"dynamics": {"x": "3*u - 2*x"}, "state": {"x": 5}, "action": {"u": 1}, "step": "1/2"}
+    answers = solved("linearise", **system, **HELD)
+    assert_is(answers["a"], [[sympy.exp(-1)]])
+    assert_is(answers["b"], [[Rational(3, 2) * (1 - sympy.exp(-1))]])
+    # A linear system is its own linearisation, so nothing is left over.
+    assert_is(solved("linearise-affine", **system, **HELD)["a"], [[0]])
+
+
+def test_the_constant_term_of_a_zero_order_hold_by_hand() -> None:
+    # dv/dt = w², dx/dt = v at v = 2, w = 1, with h = 2: near w = 1 dv/dt is 2w − 1, so the −1 adds −h to v, −h²/2 to x.
+    answers = solved(
+        "linearise-affine", dynamics={"x": "v", "v": "w^2"}, state={"x": 3, "v": 2}, action={"w": 1}, step=2, **HELD
+    )
+    assert_is(answers["a"], [[-2], [-2]])
+    assert_is(answers["c"], [[4], [4], [0]])
+
+
+def test_the_sampled_inverted_pendulum_of_michigan() -> None:
+    # Control Tutorials for MATLAB and Simulink, inverted pendulum, digital control: M = 0.5, m = 0.2, b = 0.1,
+    # l = 0.3, I = 0.006, g = 9.8, p = I (M + m) + M m l² = 0.0132; c2d with 0.01 s prints four digits.
+    answers = solved(
+        "linearise",
+        dynamics={
+            "x": "v", "v": "(-(I + m*l^2)*b*v + m^2*g*l^2*phi + (I + m*l^2)*u)/p",
+            "phi": "omega", "omega": "(-m*l*b*v + m*g*l*(M + m)*phi + m*l*u)/p",
+        },
+        constants={"M": "0.5", "m": "0.2", "b": "0.1", "l": "0.3", "I": "0.006", "g": "9.8", "p": "0.0132"},
+        state={"x": 0, "v": 0, "phi": 0, "omega": 0}, action={"u": 0}, step="0.01", **HELD,
+    )  # fmt: skip
+    printed = [
+        [1, 0.009991, 0.0001336, 4.453e-07], [0, 0.9982, 0.02672, 0.0001336],
+        [0, -2.272e-05, 1.002, 0.01001], [0, -0.004544, 0.3119, 1.002],
+    ]  # fmt: skip
+    for line, numbers in zip(written(answers["a"]), printed, strict=True):
+        assert [float(entry) for entry in line] == pytest.approx(numbers, rel=6e-4)
+    column = [float(entry) for (entry,) in written(answers["b"])]
+    assert column == pytest.approx([9.086e-05, 0.01817, 0.0002272, 0.04544], rel=6e-4)
+
+
+def test_a_hold_needs_a_step() -> None:
+    with pytest.raises(FileError, match="step is missing"):
+        solved("linearise", dynamics={"x": "u"}, state={"x": 0}, action={"u": 0}, **HELD)

@@ -7,6 +7,7 @@ import sympy
 from flint import fmpq
 
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 
 
 @pytest.mark.parametrize(
@@ -148,3 +149,42 @@ def test_the_short_corridor(right: str, printed: float) -> None:
     mdp = {"transitions": rows, "terminal": ["end"]}
     value = float(rounded(solved("policy-value", mdp=mdp, policy=policy, gamma=1)["a"]["1"], 6))
     assert value == pytest.approx(printed, abs=0.3 if printed < -12 else 0.1)
+
+
+def test_a_ratio_of_two_softmax_policies_by_hand() -> None:
+    # Old: ln 1 and ln 3, so the second action had 3/4; new: both alike, 1/2. ρ = 2/3 is below 1 − 1/5, A = −3: the
+    # unclipped term is −2, the clipped one −12/5, which is smaller.
+    sample = {
+        "state": "s", "action": "b", "advantage": -3,
+        "old_preferences": {"a": 0, "b": "ln 3"}, "preferences": {"a": 1, "b": 1},
+    }  # fmt: skip
+    answers = solved("ppo-clip", samples=[sample], epsilon="1/5")
+    assert answers == {"a": fmpq(2, 3), "b": -2, "c": fmpq(-12, 5), "d": fmpq(-12, 5), "e": True}
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"old": "1/2"}, "give either the old probability or the old policy's preferences"),
+        ({"old_preferences": {"a": 0}}, "old_preferences: the preference of 'b' is missing"),
+    ],
+)
+def test_old_policies_that_do_not_fit(changed: Any, message: str) -> None:
+    sample = {"state": "s", "action": "b", "advantage": 1, "new": "1/2", "old_preferences": {"a": 0, "b": 1}}
+    with pytest.raises(FileError, match=message):
+        solved("ppo-clip", samples=[sample | changed], epsilon="1/5")
+
+
+def test_the_entropy_of_cover_and_thomas() -> None:
+    # Cover & Thomas 2006, example 1.1.2: 1/2, 1/4, 1/8 and four times 1/64 … have 2 bits; here 1/2, 1/4, 1/8, 1/8
+    # (example 2.1.1), 7/4 bits, so 7/4 ln 2.
+    features = {"a": [2, 0], "b": [1, 0], "c": [0, 0], "d": [0, 0]}
+    answers = solved("softmax-policy", theta=["ln 2", 0], features=features, entropy=True)
+    assert answers["b"] == {"a": fmpq(1, 2), "b": fmpq(1, 4), "c": fmpq(1, 8), "d": fmpq(1, 8)}
+    assert sympy.simplify(answers["c"] - sympy.Rational(7, 4) * sympy.log(2)) == 0
+
+
+def test_the_entropy_of_a_policy_in_powers_of_e() -> None:
+    # With h = 1 and 0: ln(1 + e) − e/(1 + e).
+    answers = solved("softmax-policy", theta=[1], features={"a": [1], "b": [0]}, entropy=True)
+    assert rounded(answers["c"], 6) == rounded(sympy.log(1 + sympy.E) - sympy.E / (1 + sympy.E), 6) == "0.582203"
