@@ -5,10 +5,11 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, PlainSerializer, ValidationInfo, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
+from rldrill.problems.readings import meant, note_of
 from rldrill.problems.spelling import Unreadable, respelled
 
 _LONGEST = 200
@@ -173,8 +174,10 @@ _schema = WithJsonSchema({"type": ["string", "number"], "description": "an exact
 
 
 def _field(read: Any, *checks: Any) -> Any:
-    def validate(value: object) -> Any:
+    def validate(value: object, info: ValidationInfo) -> Any:
         result = read(value)
+        if isinstance(result, Fraction):
+            result = meant(value, result, note_of(info))
         for check in checks:
             result = check(result)
         return result

@@ -37,9 +37,11 @@ class Exercise:
     """A problem together with its solution.
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
+    ``notes`` say what was read otherwise than it is written in the file, such as 0.3333333333333333 as 1/3.
     """
 
     solution: Solution
+    notes: tuple[str, ...] = ()
 
     @property
     def problem(self) -> Problem:
@@ -263,9 +265,10 @@ def read(data: object, where: str = "the problem") -> Exercise:
             f"{where}: a problem needs 'family' and 'given'; 'rldrill show ID --json' and Exercise.data() write both."
         )
     family = family_of(data["family"])
+    notes: list[str] = []
     try:
-        problem = Problem(family, family.read(data["given"]))
-        return Exercise(solve_problem(problem))
+        problem = Problem(family, family.read(data["given"], notes.append))
+        return Exercise(solve_problem(problem), tuple(dict.fromkeys(notes)))
     except FileError as error:
         raise FileError(f"{where}: {error}") from None
     except NoSolution as error:
