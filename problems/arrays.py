@@ -3,6 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from rldrill.problems.readings import is_zero
+
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
 
 
@@ -35,7 +37,7 @@ def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
         if str(s) not in terminal
         for a in range(actions)
         for after, chance in enumerate(P[a][s])
-        if not _is_zero(chance)
+        if not is_zero(chance)
     ]
     return {"transitions": rows, "terminal": terminal} | {key: data[key] for key in ("story",) if key in data}
 
@@ -56,10 +58,3 @@ def _shape(array: object) -> tuple[int, ...]:
 
 def _told(shape: tuple[int, ...]) -> str:
     return f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})"
-
-
-def _is_zero(chance: object) -> bool:
-    try:
-        return float(str(chance)) == 0
-    except ValueError:
-        return False

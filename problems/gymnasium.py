@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from rldrill.problems.readings import is_zero
+
 _ENTRY = "[probability, next state, reward, whether the episode ends]"
 
 
@@ -58,7 +60,7 @@ def from_table(table: Mapping[Any, Mapping[Any, Any]]) -> dict[str, Any]:
         "transitions": [
             [state, action, after, probability, reward]
             for state, action, probability, after, reward, _ in lines
-            if state not in terminal and probability != 0
+            if state not in terminal and not is_zero(probability)
         ],
         "terminal": sorted(terminal, key=lambda name: (len(name), name)),
     }

@@ -86,3 +86,11 @@ def told(number: Fraction) -> str:
     if number.denominator <= _DENOMINATOR:
         return str(number)
     return f"{Decimal(number.numerator) / number.denominator:.28g}"
+
+
+def is_zero(written: object) -> bool:
+    """Whether this is a number that is 0; what is none is refused where it is read."""
+    try:
+        return float(str(written)) == 0
+    except ValueError:
+        return False

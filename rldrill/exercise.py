@@ -10,6 +10,7 @@ from typing import Any
 
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
+from rldrill.model_file import MODEL_SUFFIXES
 from rldrill.problem_file import FORMAT, read_problem
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Block, Equation, Heading, Paragraph
@@ -247,7 +248,12 @@ def load(id_or_path: str | Path) -> Exercise:
     text = str(id_or_path)
     if looks_like_id(text):
         return Exercise(drawing.by_id(text))
-    if Path(text).suffix.lower() not in DATA_SUFFIXES:
+    if (suffix := Path(text).suffix.lower()) in set(MODEL_SUFFIXES) - set(DATA_SUFFIXES):
+        raise UsageError(
+            f'{text[:60]!r} holds a model; write a problem file beside it, with family = "optimal-value", given.gamma, '
+            f'and given.mdp.file = "{Path(text).name[:40]}".'
+        )
+    if suffix not in DATA_SUFFIXES:
         raise UsageError(
             f"{text[:60]!r} is neither a problem ID (such as value-iteration/2/7) nor a problem file (.toml or .json)."
         )
