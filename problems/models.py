@@ -103,7 +103,7 @@ class Model(Dynamics):
     """
 
     terminal: tuple[Name, ...] = Field(default=(), validate_default=True)
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    story: str = Field(default="", max_length=400, pattern=r"^[^$\\]*$")
 
     @model_validator(mode="before")
     @classmethod

@@ -8,7 +8,7 @@ _ARROWS = "←↑→↓↔↕↖↗↘↙"
 _NAME = re.compile(rf"(?:[^\W_]|[(+−{_ARROWS}-])(?:[\w .'()+−{_ARROWS}-]|(?<=\d),(?= ?[+−-]?\d))*")
 _ALLOWED = (
     "a name begins with a letter, a digit, a sign, an arrow or a bracket, and holds letters, digits, blanks, arrows "
-    "and . ' ( ) + - _ alone, commas between numbers"
+    "and . ' + - _ alone, brackets in pairs, and commas between numbers"
 )
 
 
@@ -25,6 +25,6 @@ def read_name(value: object) -> object:
     brief = repr(value if len(value) <= _LONGEST else f"{value[: _LONGEST - 1]}…")
     if len(value) > _LONGEST:
         raise ValueError(f"the name {brief} has {len(value)} characters, {_LONGEST} are the most; shorten it")
-    if not _NAME.fullmatch(value) or value.endswith(" "):
+    if not _NAME.fullmatch(value) or value.endswith(" ") or value.count("(") != value.count(")"):
         raise ValueError(f"{brief} is no name; {_ALLOWED}")
     return value

@@ -88,7 +88,7 @@ def test_what_is_a_name(name: object) -> None:
     ("name", "says"),
     [
         ("a" * 41, "'a{39}…' has 41 characters, 40 are the most"),
-        ("a,b", "'a,b' is no name; .* commas between numbers"),
+        ("a,b", "'a,b' is no name; .* commas between numbers"), ("(1", "brackets in pairs"),
         ("$x$", "is no name"), ("", "is no name"), ("a ", "is no name"), ("_", "is no name"), ("a\nb", "is no name"),
     ],
 )  # fmt: skip
