@@ -2,18 +2,44 @@
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from typing import Annotated
+
+from pydantic import AfterValidator, ValidationInfo
 
 from rldrill.problems.document import Table
-from rldrill.problems.exact import OpenProbability, Parameter, Scalar, shown
-from rldrill.problems.models import Name, check_keys, sums_to_one
+from rldrill.problems.exact import Probability, Scalar, shown
+from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
+from rldrill.problems.readings import distribution, note_of, told
 
+Likelihood = Mapping[str, Mapping[str, Fraction]]
 #: Where actions lead: for every action and state the probabilities of the next states.
-MotionField = dict[Name, dict[Name, dict[Name, OpenProbability]]]
+MotionField = dict[Name, dict[Name, OpenDistributionField]]
 Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
 
 #: What stands above the table of a motion, and above that of a sensor.
 MOTION_TOLD = "An action $a$ in state $s$ leads to the state $s'$ with the probability $p(s'|s, a)$:"
 SENSOR_TOLD = "In state $s$ the sensor reads $z$ with the probability $p(z|s)$:"
+
+
+def _turned(table: Likelihood) -> dict[str, dict[str, Fraction]]:
+    """A table with its rows as columns."""
+    columns = dict.fromkeys(column for row in table.values() for column in row)
+    return {column: {name: row[column] for name, row in table.items() if column in row} for column in columns}
+
+
+def _by_reading(likelihood: Likelihood, info: ValidationInfo) -> Likelihood:
+    """A likelihood by reading, whichever way it is written; what a program rounded is read as it is meant."""
+    known = set(info.data.get("prior") or info.data.get("belief") or ())
+    of_hypotheses = set(likelihood) == known and all(set(row) != known for row in likelihood.values())
+    rows = likelihood if of_hypotheses else _turned(likelihood)
+    meant = {hypothesis: distribution(row, note_of(info)) for hypothesis, row in rows.items()}
+    if of_hypotheses:
+        return _turned(meant)
+    return {reading: {name: meant[name][reading] for name in row} for reading, row in likelihood.items()}
+
+
+#: What a sensor reads with which probability, by reading; written so, or by hypothesis, where these are told apart.
+LikelihoodField = Annotated[dict[Name, dict[Name, Probability]], AfterValidator(_by_reading)]
 
 
 def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
@@ -22,13 +48,10 @@ def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
     Raises:
         ValueError: they do not.
     """
-    if not sums_to_one(chances.values()):
-        total = sum(chance for chance in chances.values() if isinstance(chance, Fraction))
-        open_ = " and what is left open" if any(isinstance(chance, Parameter) for chance in chances.values()) else ""
-        raise ValueError(f"{what}: the probabilities sum to {total}{open_}, not to 1")
+    check_sum(chances.values(), f"{what}: the probabilities")
 
 
-def check_likelihood(likelihood: Mapping[str, Mapping[str, Fraction]], known: tuple[str, ...]) -> None:
+def check_likelihood(likelihood: Likelihood, known: tuple[str, ...]) -> None:
     """Demand a likelihood of every reading under every hypothesis, and at most 1 of all readings together.
 
     Raises:
@@ -37,8 +60,8 @@ def check_likelihood(likelihood: Mapping[str, Mapping[str, Fraction]], known: tu
     for reading, chances in likelihood.items():
         check_keys(chances, known, f"the likelihood of {reading!r}", needed=known)
     for hypothesis in known:
-        if (total := sum(chances[hypothesis] for chances in likelihood.values())) > 1:
-            raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {total}, more than 1")
+        if (total := sum((chances[hypothesis] for chances in likelihood.values()), Fraction(0))) > 1:
+            raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {told(total)}, more than 1")
 
 
 def check_possible(believed: Iterable[str], likelihood: Mapping[str, Fraction], what: str) -> tuple[str, ...]:

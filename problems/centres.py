@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, Scalar, shown
+from rldrill.problems.exact import Exact, Parameter, Weight, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.pictures import Bumps
 
@@ -49,7 +49,7 @@ def centres_table(centres: tuple[Point, ...]) -> Table:
     )
 
 
-def bumps(given: Centred, width: Scalar, shape: Literal["gaussian", "tent"]) -> tuple[Bumps, ...]:
+def bumps(given: Centred, width: Weight, shape: Literal["gaussian", "tent"]) -> tuple[Bumps, ...]:
     """The features over the state axis, if the state is on a line and their width is a number."""
     if len(given.position) > 1 or isinstance(width, Parameter):
         return ()

@@ -1,12 +1,13 @@
 """What is wrong with the givens of a problem file, as one plain sentence that names the field."""
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
 from pydantic import ValidationError
 
 _LONGEST = 40
-_NAMES = "a name begins with a letter or digit and holds letters, digits, blanks and . ' ( ) + - _ alone"
+_PLACE = re.compile(r"([a-z_]+(?:\[\d+\])*): ", re.IGNORECASE)
 _TABLE = "must be a table, in which every name has its value"
 _WHOLE = "{given} is not a whole number; write one, such as 3"
 _TRUTH = "{given} is neither true nor false; write one of them"
@@ -50,8 +51,11 @@ def sentence(error: ValidationError, *, tagged: bool) -> str:
     if place[-1:] == ["[key]"]:  # the fault is the name itself
         del place[-2:]
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
+    told = _told(first)
+    if begun := _PLACE.match(told):  # what a whole model says of one of its fields
+        path, told = f"{path}.{begun[1]}", told[begun.end() :]
     more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
-    return f"given{path}: {_told(first)}{more}."
+    return f"given{path}: {told}{more}."
 
 
 def _told(fault: Mapping[str, Any]) -> str:
@@ -61,7 +65,8 @@ def _told(fault: Mapping[str, Any]) -> str:
     if kind in ("too_short", "too_long"):
         kind = kind.replace("too", "string_too")
     if kind == "string_pattern_mismatch":
-        return _mismatch(given, told["pattern"])
+        signs = "neither $ nor a backslash" if "$" in told["pattern"].removesuffix("$") else "no backslash"
+        return f"may hold {signs}; take them out"
     says = _SAYS.get(kind, str(fault["msg"]).removeprefix("Value error, ").removesuffix("."))
     if kind not in _SAYS:
         return says
@@ -82,14 +87,6 @@ def _counted(kind: str, told: Mapping[str, Any]) -> str:
 
 def _entries(count: int) -> str:
     return "entry" if count == 1 else "entries"
-
-
-def _mismatch(given: str, pattern: str) -> str:
-    """What to say of a text that holds what it may not hold."""
-    if not pattern.startswith(r"^[^\W_]"):
-        signs = "neither $ nor a backslash" if "$" in pattern.removesuffix("$") else "no backslash"
-        return f"may hold {signs}; take them out"
-    return f"{_shown(given)} is no name; {_NAMES}"
 
 
 def _shown(given: object) -> str:

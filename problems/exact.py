@@ -3,12 +3,14 @@
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import lru_cache
+from math import isqrt, sqrt
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, PlainSerializer, ValidationInfo, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
-from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
+from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
+from rldrill.problems.readings import meant, note_of
 from rldrill.problems.spelling import Unreadable, respelled
 
 _LONGEST = 200
@@ -67,7 +69,21 @@ class Logarithm(str):
         return read_scalar(self.removeprefix("ln "))
 
 
-Weight = Scalar | Logarithm
+class Root(str):
+    """The square root of a rational number: ``sqrt(3/2)``."""
+
+    __slots__ = ()
+
+    @property
+    def of(self) -> Fraction:
+        """What it is the root of."""
+        return Fraction(self.removeprefix("sqrt(").removesuffix(")"))
+
+    def __float__(self) -> float:
+        return sqrt(self.of)
+
+
+Weight = Scalar | Logarithm | Root
 
 
 def read_fraction(value: object) -> Fraction:
@@ -94,11 +110,15 @@ def _parsed(text: str) -> Node:
 
 @lru_cache(maxsize=1024)
 def _fraction(text: str) -> Fraction:
+    return _worth(_parsed(text), text)
+
+
+def _worth(tree: Node, text: str) -> Fraction:
     def refuse(*_: object) -> Fraction:
         raise ValueError(f"{text[:40]!r} is not a number; write it as 3, 0.75 or 3/4")
 
     try:
-        number = worked_out(_parsed(text), Fraction, refuse, refuse, _power)
+        number = worked_out(tree, Fraction, refuse, refuse, _power)
     except ZeroDivisionError:
         raise ValueError(f"{text[:40]!r} divides by zero") from None
     if max(abs(number.numerator), number.denominator) > 10**DIGITS:
@@ -137,6 +157,31 @@ def read_weight(value: object) -> Weight:
     return read_scalar(value)
 
 
+def read_width(value: object) -> Scalar | Root:
+    """Read an exact number, a parameter left open, or a square root such as ``sqrt(3/2)`` or ``2 sqrt(2)``."""
+    if not isinstance(value, str) or not any(
+        isinstance(node, Operation) and node.sign == "sqrt" for node in nodes(_parsed(value))
+    ):
+        return read_scalar(value)
+    square = _square(_parsed(value), value)
+    if square < 0:
+        raise ValueError(f"{value[:40]!r} is the root of a negative number")
+    top, below = isqrt(square.numerator), isqrt(square.denominator)
+    return Fraction(top, below) if Fraction(top, below) ** 2 == square else Root(f"sqrt({square})")
+
+
+def _square(tree: Node, text: str) -> Fraction:
+    """The square of a product or quotient of numbers and square roots."""
+    match tree:
+        case Operation("sqrt", (inner,)):
+            return _worth(inner, text)
+        case Operation("*", (first, second)):
+            return _square(first, text) * _square(second, text)
+        case Operation("/", (first, second)) if _square(second, text) != 0:
+            return _square(first, text) / _square(second, text)
+    return _worth(tree, text) ** 2
+
+
 def write(value: Weight) -> str:
     """Write an exact number as problem files have it: ``3``, ``-1/2``, ``gamma``."""
     return str(value)
@@ -151,6 +196,8 @@ def shown(value: Weight | int) -> str:
     """Write an exact number as mathematics, for use between ``$`` signs."""
     if isinstance(value, Logarithm):
         return f"ln {shown(value.of)}"
+    if isinstance(value, Root):
+        return f"√{value.of}" if value.of.denominator == 1 else f"√({value.of})"
     if isinstance(value, Parameter):
         return ("1 − " if value.complement else "") + PARAMETERS[value.symbol]
     return str(value).replace("-", "−")
@@ -173,8 +220,10 @@ _schema = WithJsonSchema({"type": ["string", "number"], "description": "an exact
 
 
 def _field(read: Any, *checks: Any) -> Any:
-    def validate(value: object) -> Any:
+    def validate(value: object, info: ValidationInfo) -> Any:
         result = read(value)
+        if isinstance(result, Fraction):
+            result = meant(value, result, note_of(info))
         for check in checks:
             result = check(result)
         return result
@@ -200,3 +249,10 @@ WeightField = Annotated[
 ]
 #: A step size α, above 0 and at most 1, or left open.
 StepSize = Annotated[Fraction | Parameter, _field(read_scalar, _rate), _serialised, _schema]
+#: A width σ, whose square is what counts: ``sqrt(3/2)``.
+WidthField = Annotated[
+    Fraction | Parameter | Root,
+    _field(read_width),
+    _serialised,
+    WithJsonSchema({"type": ["string", "number"], "description": "an exact number, or a square root: 'sqrt(3/2)'"}),
+]

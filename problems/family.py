@@ -16,6 +16,7 @@ from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
+from rldrill.problems.readings import Note
 
 
 class Givens(BaseModel):
@@ -101,14 +102,18 @@ class Family:
         union, *_ = get_args(self.given) or (None,)
         return tuple(get_args(tagged)[0] for tagged in get_args(union)) or (self.given,)
 
-    def read(self, given: object) -> Givens:
+    def read(self, given: object, note: Note | None = None) -> Givens:
         """Read givens from what a file holds.
+
+        Args:
+            given: what it holds.
+            note: told what is read otherwise than it is written, such as 0.3333333333333333 as 1/3.
 
         Raises:
             FileError: they do not fit; the sentence names the field.
         """
         try:
-            return self._reader.validate_python(given)
+            return self._reader.validate_python(given, context=note)
         except ValidationError as error:
             raise FileError(sentence(error, tagged=len(self.kinds) > 1)) from None
 

@@ -2,15 +2,18 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill.problems.exact import Exact, Probability
+from rldrill.problems.readings import Note
 
 WALL, FREE = "#", "."
 #: The moves, each with its step down and to the right.
 MOVES = {"up": (-1, 0), "right": (0, 1), "down": (1, 0), "left": (0, -1)}
+#: The one action of an end that must be left, and the state that it leads to.
+EXIT, OVER = "exit", "over"
 _LARGEST = 1000
 
 Cell = tuple[int, int]
@@ -21,21 +24,42 @@ class Grid(BaseModel):
 
     Args:
         grid: the cells, a line for every row: ``.`` is free, ``#`` a wall, anything else a cell with a name.
-        rewards: what entering a cell of that name earns.
+        rewards: what a cell of that name earns.
+        rewards_on: whether a reward is earned on entering the cell or on leaving it, as the textbooks' R(s) is.
         step: what every move earns besides.
+        bump: what a move against a wall or the edge earns besides.
         slip: the probability to go at a right angle to the move, half of it to either side.
         ends: the names of the cells in which an episode ends; those with rewards, if not given.
-        returns: for cells of that name, the name of the cell that entering them leads to.
+        exit: whether an end is left by the one action there, ``exit``, which earns its reward (and no ``step``) and
+            ends the episode; it is where rewards are earned on leaving. Else entering an end ends the episode.
+        returns: for cells of that name, the name of the cell that entering them leads to; where rewards are earned
+            on leaving, that every move from them leads to.
+        story: what the question says first.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     grid: str = Field(min_length=1, max_length=5000)
     rewards: dict[str, Exact] = {}
+    rewards_on: Literal["entering", "leaving"] = "entering"
     step: Exact = Fraction(0)
+    bump: Exact = Fraction(0)
     slip: Probability = Fraction(0)
     ends: tuple[str, ...] | None = None
+    exit: bool | None = None
     returns: dict[str, str] = {}
+    story: str = ""
+
+    @property
+    def exits(self) -> bool:
+        """Whether an end is left by an action of its own."""
+        return self.rewards_on == "leaving" if self.exit is None else self.exit
+
+    def told(self) -> str:
+        """The story, with the sentences that say when rewards are earned, unless all are on entering."""
+        on = f"Rewards of cells are earned on {self.rewards_on} them." if self.rewards_on == "leaving" else ""
+        out = f"In an end, the one action is {EXIT}: it earns the end's reward, and the episode is over."
+        return " ".join(filter(None, [self.story, on, out if self.exits and self._ends() else ""]))
 
     def transitions(self) -> tuple[list[list[Any]], list[str]]:
         """The transitions of the world, and its terminal states; a cell is called by row and column, ``r1c3``.
@@ -49,13 +73,18 @@ class Grid(BaseModel):
             for name in names:
                 if name not in named:
                     raise ValueError(f"{what} names {name!r}, but no cell of the grid is called so")
+        if self.rewards_on == "leaving" and not self.exits:
+            raise ValueError("exit: with rewards on leaving, an end that is not left earns nothing; set exit = true")
         ends = {cell for cell, sign in cells.items() if sign in self._ends()}
+        passed = self.returns if self.rewards_on == "entering" else ()  # nobody stays there
         rows: list[list[Any]] = []
         for cell, sign in cells.items():
-            if sign != WALL and cell not in ends and sign not in self.returns:
+            if cell in ends and self.exits:
+                rows.append([_name(cell), EXIT, OVER, 1, self.rewards.get(sign, Fraction(0))])
+            elif sign != WALL and cell not in ends and sign not in passed:
                 for move in MOVES:
                     rows += self._outcomes(cells, cell, move)
-        return rows, [_name(cell) for cell in sorted(ends)]
+        return rows, [OVER] if self.exits and ends else [_name(cell) for cell in sorted(ends)]
 
     def _ends(self) -> tuple[str, ...]:
         if self.ends is not None:
@@ -75,46 +104,56 @@ class Grid(BaseModel):
         names = list(MOVES)
         place = names.index(move)
         chances = {move: 1 - self.slip, names[(place + 1) % 4]: self.slip / 2, names[(place - 1) % 4]: self.slip / 2}
-        reached: dict[tuple[str, Fraction], Fraction] = {}
-        for way, chance in chances.items():
-            if chance:
-                after, reward = self._entered(cells, cell, way)
-                reached[after, reward] = reached.get((after, reward), Fraction(0)) + chance
-        merged: dict[str, tuple[Fraction, Fraction]] = {}
-        for (after, reward), chance in reached.items():
-            total, worth = merged.get(after, (Fraction(0), Fraction(0)))
-            merged[after] = total + chance, worth + chance * reward
-        return [[_name(cell), move, after, total, worth / total] for after, (total, worth) in merged.items()]
+        return [
+            [_name(cell), move, after, chance, reward]
+            for way, chance in chances.items()
+            if chance
+            for after, reward in [self._moved(cells, cell, way)]
+        ]
 
-    def _entered(self, cells: Mapping[Cell, str], cell: Cell, way: str) -> tuple[str, Fraction]:
+    def _moved(self, cells: Mapping[Cell, str], cell: Cell, way: str) -> tuple[str, Fraction]:
+        """Where a move leads, and what it earns."""
         down, right = MOVES[way]
-        after = (cell[0] + down, cell[1] + right)
+        after, left = (cell[0] + down, cell[1] + right), cells[cell]
+        leaving = self.rewards_on == "leaving"
+        earned = self.step + (self.rewards.get(left, Fraction(0)) if leaving else 0)
+        if leaving and left in self.returns:
+            return _name(self._target(cells, left)), earned
         if cells.get(after, WALL) == WALL:
-            return _name(cell), self.step
+            return _name(cell), earned + self.bump
         sign = cells[after]
-        reward = self.step + self.rewards.get(sign, Fraction(0))
-        if sign in self.returns:
-            targets = [other for other, name in cells.items() if name == self.returns[sign]]
-            if len(targets) != 1:
-                raise ValueError(f"returns leads to {self.returns[sign]!r}, which must stand for one cell")
-            after = targets[0]
-        return _name(after), reward
+        if leaving:
+            return _name(after), earned
+        if not (self.exits and sign in self._ends()):
+            earned += self.rewards.get(sign, Fraction(0))
+        return _name(self._target(cells, sign) if sign in self.returns else after), earned
+
+    def _target(self, cells: Mapping[Cell, str], sign: str) -> Cell:
+        targets = [cell for cell, name in cells.items() if name == self.returns[sign]]
+        if len(targets) != 1:
+            raise ValueError(f"returns leads to {self.returns[sign]!r}, which must stand for one cell")
+        return targets[0]
 
 
 def _name(cell: Cell) -> str:
     return f"r{cell[0] + 1}c{cell[1] + 1}"
 
 
-def read_grid(data: Mapping[str, Any]) -> dict[str, Any]:
+def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     """A drawn grid as the transitions of a model.
+
+    Args:
+        data: the fields of a ``Grid``.
+        note: told what is read otherwise than it is written.
 
     Raises:
         ValueError: the drawing does not fit.
     """
     try:
-        transitions, terminal = Grid.model_validate(data).transitions()
+        grid = Grid.model_validate(data, context=note)
+        transitions, terminal = grid.transitions()
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         raise ValueError(f"{where}: {str(first['msg']).removeprefix('Value error, ')}") from None
-    return {"transitions": transitions, "terminal": terminal}
+    return {"transitions": transitions, "terminal": terminal, "story": grid.told()}

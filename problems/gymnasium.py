@@ -1,10 +1,11 @@
-"""Gymnasium's toy-text environments as models, where gymnasium is installed."""
+"""Tables of Gymnasium's toy-text environments as models: written out, or of an environment that is installed."""
 
-from collections.abc import Mapping
-from fractions import Fraction
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-_FINEST = 1000
+from rldrill.problems.readings import is_zero
+
+_ENTRY = "[probability, next state, reward, whether the episode ends]"
 
 
 def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -33,26 +34,46 @@ def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
     return from_table(table)
 
 
+def read_table(data: Mapping[str, Any]) -> dict[str, Any]:
+    """A table ``P`` that is written out.
+
+    Raises:
+        ValueError: it is no such table.
+    """
+    extra = set(data) - {"P"}
+    if extra:
+        raise ValueError(f"{min(extra)!r} is not understood beside Gymnasium's table P; take it out")
+    return from_table(data["P"])
+
+
 def from_table(table: Mapping[Any, Mapping[Any, Any]]) -> dict[str, Any]:
     """A table ``{state: {action: [(probability, next state, reward, ends), …]}}`` as a model's transitions.
 
-    A state that is entered where the episode ends is terminal, whatever the table says of it. Probabilities
-    are read as the simplest fractions that they round.
+    A state that is entered where the episode ends is terminal, whatever the table says of it.
+
+    Raises:
+        ValueError: an entry has another form.
     """
-    terminal = {after for row in table.values() for outcomes in row.values() for _, after, _, ends in outcomes if ends}
-    transitions: list[list[Any]] = []
+    lines = list(_lines(table))
+    terminal = {after for *_, after, _, ends in lines if ends}
+    return {
+        "transitions": [
+            [state, action, after, probability, reward]
+            for state, action, probability, after, reward, _ in lines
+            if state not in terminal and not is_zero(probability)
+        ],
+        "terminal": sorted(terminal, key=lambda name: (len(name), name)),
+    }
+
+
+def _lines(table: Mapping[Any, Mapping[Any, Any]]) -> Iterator[tuple[str, str, Any, str, Any, bool]]:
     for state, row in table.items():
-        if state in terminal:
-            continue
+        if not isinstance(row, Mapping):
+            raise ValueError(f"P: {str(state)!r} must have a table of its actions, each with its list of {_ENTRY}")
         for action, outcomes in row.items():
-            merged: dict[Any, tuple[Fraction, Fraction]] = {}
-            for probability, after, reward, _ in outcomes:
-                chance = Fraction(probability).limit_denominator(_FINEST)
-                total, worth = merged.get(after, (Fraction(0), Fraction(0)))
-                merged[after] = total + chance, worth + chance * Fraction(str(reward))
-            transitions += [
-                [str(state), str(action), str(after), total, worth / total]
-                for after, (total, worth) in merged.items()
-                if total
-            ]
-    return {"transitions": transitions, "terminal": [str(state) for state in sorted(terminal)]}
+            for number, outcome in enumerate(outcomes if isinstance(outcomes, list | tuple) else [outcomes], 1):
+                match outcome:
+                    case [probability, after, reward, bool(ends)]:
+                        yield str(state), str(action), probability, str(after), reward, ends
+                    case _:
+                        raise ValueError(f"P: outcome {number} of {action} in {state} must be {_ENTRY}")

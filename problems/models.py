@@ -4,9 +4,16 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, NamedTuple, Self
+from typing import Annotated, NamedTuple, Self, TypeVar
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from rldrill.problems.document import Beside, Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
@@ -14,25 +21,25 @@ from rldrill.problems.exact import (
     Open,
     OpenProbability,
     Parameter,
+    Probability,
     Scalar,
     shown,
 )
 from rldrill.problems.family import Givens
-from rldrill.problems.grids import read_grid
-from rldrill.problems.gymnasium import read_environment
+from rldrill.problems.model_forms import ALONE, read_form
+from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
+from rldrill.problems.readings import Note, distribution, note_of, told
+
+Chance = TypeVar("Chance")
 
 #: Models up to this size are drawn beside their table.
 _DRAWN_STATES, _DRAWN_TRANSITIONS = 4, 16
 
 
-def _name(value: object) -> object:
-    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
-
-
-#: The name of a state, an action or a hypothesis. Dollar signs and backslashes would be read as mathematics.
-Name = Annotated[str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)]
+#: The name of a state, an action or a hypothesis.
+Name = Annotated[str, BeforeValidator(read_name)]
 
 
 class Transition(NamedTuple):
@@ -50,16 +57,15 @@ class Dynamics(Givens):
 
     transitions: tuple[Transition, ...] = Field(min_length=1)
 
+    @field_validator("transitions")
+    @classmethod
+    def _as_meant(cls, rows: tuple[Transition, ...], info: ValidationInfo) -> tuple[Transition, ...]:
+        return _added_up(rows, note_of(info))
+
     @model_validator(mode="after")
     def _distributions(self) -> Self:
-        doubled = [key for key, count in Counter(t[:3] for t in self.transitions).items() if count > 1]
-        if doubled:
-            state, action, after = doubled[0]
-            raise ValueError(f"the transition {state}, {action}, {after} is given twice; give each once")
         for (state, action), outcomes in self.outcomes.items():
-            if not sums_to_one([outcome.probability for outcome in outcomes]):
-                total = sum(o.probability for o in outcomes if isinstance(o.probability, Fraction))
-                raise ValueError(f"the probabilities of {action!r} in {state!r} sum to {total}, not to 1")
+            check_sum([outcome.probability for outcome in outcomes], f"the probabilities of {action!r} in {state!r}")
         return self
 
     @cached_property
@@ -92,20 +98,29 @@ class Dynamics(Givens):
 class Model(Dynamics):
     """A finite Markov decision process: its transitions, and the states in which an episode ends.
 
-    Files may also give it as a ``grid`` drawn as text, or as the ID of a ``gymnasium`` environment.
+    Files may also give it in one of the forms of ``model_forms``, such as a ``grid`` drawn as text. Where no state
+    is called terminal, those are that are reached and have no action.
     """
 
-    terminal: tuple[Name, ...] = ()
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    terminal: tuple[Name, ...] = Field(default=(), validate_default=True)
+    story: str = Field(default="", max_length=400, pattern=r"^[^$\\]*$")
 
     @model_validator(mode="before")
     @classmethod
-    def _other_forms(cls, data: object) -> object:
-        if isinstance(data, dict) and "grid" in data:
-            return read_grid(data)
-        if isinstance(data, dict) and "gymnasium" in data:
-            return read_environment(data)
-        return data
+    def _other_forms(cls, data: object, info: ValidationInfo) -> object:
+        return read_form(data, note_of(info))
+
+    @field_validator("terminal")
+    @classmethod
+    def _ends(cls, terminal: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
+        if terminal or "transitions" not in info.data:
+            return terminal
+        rows: tuple[Transition, ...] = info.data["transitions"]
+        acting = {row.state for row in rows}
+        found = tuple(dict.fromkeys(row.next for row in rows if row.next not in acting))
+        for state in found:
+            note_of(info)(f"took {state!r}, which has no action, for a terminal state")
+        return found
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
@@ -119,6 +134,31 @@ class Model(Dynamics):
                     f"{transition.next!r} is reached but has no action; give it one or list it as terminal"
                 )
         return self
+
+
+def _added_up(rows: tuple[Transition, ...], note: Note) -> tuple[Transition, ...]:
+    """Every outcome once, with probabilities that sum to 1.
+
+    What leads to the same state by the same action is one outcome, whose reward is that on average.
+    """
+    outcomes: dict[tuple[str, str], dict[str, Transition]] = {}
+    for row in rows:
+        found = outcomes.setdefault((row.state, row.action), {})
+        found[row.next] = _both(found[row.next], row) if row.next in found else row
+    for pair, found in outcomes.items():
+        chances = distribution({after: row.probability for after, row in found.items()}, note)
+        outcomes[pair] = {after: row._replace(probability=chances[after]) for after, row in found.items()}
+    order = dict.fromkeys(row[:3] for row in rows)
+    return tuple(outcomes[state, action][after] for state, action, after in order)
+
+
+def _both(first: Transition, second: Transition) -> Transition:
+    """Two lines that tell of the same outcome, as one."""
+    numbers = (first.probability, first.reward, second.probability, second.reward)
+    if any(isinstance(number, Parameter) for number in numbers):
+        raise ValueError(f"{', '.join(first[:3])} is given twice; where a parameter is left open, give it once")
+    p, r, q, s = (Fraction(number) for number in numbers)
+    return first._replace(probability=p + q, reward=(p * r + q * s) / (p + q) if p + q else r)
 
 
 def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
@@ -145,27 +185,59 @@ def sums_to_one(probabilities: Iterable[Scalar]) -> bool:
     return rest == 0 and not any(balance.values())
 
 
+def check_sum(probabilities: Iterable[Scalar], what: str) -> None:
+    """Demand that probabilities sum to 1.
+
+    Raises:
+        ValueError: they do not.
+    """
+    chances = list(probabilities)
+    if not sums_to_one(chances):
+        total = sum((chance for chance in chances if isinstance(chance, Fraction)), Fraction(0))
+        left_open = " and what is left open" if any(isinstance(chance, Parameter) for chance in chances) else ""
+        raise ValueError(f"{what} sum to {told(total)}{left_open}, not to 1")
+
+
 Policy = Mapping[str, Mapping[str, OpenProbability]]
+UNIFORM = ("uniform", "equiprobable")
 
 
-def read_policy(value: object) -> object:
-    """Let a deterministic policy be written ``{cool = "fast"}``; ``equiprobable`` needs the model, so it stays."""
+def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance]:
+    return distribution(chances, note_of(info))
+
+
+#: Probabilities by name that sum to 1; what a program rounded is read as it is meant.
+DistributionField = Annotated[dict[Name, Probability], AfterValidator(_meant)]
+OpenDistributionField = Annotated[dict[Name, OpenProbability], AfterValidator(_meant)]
+
+
+def read_policy(value: object, info: ValidationInfo) -> object:
+    """Let a deterministic policy be written ``{cool = "fast"}``, and the equiprobable one ``uniform``."""
     if isinstance(value, dict):
-        return {state: {choice: 1} if isinstance(choice, str) else choice for state, choice in value.items()}
-    return value
+        return {state: {choice: 1} if isinstance(choice, str | int) else choice for state, choice in value.items()}
+    if value not in UNIFORM:
+        return value
+    known = next((actions for field in info.data.values() if (actions := _choices(field))), None)
+    return value if known is None else _uniform(known)
 
 
-PolicyField = Annotated[
-    dict[Name, dict[Name, OpenProbability]],
-    BeforeValidator(read_policy),
-]
+def _choices(field: object) -> Mapping[str, Iterable[str]] | None:
+    """The actions of every state, by a field of a problem: a model, or action values."""
+    if isinstance(field, Dynamics):
+        return field.actions
+    return field if isinstance(field, dict) and all(isinstance(row, dict) for row in field.values()) else None
+
+
+def _uniform(actions: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Scalar]]:
+    return {state: {action: Fraction(1, len(list(row))) for action in row} for state, row in actions.items()}
+
+
+PolicyField = Annotated[dict[Name, OpenDistributionField], BeforeValidator(read_policy)]
 
 
 def equiprobable(model: Dynamics) -> dict[str, dict[str, Scalar]]:
     """The policy that takes every action of a state with the same probability."""
-    return {
-        state: {action: Fraction(1, len(actions)) for action in actions} for state, actions in model.actions.items()
-    }
+    return _uniform(model.actions)
 
 
 def check_policy(policy: Policy, model: Dynamics) -> None:
@@ -186,8 +258,7 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
         ValueError: an action is unknown, or the probabilities do not sum to 1.
     """
     check_keys(chances, actions, f"{of} in {state!r}", needed=())
-    if not sums_to_one(list(chances.values())):
-        raise ValueError(f"{of}'s probabilities in {state!r} do not sum to 1")
+    check_sum(chances.values(), f"{of}'s probabilities in {state!r}")
 
 
 class ModelAndPolicy(Givens):
@@ -238,13 +309,21 @@ def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
 
 
 def transitions_table(model: Dynamics) -> Table:
-    """The model as a table, one line for every transition."""
+    """The model as a table, one line for every transition; a process without actions has no column for them."""
+    alone = _alone(model)
+    header = ("$s$", "$a$", "$s'$", "$P_{s s'}^a$", "$R_{s s'}^a$")
     return Table(
-        header=("$s$", "$a$", "$s'$", "$P_{s s'}^a$", "$R_{s s'}^a$"),
+        header=("$s$", "$s'$", "$P_{s s'}$", "$R_{s s'}$") if alone else header,
         rows=tuple(
-            (t.state, t.action, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$") for t in model.transitions
+            (t.state, *(() if alone else (t.action,)), t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$")
+            for t in model.transitions
         ),
     )
+
+
+def _alone(model: Dynamics) -> bool:
+    """Whether this is a process without actions."""
+    return {action for _, action in model.pairs} == {ALONE}
 
 
 def model_blocks(model: Model) -> tuple[Block, ...]:
@@ -253,7 +332,8 @@ def model_blocks(model: Model) -> tuple[Block, ...]:
     table = transitions_table(model)
     drawn = len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
     arrows = " (on the arrows: probability, reward)" if drawn else ""
-    opening = Paragraph(f"{told}This Markov decision process moves and pays like this{arrows}:")
+    process = "reward process" if _alone(model) else "decision process"
+    opening = Paragraph(f"{told}This Markov {process} moves and pays like this{arrows}:")
     return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
 
 

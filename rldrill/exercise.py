@@ -10,6 +10,7 @@ from typing import Any
 
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
+from rldrill.model_file import MODEL_SUFFIXES
 from rldrill.problem_file import FORMAT, read_problem
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Block, Equation, Heading, Paragraph
@@ -37,9 +38,11 @@ class Exercise:
     """A problem together with its solution.
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
+    ``notes`` say what was read otherwise than it is written in the file, such as 0.3333333333333333 as 1/3.
     """
 
     solution: Solution
+    notes: tuple[str, ...] = ()
 
     @property
     def problem(self) -> Problem:
@@ -245,7 +248,12 @@ def load(id_or_path: str | Path) -> Exercise:
     text = str(id_or_path)
     if looks_like_id(text):
         return Exercise(drawing.by_id(text))
-    if Path(text).suffix.lower() not in DATA_SUFFIXES:
+    if (suffix := Path(text).suffix.lower()) in set(MODEL_SUFFIXES) - set(DATA_SUFFIXES):
+        raise UsageError(
+            f'{text[:60]!r} holds a model; write a problem file beside it, with family = "optimal-value", given.gamma, '
+            f'and given.mdp.file = "{Path(text).name[:40]}".'
+        )
+    if suffix not in DATA_SUFFIXES:
         raise UsageError(
             f"{text[:60]!r} is neither a problem ID (such as value-iteration/2/7) nor a problem file (.toml or .json)."
         )
@@ -263,9 +271,10 @@ def read(data: object, where: str = "the problem") -> Exercise:
             f"{where}: a problem needs 'family' and 'given'; 'rldrill show ID --json' and Exercise.data() write both."
         )
     family = family_of(data["family"])
+    notes: list[str] = []
     try:
-        problem = Problem(family, family.read(data["given"]))
-        return Exercise(solve_problem(problem))
+        problem = Problem(family, family.read(data["given"], notes.append))
+        return Exercise(solve_problem(problem), tuple(dict.fromkeys(notes)))
     except FileError as error:
         raise FileError(f"{where}: {error}") from None
     except NoSolution as error:

@@ -38,6 +38,15 @@ def read_text(path: str | Path, suffixes: Sequence[str]) -> str:
     Raises:
         FileError: it does not exist, cannot be read, ends otherwise, is too large or is not text.
     """
+    return _decoded(read_bytes(path, suffixes), shown(path))
+
+
+def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
+    """What a file holds whose name ends as one of the suffixes says.
+
+    Raises:
+        FileError: it does not exist, cannot be read, ends otherwise or is too large.
+    """
     path, where = Path(path), shown(path)
     try:
         if path.is_dir():
@@ -56,12 +65,12 @@ def read_text(path: str | Path, suffixes: Sequence[str]) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise FileError(f"{where}: it cannot be read ({reason.lower()}); name another file.") from None
-    return _decoded(content, where)
+    if len(content) > _LARGEST:
+        raise FileError(f"{where}: the file is larger than {_LARGEST // 10**6} MB; split it.")
+    return content
 
 
 def _decoded(content: bytes, where: str) -> str:
-    if len(content) > _LARGEST:
-        raise FileError(f"{where}: the file is larger than {_LARGEST // 10**6} MB; split it.")
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

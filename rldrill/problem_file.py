@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from rldrill.files import brief, kind_of, read_data, shown
+from rldrill.model_file import with_files
 from rldrill.problems.errors import FileError
 
 #: The version of the JSON that ``Exercise.data`` gives and that problem files have.
@@ -14,7 +15,8 @@ _IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
 def read_problem(path: str | Path) -> dict[str, Any]:
     """The family and the givens that a problem file (TOML or JSON) holds.
 
-    What ``rldrill show ID --json`` writes beside them is passed over.
+    What ``rldrill show ID --json`` writes beside them is passed over. A model may lie in a file of its own, named
+    from the folder of the problem file.
 
     Raises:
         FileError: the file cannot be read, or is not a problem file.
@@ -32,4 +34,10 @@ def read_problem(path: str | Path) -> dict[str, Any]:
     unknown = [key for key in data if key not in _IGNORED | {"family", "given"}]
     if unknown:
         raise FileError(f"{where}: {brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
-    return {key: data[key] for key in ("family", "given") if key in data}
+    problem = {key: data[key] for key in ("family", "given") if key in data}
+    if "given" in problem:
+        try:
+            problem["given"] = with_files(problem["given"], Path(path).parent)
+        except FileError as error:
+            raise FileError(f"{where}: {error}") from None
+    return problem

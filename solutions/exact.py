@@ -8,7 +8,7 @@ from typing import Any, TypeGuard
 import sympy
 from flint import arb, ctx, fmpq
 
-from rldrill.problems.exact import Logarithm, Parameter, Weight
+from rldrill.problems.exact import Logarithm, Parameter, Root, Weight
 from rldrill.solutions import surds
 from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
@@ -28,6 +28,8 @@ def exact(number: Weight | int) -> Value:
     """A given's number as a value to compute with."""
     if isinstance(number, Logarithm):
         return sympy.log(to_sympy(exact(number.of)))
+    if isinstance(number, Root):
+        return sympy.sqrt(sympy.Rational(number.of.numerator, number.of.denominator))
     if isinstance(number, Parameter):
         open_ = generator(number.symbol)
         return 1 - open_ if number.complement else open_

@@ -8,6 +8,7 @@ from rldrill.problems.bars import belief_bars
 from rldrill.problems.beliefs import (
     MOTION_TOLD,
     SENSOR_TOLD,
+    LikelihoodField,
     MotionField,
     check_distribution,
     check_likelihood,
@@ -18,9 +19,8 @@ from rldrill.problems.beliefs import (
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import DistributionField, Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
@@ -45,9 +45,9 @@ class Event(Givens):
 class Given(Givens):
     """A belief over states, where actions lead, what the sensor reads in every state, and the run."""
 
-    belief: dict[Name, Probability] = Field(min_length=2)
+    belief: DistributionField = Field(min_length=2)
     motion: MotionField = Field(default_factory=dict)
-    likelihood: dict[Name, dict[Name, Probability]] = Field(default_factory=dict)
+    likelihood: LikelihoodField = Field(default_factory=dict)
     run: tuple[Event, ...] = Field(min_length=1, max_length=26)
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
 

@@ -14,9 +14,9 @@ from rldrill.problems.beliefs import (
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, Probability
+from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import DistributionField, Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.scenes import SCENES, draw_motion
@@ -29,7 +29,7 @@ REVISION = 1
 class Given(Givens):
     """A belief over states, where every action leads from every state, and the actions taken."""
 
-    belief: dict[Name, Probability] = Field(min_length=2)
+    belief: DistributionField = Field(min_length=2)
     motion: MotionField
     actions: tuple[Name, ...] = Field(min_length=1, max_length=26)
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")

@@ -7,12 +7,17 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.bars import belief_bars
-from rldrill.problems.beliefs import check_distribution, check_likelihood, check_possible, likelihood_table
+from rldrill.problems.beliefs import (
+    LikelihoodField,
+    check_distribution,
+    check_likelihood,
+    check_possible,
+    likelihood_table,
+)
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import DistributionField, Name, check_keys
 from rldrill.problems.parts import Part, Values
 
 TITLE = "Bayes' rule"
@@ -23,8 +28,8 @@ REVISION = 2
 class Given(Givens):
     """A prior over hypotheses, the likelihood of every reading under each, and the readings made."""
 
-    prior: dict[Name, Probability] = Field(min_length=2)
-    likelihood: dict[Name, dict[Name, Probability]]
+    prior: DistributionField = Field(min_length=2)
+    likelihood: LikelihoodField
     measurements: tuple[Name, ...] = Field(min_length=1, max_length=26)
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
 

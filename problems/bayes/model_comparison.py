@@ -10,7 +10,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import DistributionField, Name, check_keys
 from rldrill.problems.parts import Number, Part, Values, YesNo
 
 TITLE = "Model comparison"
@@ -57,7 +57,7 @@ class Given(Givens):
     """Some models of a coin with their priors, and how many heads and tails there were."""
 
     models: dict[Name, CoinModel] = Field(min_length=2, max_length=10)
-    prior: dict[Name, Probability]
+    prior: DistributionField
     heads: int = Field(ge=0, le=500)
     tails: int = Field(ge=0, le=500)
 

@@ -7,9 +7,17 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter, Probability, Scalar, shown
+from rldrill.problems.exact import Discount, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, read_policy
+from rldrill.problems.models import (
+    DistributionField,
+    Name,
+    PolicyField,
+    check_chances,
+    check_keys,
+    policy_table,
+    read_policy,
+)
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open, terminal_note
 from rldrill.problems.runs import Trajectory, timeline
@@ -25,7 +33,7 @@ class Given(Givens):
 
     episodes: tuple[Trajectory, ...] = Field(min_length=1, max_length=26)
     target: PolicyField
-    behaviour: Annotated[dict[Name, dict[Name, Probability]], BeforeValidator(read_policy)]
+    behaviour: Annotated[dict[Name, DistributionField], BeforeValidator(read_policy)]
     gamma: Discount
 
     @model_validator(mode="after")

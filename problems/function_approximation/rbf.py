@@ -1,5 +1,6 @@
 """Radial basis functions: the features of a state for several centres."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import model_validator
@@ -7,7 +8,7 @@ from pydantic import model_validator
 from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Open, Parameter, shown
+from rldrill.problems.exact import Parameter, WidthField, shown
 from rldrill.problems.family import Question
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import in_open
@@ -20,11 +21,11 @@ REVISION = 2
 class Given(Centred):
     """The state, the centres, and the width σ of all features, which may be left open."""
 
-    sigma: Open
+    sigma: WidthField
 
     @model_validator(mode="after")
     def _wide(self) -> Self:
-        if not isinstance(self.sigma, Parameter) and self.sigma <= 0:
+        if isinstance(self.sigma, Fraction) and self.sigma <= 0:
             raise ValueError(f"sigma: the width must be above 0, not {self.sigma}")
         return self
 

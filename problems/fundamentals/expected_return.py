@@ -8,18 +8,18 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter, Scalar, shown
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
-    Name,
+    OpenDistributionField,
     PolicyField,
     Transition,
     check_keys,
+    check_sum,
     model_blocks,
     policy_blocks,
-    sums_to_one,
 )
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
@@ -45,13 +45,12 @@ class Given(ModelAndPolicy):
     Without a policy every action is equally probable.
     """
 
-    start: dict[Name, OpenProbability] = Field(min_length=1)
+    start: OpenDistributionField = Field(min_length=1)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_keys(self.start, self.mdp.states, "the start probability", needed=())
-        if not sums_to_one(list(self.start.values())):
-            raise ValueError("start: the probabilities do not sum to 1")
+        check_sum(self.start.values(), "start: the probabilities")
         for count, _ in enumerate(self.episodes(), 1):
             if count > _MOST:
                 raise ValueError(f"mdp: there are more than {_MOST} different episodes; that is no small tree")

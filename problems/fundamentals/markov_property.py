@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import product
 from typing import NamedTuple, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
@@ -13,6 +13,7 @@ from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Part, Values, YesNo
+from rldrill.problems.readings import distribution, note_of
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Markov property"
@@ -38,6 +39,12 @@ class Given(Givens):
     table: tuple[Seen, ...] = Field(min_length=1, max_length=500)
     asked: Name
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+
+    @field_validator("table")
+    @classmethod
+    def _as_meant(cls, table: tuple[Seen, ...], info: ValidationInfo) -> tuple[Seen, ...]:
+        weights = distribution({number: row.weight for number, row in enumerate(table)}, note_of(info))
+        return tuple(row._replace(weight=weights[number]) for number, row in enumerate(table))
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -8,10 +8,10 @@ from pydantic import Field, model_validator
 from rldrill.problems.beliefs import MotionField, check_distribution, check_motion, motion_table
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Probability, Scalar, shown
+from rldrill.problems.exact import Discount, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
-from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
+from rldrill.problems.models import DistributionField, Name, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -27,7 +27,7 @@ class Given(Givens):
     motion: MotionField = Field(min_length=1)
     policy: PolicyField
     features: FeaturesField
-    start: dict[Name, Probability]
+    start: DistributionField
     terminal: tuple[Name, ...] = ()
     gamma: Discount
     story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")

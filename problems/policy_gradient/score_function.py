@@ -6,10 +6,10 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Logarithm, OpenProbability, Parameter, WeightField, shown
+from rldrill.problems.exact import Logarithm, Parameter, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
-from rldrill.problems.models import Name, check_keys, sums_to_one
+from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.settings import draw_setting
@@ -28,7 +28,7 @@ class Given(Givens):
 
     features: dict[Name, FeatureVector] = Field(min_length=2)
     theta: tuple[WeightField, ...] | None = None
-    policy: dict[Name, OpenProbability] | None = None
+    policy: OpenDistributionField | None = None
     action: Name | None = None
 
     @model_validator(mode="after")
@@ -39,8 +39,7 @@ class Given(Givens):
         check_features(self.features, len(self.theta or self.features[actions[0]]))
         if self.policy is not None:
             check_keys(self.policy, actions, "the probability", needed=actions)
-            if not sums_to_one(list(self.policy.values())):
-                raise ValueError("policy: the probabilities do not sum to 1")
+            check_sum(self.policy.values(), "policy: the probabilities")
         if self.action is not None and self.action not in actions:
             raise ValueError(f"action: {self.action!r} has no features")
         return self

@@ -1,9 +1,20 @@
 """The arguments that several commands share, and the completion of topics, families and IDs."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+_TOLD = 6
+
+
+def tell(notes: Sequence[str]) -> None:
+    """Say beside the output what was read otherwise than it is written."""
+    for note in notes[:_TOLD]:
+        typer.echo(f"rldrill: {note}", err=True)
+    if len(notes) > _TOLD:
+        typer.echo(f"rldrill: {len(notes) - _TOLD} more were read in the same way", err=True)
 
 
 def complete_names(incomplete: str) -> list[str]:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from rldrill.commands.arguments import Json, complete_ids
+from rldrill.commands.arguments import Json, complete_ids, tell
 
 NAME = "show"
 
@@ -26,6 +26,7 @@ def command(
     from rldrill.render.terminal import asked, console, render
 
     exercise = rldrill.load(problem)
+    tell(exercise.notes)
     if json:
         typer.echo(json_.dumps(exercise.data(), ensure_ascii=False, indent=2))
         return

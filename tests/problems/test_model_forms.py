@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from rldrill.problems.gymnasium import from_table
-from rldrill.problems.models import Model
+from rldrill.problems.models import Model, transitions_table
 
 # The 4×3 world of Russell & Norvig, AIMA, section 17.1: moves succeed with 0.8 and slip to either side with 0.1.
 AIMA = {"grid": "...G\n.#.P\n....", "rewards": {"G": 1, "P": -1}, "step": "-0.04", "slip": "0.2"}
@@ -43,6 +43,99 @@ def test_a_cliff_leads_back_to_the_start() -> None:
     assert outcomes(model, "r1c2", "down") == {"r2c1": (1, -100)}
     assert model.terminal == ("r2c3",)
     assert "r2c2" not in model.states
+
+
+def process(*rows: list[object], **more: object) -> Model:
+    return Model.model_validate({"transitions": list(rows)} | more)
+
+
+def test_an_outcome_in_two_rows_is_added_up() -> None:
+    # p(s, 2 | s, W) = 0.3 and p(s, -1 | s, W) = 0.2: s with 0.5, and (0.3·2 - 0.2·1)/0.5 = 0.8 on average.
+    model = process(["s", "W", "s", 0.3, 2], ["s", "W", "s", 0.2, -1], ["s", "W", "t", 0.5, 1], terminal=["t"])
+    assert outcomes(model, "s", "W") == {"s": (Fraction(1, 2), Fraction(4, 5)), "t": (Fraction(1, 2), 1)}
+
+
+def test_ends_are_found_where_none_are_named() -> None:
+    assert process(["s", "a", "t", 1, 0], ["s", "b", "s", 1, 0]).terminal == ("t",)
+    with pytest.raises(ValidationError, match="'u' is reached but has no action"):
+        process(["s", "a", "t", 0.5, 0], ["s", "a", "u", 0.5, 0], terminal=["t"])
+
+
+def test_rewards_of_states_and_of_actions() -> None:
+    rows: list[list[object]] = [["s", "go", "t", 0.5], ["s", "go", "s", 0.5], ["s", "no", "s", 1]]
+    half = Fraction(1, 2)
+    assert outcomes(process(*rows, rewards={"s": 2}), "s", "go") == {"t": (half, 2), "s": (half, 2)}
+    by_action = process(*rows, rewards={"s": {"go": 2, "no": 3}})
+    assert outcomes(by_action, "s", "go") == {"t": (half, 2), "s": (half, 2)}
+    assert outcomes(by_action, "s", "no") == {"s": (1, 3)}
+    entering = process(*rows, rewards={"s": 2, "t": 9}, rewards_on="entering")
+    assert outcomes(entering, "s", "go") == {"t": (half, 9), "s": (half, 2)}
+
+
+def test_a_process_without_actions() -> None:
+    model = process(["s", "s", 0.5, 2], ["s", "t", 0.5, 1], terminal=["t"])
+    assert outcomes(model, "s", "step") == {"s": (Fraction(1, 2), 2), "t": (Fraction(1, 2), 1)}
+    assert transitions_table(model).header == ("$s$", "$s'$", "$P_{s s'}$", "$R_{s s'}$")
+    assert outcomes(process(["s", "s", 1], rewards={"s": 2}), "s", "step") == {"s": (1, 2)}
+
+
+@pytest.mark.parametrize("name", ["0,0", "(0,0)", "(-1, 2)", "-1", "+1", "−", "→", "r1c1", "a" * 40, "s'", "s_1", 7])
+def test_what_is_a_name(name: object) -> None:
+    assert process([name, name, name, 1, 0]).states == (str(name),)
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("a" * 41, "'a{39}…' has 41 characters, 40 are the most"),
+        ("a,b", "'a,b' is no name; .* commas between numbers"), ("(1", "brackets in pairs"),
+        ("$x$", "is no name"), ("", "is no name"), ("a ", "is no name"), ("_", "is no name"), ("a\nb", "is no name"),
+    ],
+)  # fmt: skip
+def test_what_is_no_name(name: str, says: str) -> None:
+    with pytest.raises(ValidationError, match=says):
+        process([name, "go", name, 1, 0])
+
+
+# The forest of pymdptoolbox's documentation, three states: 0 waits, 1 cuts; p = 0.1 is the chance of a fire.
+FOREST = [[[0.1, 0.9, 0.0], [0.1, 0.0, 0.9], [0.1, 0.0, 0.9]], [[1, 0, 0], [1, 0, 0], [1, 0, 0]]]
+
+
+@pytest.mark.parametrize(
+    ("R", "reward"),
+    [
+        ([0, 1, 4], 4),
+        ([[0, 0], [0, 1], [4, 2]], 4),
+        ([[[0, 0, 0], [0, 0, 0], [5, 0, 6]], [[0, 0, 0], [1, 0, 0], [2, 0, 0]]], 6),
+    ],
+)
+def test_arrays_of_pymdptoolbox(R: Any, reward: int) -> None:
+    model = Model.model_validate({"P": FOREST, "R": R})
+    assert model.states == ("0", "1", "2")
+    assert outcomes(model, "2", "0")["2"] == (Fraction(9, 10), reward)
+    assert set(outcomes(model, "0", "1")) == {"0"}
+
+
+@pytest.mark.parametrize(
+    ("given", "fragment"),
+    [
+        ({"P": FOREST}, "R, the array of rewards, is missing"),
+        ({"P": FOREST, "R": [1, 2]}, r"R has the shape \(2,\), which does not fit P's \(2, 3, 3\)"),
+        ({"P": FOREST[0], "R": [1, 2, 3]}, r"P has the shape \(3, 3\); it must be \(A, S, S\)"),
+        ({"P": [[[1], [1, 2]]], "R": [1]}, "rows of different lengths"),
+        ({"P": {"0": {"0": [[1, 0, 0]]}}}, "outcome 1 of 0 in 0 must be"),
+        ({"file": "model.csv"}, "a file is read for problems that stand in a file"),
+        ({"transitions": [["s", "s", 1]], "rewards": {}}, "that of 's' is missing"),
+        ({"transitions": [["s", "a", "s", 1, 1]], "rewards": {"s": 1}}, "beside rewards"),
+        ({"transitions": [["s", "t", 1]], "rewards": {"s": 1, "t": 2}}, "'t' is an end, which is never left"),
+        ({"transitions": [["s", "s", 1]], "rewards": {"s": 1, "u": 2}}, "'u' does not occur"),
+        ({"transitions": [["s", "a", "t", 1]]}, "in every row of a process without actions"),
+        ({"grid": ".G", "rewards": {"G": 1}, "rewards_on": "leaving", "exit": False}, "set exit = true"),
+    ],
+)
+def test_what_a_form_cannot_say_is_one_sentence(given: dict[str, Any], fragment: str) -> None:
+    with pytest.raises(ValidationError, match=fragment):
+        Model.model_validate(given)
 
 
 @pytest.mark.parametrize(

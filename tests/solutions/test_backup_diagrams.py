@@ -100,7 +100,7 @@ STEP = [["s", "a", "t", 1, 1]]
         ),
         (
             {"dynamics": {"transitions": STEP}, "values": {"t": 1}, "policy": {"s": {"a": "1/2"}}, "gamma": 1},
-            "do not sum to 1",
+            "sum to 1/2, not to 1",
         ),
     ],
 )

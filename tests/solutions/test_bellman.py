@@ -158,7 +158,7 @@ def test_a_policy_may_leave_out_what_it_never_does() -> None:
 @pytest.mark.parametrize(
     ("changes", "fragment"),
     [
-        ({"policy": {"a": {"x": "1/2"}}}, "the policy's probabilities in 'a' do not sum to 1"),
+        ({"policy": {"a": {"x": "1/2"}}}, "the policy's probabilities in 'a' sum to 1/2, not to 1"),
         ({"policy": {"a": "z"}}, "the policy in 'a' is given for 'z'"),
         ({"policy": {}}, "the policy of 'a' is missing"),
         ({"values": {"a": {}}}, "the action values of 'a' are missing"),

@@ -1,5 +1,6 @@
 """Identities of the function approximation families, and what is wrong with givens that do not fit."""
 
+import math
 from typing import Any
 
 import pytest
@@ -7,9 +8,11 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
+from rldrill.solutions.solution import solver
 
 whole = st.integers(-5, 5)
 texts = st.fractions(-4, 4, max_denominator=3).map(str)
@@ -100,3 +103,19 @@ def test_wrong_givens(name: str, given_: Any, fragment: str) -> None:
         family(name).read(given_)
     assert fragment in str(error.value)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("sigma", ["sqrt(3/2)", "√1.5", "sqrt(6)/2", "3/sqrt(6)"])
+def test_a_width_may_be_a_square_root(sigma: str) -> None:
+    # σ² = 3/2: exp(-1²/3) and exp(-2²/3).
+    exercise = rldrill.read({"family": "rbf", "given": {"position": [1], "centres": [[0], [3]], "sigma": sigma}})
+    assert exercise.answers()["a"] == ("exp(-1/3)", "exp(-4/3)")
+    (densities,) = solver(exercise.problem.family).oracle(exercise.problem.given)
+    assert densities == pytest.approx([math.exp(-1 / 3), math.exp(-4 / 3)])
+    assert family("rbf").read(exercise.problem.data()["given"]) == exercise.problem.given
+
+
+@pytest.mark.parametrize("sigma", ["sqrt(-1)", "sqrt(2) + 1", "sqrt(0)", "sqrt(x)", "1/sqrt(0)"])
+def test_what_is_no_width(sigma: str) -> None:
+    with pytest.raises(FileError, match=r"^given\.sigma: [^\n]*\.$"):
+        family("rbf").read({"position": [1], "centres": [[0], [3]], "sigma": sigma})

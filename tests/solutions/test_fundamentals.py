@@ -57,7 +57,7 @@ def test_the_expected_return_is_the_mean_of_the_values_of_the_starts(seed: int) 
 @pytest.mark.parametrize(
     ("changes", "fragment"),
     [
-        ({"start": {"a": "1/2"}}, "start: the probabilities do not sum to 1"),
+        ({"start": {"a": "1/2"}}, "start: the probabilities sum to 1/2, not to 1"),
         ({"start": {"end": 1}}, "the start probability is given for 'end'"),
         ({"policy": {"a": {"go": "1/2"}, "b": "go"}}, "the policy's probabilities in 'a'"),
         ({"mdp": {"transitions": [["a", "go", "a", 1, 1]]}}, "mdp: 'a' can come again"),

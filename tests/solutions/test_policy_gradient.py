@@ -232,7 +232,7 @@ AHEAD = {"transitions": [["s", "go", "t", 1, 1]]}
         ("reinforce-baseline", REINFORCE | {"baseline": {}}, "the baseline of 's' is missing"),
         ("actor-critic", REINFORCE | {"values": {}, "beta": 1}, "the value of 's' is missing"),
         ("score-function", {"features": FEATURES["s"]}, "either the weights theta or the policy's"),
-        ("score-function", {"features": FEATURES["s"], "policy": {"left": 1, "right": 1}}, "do not sum to 1"),
+        ("score-function", {"features": FEATURES["s"], "policy": {"left": 1, "right": 1}}, "sum to 2, not to 1"),
         ("score-function", {"features": FEATURES["s"], "theta": [1, 1], "action": "up"}, "'up' has no features"),
         ("linear-policy", {"theta": [1], "features": FEATURES}, "'left' has 2 features, but theta 1"),
         ("ppo-clip", {"samples": [SAMPLE | {"old": 0}], "epsilon": "1/5"}, "its probability was not 0"),

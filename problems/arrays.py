@@ -1,0 +1,60 @@
+"""Models as the arrays of pymdptoolbox: P of shape (A, S, S), and R of shape (S,), (S, A) or (A, S, S)."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rldrill.problems.readings import is_zero
+
+_SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
+
+
+def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Arrays P[a][s][s′] and R as the transitions of a model; states and actions are called 0, 1, 2, …
+
+    Rewards of states, R[s], and of actions, R[s][a], are earned by what is done there. An array cannot say in which
+    states an episode ends: they may be listed as ``terminal``, and are else states like the others.
+
+    Raises:
+        ValueError: the arrays do not fit each other.
+    """
+    extra = set(data) - {"P", "R", "terminal", "story"}
+    if extra:
+        raise ValueError(f"{min(extra)!r} is not understood beside the arrays P and R; take it out")
+    if "R" not in data:
+        raise ValueError("R, the array of rewards, is missing beside P; add it")
+    P, R = data["P"], data["R"]
+    shape = _shape(P)
+    if len(shape) != 3 or shape[1] != shape[2]:
+        raise ValueError(f"P has the shape {_told(shape)}; it must be (A, S, S), a square of S states for each action")
+    actions, states, _ = shape
+    kind = _shape(R)
+    if kind not in ((states,), (states, actions), shape):
+        raise ValueError(f"R has the shape {_told(kind)}, which does not fit P's {_told(shape)}; give {_SHAPES}")
+    terminal = [str(state) for state in data.get("terminal", ())]
+    rows = [
+        [str(s), str(a), str(after), chance, R[s] if len(kind) == 1 else R[s][a] if len(kind) == 2 else R[a][s][after]]
+        for s in range(states)
+        if str(s) not in terminal
+        for a in range(actions)
+        for after, chance in enumerate(P[a][s])
+        if not is_zero(chance)
+    ]
+    return {"transitions": rows, "terminal": terminal} | {key: data[key] for key in ("story",) if key in data}
+
+
+def _shape(array: object) -> tuple[int, ...]:
+    """The lengths of nested lists.
+
+    Raises:
+        ValueError: lists of one depth differ in length.
+    """
+    if not isinstance(array, Sequence) or isinstance(array, str):
+        return ()
+    shapes = {_shape(row) for row in array}
+    if len(shapes) > 1:
+        raise ValueError("an array has rows of different lengths; make them equal")
+    return (len(array), *(shapes.pop() if shapes else ()))
+
+
+def _told(shape: tuple[int, ...]) -> str:
+    return f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})"

@@ -1,0 +1,136 @@
+"""The forms in which people have models, beside the list of transitions: each becomes that list."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from rldrill.problems.arrays import read_arrays
+from rldrill.problems.exact import read_scalar
+from rldrill.problems.grids import read_grid
+from rldrill.problems.gymnasium import read_environment, read_table
+from rldrill.problems.readings import Note
+
+#: The one action of a process without actions.
+ALONE = "step"
+_ROW = "[state, action, next, probability, reward]"
+
+
+def read_form(data: object, note: Note) -> object:
+    """The transitions of a model that is given in another form; anything else as it is.
+
+    Args:
+        data: the model, as a file holds it.
+        note: told what is read otherwise than it is written.
+
+    Raises:
+        ValueError: the form is known, but does not fit.
+    """
+    if not isinstance(data, dict):
+        return data
+    if "file" in data:
+        raise ValueError("a file is read for problems that stand in a file themselves; give the transitions here")
+    if "grid" in data:
+        return read_grid(data, note)
+    for key, read in _FORMS.items():
+        if key in data:
+            return read(data)
+    return data
+
+
+def _read_P(data: Mapping[str, Any]) -> dict[str, Any]:
+    return read_table(data) if isinstance(data["P"], Mapping) else read_arrays(data)
+
+
+def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Transitions as they are, or those of a process without actions: ``[state, next, probability, reward]``."""
+    rows = data["transitions"]
+    given = dict(data)
+    if not isinstance(rows, list | tuple) or not any(isinstance(row, list) and len(row) == 4 for row in rows):
+        return given
+    states = {str(row[0]) for row in rows if isinstance(row, list) and row} | {*map(str, data.get("terminal", ()))}
+    for number, row in enumerate(rows, 1):
+        if not isinstance(row, list) or len(row) != 4 or not _is_number(row[2]) or str(row[1]) not in states:
+            raise ValueError(
+                f"transitions[{number}]: write {_ROW}; or [state, next, probability, reward] in every row of a "
+                "process without actions, whose ends are listed as terminal"
+            )
+    given["transitions"] = [[state, ALONE, after, chance, reward] for state, after, chance, reward in rows]
+    return given
+
+
+def _is_number(value: object) -> bool:
+    try:
+        read_scalar(value)
+    except ValueError:
+        return False
+    return True
+
+
+def _read_rewards(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Transitions without rewards, and beside them the rewards of states, R(s), or of their actions, R(s, a).
+
+    A reward of a state is earned by whatever is done there; or, with ``rewards_on = "entering"``, by coming there.
+
+    Raises:
+        ValueError: a reward is missing, is no number, or is given where it is never earned.
+    """
+    given = dict(data)
+    rewards, on = given.pop("rewards"), given.pop("rewards_on", "leaving")
+    if on not in ("leaving", "entering"):
+        raise ValueError(f"rewards_on: {on!r} is not possible here; write 'leaving' or 'entering'")
+    rows = given.get("transitions")
+    if not isinstance(rewards, Mapping) or not isinstance(rows, list | tuple):
+        raise ValueError("rewards: must be a table beside transitions, with a reward for every state")
+    paid = {str(state): _checked(reward, state) for state, reward in rewards.items()}
+    if on == "entering" and any(isinstance(reward, Mapping) for reward in paid.values()):
+        raise ValueError("rewards: those of actions are earned by taking them; leave out rewards_on")
+    whole = [_beside_rewards(row, number) for number, row in enumerate(rows, 1)]
+    acting, reached = {str(row[0]) for row in whole}, {str(row[2]) for row in whole}
+    for state in paid:
+        if state not in acting | reached:
+            raise ValueError(f"rewards: {state!r} does not occur in the transitions; correct its name")
+        if on == "leaving" and state not in acting and paid[state] != "0":
+            raise ValueError(
+                f"rewards: {state!r} is an end, which is never left, so its reward is never earned; set rewards_on = "
+                "'entering', or add a transition from it to another end"
+            )
+    earned = [_earned(paid, str(row[0] if on == "leaving" else row[2]), str(row[1])) for row in whole]
+    given["transitions"] = [[*row, reward] for row, reward in zip(whole, earned, strict=True)]
+    return given
+
+
+def _beside_rewards(row: object, number: int) -> list[Any]:
+    match row:
+        case [state, after, chance] if _is_number(chance):
+            return [state, ALONE, after, chance]
+        case [_, _, _, _]:
+            return list(row)
+    raise ValueError(f"transitions[{number}]: beside rewards, write [state, action, next, probability]; not {_ROW}")
+
+
+def _checked(reward: object, state: object) -> Any:
+    if isinstance(reward, Mapping):
+        return {str(action): _checked(each, f"{state}, {action}") for action, each in reward.items()}
+    try:
+        read_scalar(reward)
+    except ValueError as error:
+        raise ValueError(f"rewards: that of {state}: {error}") from None
+    return str(reward)
+
+
+def _earned(paid: Mapping[str, Any], state: str, action: str) -> Any:
+    if state not in paid:
+        raise ValueError(f"rewards: that of {state!r} is missing; write 0 if it is none")
+    reward = paid[state]
+    if not isinstance(reward, Mapping):
+        return reward
+    if action not in reward:
+        raise ValueError(f"rewards: that of {action!r} in {state!r} is missing; write 0 if it is none")
+    return reward[action]
+
+
+_FORMS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
+    "gymnasium": read_environment,
+    "P": _read_P,
+    "rewards": _read_rewards,
+    "transitions": _read_transitions,
+}

@@ -1,0 +1,99 @@
+"""Tables of transitions, as CSV files and data frames hold them, as models: a header, then a line for every outcome."""
+
+import csv
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from rldrill.problems.model_forms import ALONE
+
+#: What a column may be called, in small letters without blanks and underscores.
+_COLUMNS = {
+    "state": ("state", "s", "from", "fromstate", "currentstate", "source", "start"),
+    "action": ("action", "a", "act"),
+    "next": ("next", "nextstate", "s'", "s′", "s2", "sp", "sprime", "newstate", "successor", "to", "tostate", "target"),
+    "probability": ("probability", "prob", "p", "pr", "chance", "transitionprobability", "t"),
+    "reward": ("reward", "r", "rewards", "rew"),
+    "end": ("end", "ends", "done", "terminal", "terminated", "isterminal"),
+}
+_NAMED = {spelling: column for column, spellings in _COLUMNS.items() for spelling in spellings}
+_TRUE, _FALSE = ("1", "true", "yes", "1.0"), ("", "0", "false", "no", "0.0")
+_COMMA = re.compile(r"[+−-]?\d+,\d+")
+
+
+def read_transition_table(text: str) -> dict[str, Any]:
+    """A CSV or TSV text as the transitions of a model; the columns stand in any order, parted by ``,``, ``;`` or tabs.
+
+    Raises:
+        ValueError: a column is missing or unknown, or a line does not fit; the sentence names the line.
+    """
+    lines = text.splitlines()
+    begin = 1 if lines and re.fullmatch(r"sep=.", lines[0].strip(), re.IGNORECASE) else 0
+    parted = max(",;\t", key=lines[begin].count) if len(lines) > begin else ","
+    header, *rows = [
+        (number, row)
+        for number, row in enumerate(csv.reader(lines[begin:], delimiter=parted), begin + 1)
+        if any(cell.strip() for cell in row)
+    ] or [(1, [])]
+    columns = _columns(header[1])
+    read = []
+    for number, row in rows:
+        if len(row) != len(header[1]):
+            raise ValueError(f"line {number} has {len(row)} entries, the header has {len(header[1])}; make them equal")
+        cells = {column: row[place].strip() for place, column in columns.items()}
+        for column in ("probability", "reward"):
+            if parted != "," and _COMMA.fullmatch(cells.get(column, "")):
+                cells[column] = cells[column].replace(",", ".")
+        read.append((f"line {number}", cells))
+    return _model(read)
+
+
+def read_records(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """The same as a list of tables, one for every line, each with the names of the columns.
+
+    Raises:
+        ValueError: a column is missing or unknown, or a line does not fit; the sentence names the line.
+    """
+    read = []
+    for number, record in enumerate(records, 1):
+        keys = list(record)
+        cells = {column: record[keys[place]] for place, column in _columns(keys).items()}
+        read.append((f"entry {number}", {column: str(cell) for column, cell in cells.items()}))
+    return _model(read)
+
+
+def _columns(header: list[str]) -> dict[int, str]:
+    """What every column holds, by its place; a column without a name is passed over, as data frames write one."""
+    found: dict[int, str] = {}
+    for place, name in enumerate(header):
+        plain = re.sub(r"[\s_]", "", name).lower()
+        if not plain and place == 0:
+            continue
+        if plain not in _NAMED:
+            known = ", ".join(_COLUMNS)
+            raise ValueError(f"the column {name[:40]!r} is not known; call the columns {known}, or leave it out")
+        if _NAMED[plain] in found.values():
+            raise ValueError(f"the column {name[:40]!r} is the second of its kind ({_NAMED[plain]}); leave one out")
+        found[place] = _NAMED[plain]
+    for needed in ("state", "next", "reward"):
+        if needed not in found.values():
+            raise ValueError(
+                f"the column {needed!r} is missing; write a header such as state,action,next,probability,reward"
+            )
+    return found
+
+
+def _model(lines: list[tuple[str, dict[str, str]]]) -> dict[str, Any]:
+    if not lines:
+        raise ValueError("there is no transition below the header; add one")
+    rows, ends = [], []
+    for place, cells in lines:
+        end = cells.get("end", "").lower()
+        if end not in _TRUE + _FALSE:
+            raise ValueError(f"{place}: whether the episode ends is {end[:40]!r}; write true or false")
+        if end in _TRUE:
+            ends.append(cells["next"])
+        action = cells.get("action", ALONE)
+        rows.append([cells["state"], action, cells["next"], cells.get("probability", "1"), cells["reward"]])
+    terminal = list(dict.fromkeys(ends))
+    return {"transitions": [row for row in rows if row[0] not in terminal], "terminal": terminal}
