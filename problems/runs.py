@@ -3,21 +3,23 @@
 from collections.abc import Mapping
 from fractions import Fraction
 from itertools import pairwise
-from typing import Self
+from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Name, check_ends, check_keys
 from rldrill.problems.phrases import check_one_open, discount, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.settings import draw_setting
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
+#: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
+_SHORT = 300
 
 
 class Trajectory(Givens):
@@ -41,23 +43,37 @@ class Trajectory(Givens):
                 raise ValueError(f"{state!r} is terminal, so the run cannot go on to {after!r}")
         return self
 
-
-class Episode(Trajectory):
-    """A run to its end: the last state is terminal."""
-
-    states: tuple[Name, ...] = Field(min_length=2, max_length=301)
-
-    @model_validator(mode="after")
-    def _ends(self) -> Self:
-        if self.states[-1] not in self.terminal:
-            raise ValueError(f"an episode ends in a terminal state; list {self.states[-1]!r}, its last, as terminal")
-        return self
+    @property
+    def ends(self) -> bool:
+        """Whether the last state is terminal; otherwise the run is cut off there."""
+        return self.states[-1] in self.terminal
 
 
-def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Episode:
+def _short(run: Trajectory) -> Trajectory:
+    if len(run.rewards) > _SHORT:
+        raise ValueError(f"has {len(run.rewards)} steps; it may have at most {_SHORT}")
+    return run
+
+
+def _to_its_end(run: Trajectory) -> Trajectory:
+    if not run.ends:
+        raise ValueError(
+            f"the whole return is needed, but the run does not end in {run.states[-1]!r}, its last state; list it as "
+            "terminal if the episode ends there, or go on to the end"
+        )
+    return run
+
+
+#: A run that is not so long that its n-step returns become too many.
+ShortRun = Annotated[Trajectory, AfterValidator(_short)]
+#: A run to its end: the last state is terminal.
+Episode = Annotated[ShortRun, AfterValidator(_to_its_end)]
+
+
+def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajectory:
     """An episode through these states to the terminal one, with small whole rewards that are not 0."""
     rewards = tuple(rng.nonzero(-4, 8) for _ in states)
-    return Episode(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+    return Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
 
 
 class ValueRun(Givens):
@@ -101,6 +117,7 @@ class ActionRun(Givens):
                 raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there")
             if action not in self.values[state]:
                 raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+        check_ends(self.values, run.terminal, "values: the action value")
         return self
 
     def demand_last_action(self, method: str) -> None:
@@ -119,17 +136,18 @@ class ActionRun(Givens):
     def last_action_known(self) -> bool:
         """Whether something is known to be done in the last state, or nothing is because the run ends there."""
         run = self.trajectory
-        return run.states[-1] in run.terminal or len(run.actions) == len(run.states)
+        return run.ends or len(run.actions) == len(run.states)
 
 
 def check_values(values: Mapping[str, object], run: Trajectory) -> None:
     """Demand a value for every state of a run that is not terminal.
 
     Raises:
-        ValueError: one is missing, or given for an unknown state.
+        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
     """
     known = tuple(dict.fromkeys((*run.states, *run.terminal)))
     check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
+    check_ends(values, run.terminal, "the value")
 
 
 def draw_action_run(
@@ -183,7 +201,7 @@ def timeline(run: Trajectory) -> Timeline:
         run.states,
         run.actions,
         tuple(f"$r_{{{time}}} = {shown(reward)}$" for time, reward in enumerate(run.rewards, 1)),
-        ended=run.states[-1] in run.terminal,
+        ended=run.ends,
     )
 
 
@@ -208,6 +226,15 @@ def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q
             for state, row in values.items()
         ),
     )
+
+
+def cut_off(run: Trajectory) -> tuple[Block, ...]:
+    """The sentence that says how λ-returns are closed where a run does not come to its end."""
+    if run.ends:
+        return ()
+    last = run.states[-1]
+    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal: the longest n-step return"
+    return (Paragraph(f'{told} ends with $V("{last}")$, and has all the weight that the shorter ones leave.'),)
 
 
 def run_situation(given: ValueRun | ActionRun, *values: Table, more: str = "") -> tuple[Block, ...]:

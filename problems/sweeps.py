@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens
-from rldrill.problems.models import Model, Name, check_keys, values_table
+from rldrill.problems.models import Model, Name, check_ends, check_keys, values_table
 
 SYNCHRONOUS = "Sweeps are synchronous: each uses only the values of the sweep before."
 
@@ -23,6 +23,7 @@ class Sweeps(Givens):
     def _fits(self) -> Self:
         if self.start is not None:
             check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
+            check_ends(self.start, self.mdp.terminal, "start: the value")
         return self
 
 

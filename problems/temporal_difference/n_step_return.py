@@ -18,6 +18,9 @@ TITLE = "n-step return"
 SOURCE = "Sutton & Barto 2018, section 7.1"
 REVISION = 1
 
+#: Steps that one asks for, beyond the end of the episode too.
+_LONGEST = 1000
+
 
 class Given(Givens):
     """A trajectory, the current values, the discount, and which returns are asked: pairs of time and n."""
@@ -32,8 +35,16 @@ class Given(Givens):
         check_values(self.values, self.trajectory)
         last = len(self.trajectory.rewards)
         for time, steps in self.asked:
-            if time < 0 or steps < 1 or time + steps > last:
-                raise ValueError(f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}")
+            if not 0 <= time < last or not 1 <= steps <= _LONGEST:
+                raise ValueError(
+                    f"asked: the time {time} must be from 0 to {last - 1}, since the run ends at {last}, and the "
+                    f"number of steps {steps} from 1 to {_LONGEST}"
+                )
+            if time + steps > last and not self.trajectory.ends:
+                raise ValueError(
+                    f"asked: from time {time}, {steps} steps do not fit into a run that is cut off at {last}; list "
+                    f"{self.trajectory.states[-1]!r} as terminal if the episode ends there"
+                )
         return self
 
 

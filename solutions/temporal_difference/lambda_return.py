@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from rldrill.problems.runs import Episode
+from rldrill.problems.runs import Trajectory
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
@@ -34,20 +34,23 @@ def solve(given: Given, work: Work) -> None:
 
 
 def known_episode(given: Any) -> dict[str, Any]:
-    """An episode with its values, γ, λ and the time of its end."""
-    run: Episode = given.trajectory
+    """A run with its values, γ, λ and the time of its end."""
+    run: Trajectory = given.trajectory
     return knowns.trajectory(run) | {
         "V": knowns.state_values(given.values, run.terminal),
         "gamma": exact(given.gamma),
         "lam": exact(given.lam),
         "T": len(run.rewards),
+        "ends": run.ends,
     }
 
 
 def averaged(work: Work, known: Mapping[str, Any], time: int) -> tuple[Value, ...]:
-    """The n-step returns from a time on that end before the episode does, then the full return."""
-    shorter = [work.step(N_STEP_RETURN, t=time, n=n, **known) for n in range(1, known["T"] - time)]
-    return (*shorter, work.step(RETURN, t=time, **known))
+    """The n-step returns from a time on; the longest is the full return, if the run comes to its end."""
+    left = known["T"] - time
+    steps = range(1, left if known["ends"] else left + 1)
+    returns = tuple(work.step(N_STEP_RETURN, t=time, n=n, **known) for n in steps)
+    return (*returns, work.step(RETURN, t=time, **known)) if known["ends"] else returns
 
 
 def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[Value]) -> Value:
@@ -59,9 +62,10 @@ def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[V
 
 def backwards(given: Any) -> Array:
     """The λ-returns of all times by the recursion from the end: what follows is λ times the next one, else V."""
-    run: Episode = given.trajectory
+    run: Trajectory = given.trajectory
     gamma, lam = at(given.gamma), at(given.lam)
     returns = np.zeros(len(run.states))
+    returns[-1] = 0.0 if run.ends else at(given.values[run.states[-1]])
     for time in reversed(range(len(run.rewards))):
         after = run.states[time + 1]
         value = 0.0 if after in run.terminal else at(given.values[after])

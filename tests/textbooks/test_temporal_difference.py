@@ -1,8 +1,12 @@
 """Numbers of temporal difference learning, from books or worked out by hand in the comments."""
 
+from typing import Any
+
+import pytest
 from flint import fmpq
 
 from asking import solved
+from rldrill.problems.errors import FileError
 
 
 def test_example_6_4_of_sutton_and_barto() -> None:
@@ -89,3 +93,47 @@ def test_the_weights_of_equation_2_6_of_sutton_and_barto() -> None:
     answers = solved("sample-average", values={"s": 8}, visits=visits, alpha="1/2")
     assert answers["a"] == (fmpq(1, 8), fmpq(1, 4), fmpq(1, 2))
     assert answers["b"] == fmpq(4)
+
+
+CUT_OFF: dict[str, Any] = {"states": ["a", "b", "c"], "rewards": [1, 2]}
+ENDED: dict[str, Any] = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
+
+
+def test_a_run_that_is_cut_off_goes_on_with_the_value_of_its_last_state() -> None:
+    # γ = λ = 1/2. One step 1 + 1/2·4 = 3, two steps 1 + 1/2·2 + 1/4·8 = 4; the two steps have all the weight that is
+    # left: 1/2·3 + 1/2·4 = 7/2. From time 1: 2 + 1/2·8 = 6. The advantage estimates are these minus the values.
+    known = {"trajectory": CUT_OFF, "values": {"a": 2, "b": 4, "c": 8}, "gamma": "1/2", "lam": "1/2"}
+    assert solved("lambda-return", **known) == {"a": (3, 4), "b": fmpq(7, 2)}
+    assert solved("td-lambda-forward", **known, alpha="1/2", asked=[0, 1])["a"] == (fmpq(7, 2), 6)
+    gamma = known.pop("gamma")
+    assert solved("advantage", run=known, gamma=gamma)["b"] == (fmpq(7, 2) - 2, 6 - 4)
+
+
+def test_beyond_the_end_of_the_episode_an_n_step_return_is_the_return() -> None:
+    # Sutton & Barto 2018, below eq. 7.1: all terms beyond the end are taken to be 0. 1 + 1/2·2 = 2.
+    answers = solved("n-step-return", trajectory=ENDED, values={"a": 2, "b": 4}, gamma="1/2", asked=[[0, 2], [0, 7]])
+    assert answers == {"a": 2, "b": 2}
+
+
+@pytest.mark.parametrize("value", [0, 4])
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("td-zero", {"alpha": "1/2"}),
+        ("n-step-return", {"asked": [[0, 1]]}),
+        ("lambda-return", {"lam": "1/2"}),
+        ("td-lambda-backward", {"alpha": "1/2", "lam": "1/2"}),
+    ],
+)
+def test_a_terminal_state_is_worth_0(name: str, given: dict[str, Any], value: int) -> None:
+    given = {"trajectory": ENDED, "values": {"a": 2, "b": 4, "end": value}, "gamma": "1/2"} | given
+    if value == 0:
+        assert solved(name, **given)
+        return
+    with pytest.raises(FileError, match=r"the value of 'end' must be 0, because it is terminal; give 0, or take 'end'"):
+        solved(name, **given)
+
+
+def test_an_n_step_return_of_a_run_that_is_cut_off_may_not_go_beyond_it() -> None:
+    with pytest.raises(FileError, match="5 steps do not fit into a run that is cut off at 2; list 'c' as terminal"):
+        solved("n-step-return", trajectory=CUT_OFF, values={"a": 2, "b": 4, "c": 8}, gamma=1, asked=[[0, 5]])
