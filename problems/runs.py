@@ -70,6 +70,19 @@ ShortRun = Annotated[Trajectory, AfterValidator(_short)]
 Episode = Annotated[ShortRun, AfterValidator(_to_its_end)]
 
 
+def per_step(gamma: Scalar | tuple[Scalar, ...], steps: int) -> tuple[Scalar, ...]:
+    """The discount of every step of a run; where one is given it is that of all steps.
+
+    Raises:
+        ValueError: there are too many or too few.
+    """
+    if not isinstance(gamma, tuple):
+        return (gamma,) * steps
+    if len(gamma) != steps:
+        raise ValueError(f"gamma: {steps} rewards need as many discounts, or a single one, not {len(gamma)}")
+    return gamma
+
+
 def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajectory:
     """An episode through these states to the terminal one, with small whole rewards that are not 0."""
     rewards = tuple(rng.nonzero(-4, 8) for _ in states)

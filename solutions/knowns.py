@@ -26,6 +26,13 @@ def state_values(numbers: Mapping[str, Scalar], terminal: tuple[str, ...]) -> di
     return values(numbers) | dict.fromkeys(terminal, ZERO)
 
 
+def discounts(gamma: Scalar | tuple[Scalar, ...]) -> dict[str, Any]:
+    """The discount γ, or the discounts of the steps, γ_1 first."""
+    if isinstance(gamma, tuple):
+        return {"gammas": {time: exact(each) for time, each in enumerate(gamma, 1)}}
+    return {"gamma": exact(gamma)}
+
+
 def model(given: Dynamics) -> dict[str, Any]:
     """A model as P, R, actions and successors; pairs of states without a transition have P = R = 0."""
     P: dict[Any, Value] = defaultdict(_zero)

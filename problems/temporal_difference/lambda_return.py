@@ -6,12 +6,12 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, OpenProbability, Parameter
+from rldrill.problems.exact import Discounts, Exact, OpenProbability, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_episode, seen
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_episode, per_step, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
@@ -22,18 +22,20 @@ REVISION = 1
 class Given(Givens):
     """An episode, the current values, γ and λ, and the time from which the λ-return is asked.
 
-    A run that is cut off, in a state that is not terminal, goes on with the value of that state.
+    Instead of one discount there may be a list with one for every step. A run that is cut off, in a state that is not
+    terminal, goes on with the value of that state.
     """
 
     trajectory: ShortRun
     values: dict[Name, Exact]
-    gamma: Discount
+    gamma: Discounts
     lam: OpenProbability
     time: int = Field(default=0, ge=0)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_values(self.values, self.trajectory)
+        per_step(self.gamma, len(self.trajectory.rewards))
         check_one_open(self)
         if self.time >= len(self.trajectory.rewards):
             raise ValueError(f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}")

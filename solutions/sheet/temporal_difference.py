@@ -18,6 +18,7 @@ from rldrill.solutions.formula.notation import (
     alpha,
     called,
     gamma,
+    gammas,
     i,
     lam,
     n,
@@ -28,6 +29,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 
 #: The λ-return, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
@@ -120,6 +122,19 @@ with evaluate(False):
             BOOTSTRAP_UNDISCOUNTED: _REWARDS + V(S(t + n)),
             BOOTSTRAP_ONE_SHORT: _REWARDS + gamma ** (n - 1) * V(S(t + n)),
             ONE_REWARD_TOO_MANY: SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n)) + gamma**n * V(S(t + n)),
+        },
+    )
+
+    N_STEP_RETURN_STEP_BY_STEP = Formula(
+        "n-step-return-step-by-step",
+        Gn(t, n),
+        r(t + 1) + gammas(t + 1) * Gn(t + 1, n - 1),
+        title="n-step return with a discount for every step",
+        source="Sutton & Barto 2018, eqs. 7.1 and 17.1",
+        hint="Begin with the value of the state reached after n steps, and go back in time, step by step.",
+        place=Place.WORKING,
+        misread={
+            STEP_UNDISCOUNTED: r(t + 1) + Gn(t + 1, n - 1),
         },
     )
 

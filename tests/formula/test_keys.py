@@ -1,6 +1,7 @@
 """The keys of the lecture's sheet, kept in ``keys.txt``: each is a formula here, and at least one family drills it."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -9,6 +10,13 @@ from rldrill.problems.catalogue import families
 from rldrill.solutions.sheet import formulas
 
 KEYS = (Path(__file__).parent / "keys.txt").read_text(encoding="utf-8").split()
+
+#: Problems that are not drawn: their formulas only serve problem files.
+FROM_FILES: list[tuple[str, dict[str, Any]]] = [
+    ("return", {"rewards": [1, 2], "gamma": ["1/2", 1]}),
+    ("n-step-return", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
+                       "gamma": ["1/2"], "asked": [[0, 1]]}),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("key", KEYS)
@@ -20,6 +28,9 @@ def test_every_key_of_the_sheet_is_a_formula(key: str) -> None:
 def drilled() -> dict[str, set[str]]:
     """The families by the key of every formula that their workings use."""
     found: dict[str, set[str]] = {}
+    for name, given in FROM_FILES:
+        for formula in rldrill.read({"family": name, "given": given}).formulas():
+            found.setdefault(formula.key, set()).add(name)
     for name in families():
         for level in (1, 2, 3):
             for formula in rldrill.draw(name, level, seed=1).formulas():

@@ -233,7 +233,11 @@ UNFINISHED = {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"
         ("eligibility-trace", {"states": ["a", "b"], "gamma": 1, "lam": 1, "asked": [1, 0]}, "the times must rise"),
         ("eligibility-trace", {"states": [], "gamma": 1, "lam": 1, "asked": [0]}, "given.states"),
         ("monte-carlo", EPISODE | {"alpha": 1, "visits": "last"}, "given.visits"),
-        ("monte-carlo", UNFINISHED | {"alpha": 1, "visits": "first"}, "the run does not end in 'b', its last state; list it"),
+        (
+            "monte-carlo",
+            UNFINISHED | {"alpha": 1, "visits": "first"},
+            "the run does not end in 'b'",
+        ),
         ("monte-carlo", EPISODE | {"alpha": 0, "visits": "first"}, "given.alpha: 0 is not above 0"),
         ("sample-average", {"values": {"a": 1}, "visits": [["a", 2]]}, "the number of visits of 'a' is missing"),
         ("sample-average", {"values": {"a": 1}, "counts": {"a": 1}, "visits": [["b", 2]]}, "given for 'b'"),

@@ -137,3 +137,31 @@ def test_a_terminal_state_is_worth_0(name: str, given: dict[str, Any], value: in
 def test_an_n_step_return_of_a_run_that_is_cut_off_may_not_go_beyond_it() -> None:
     with pytest.raises(FileError, match="5 steps do not fit into a run that is cut off at 2; list 'c' as terminal"):
         solved("n-step-return", trajectory=CUT_OFF, values={"a": 2, "b": 4, "c": 8}, gamma=1, asked=[[0, 5]])
+
+
+def test_a_discount_for_every_step_by_hand() -> None:
+    # γ_1 = 1/2, γ_2 = 1/4. Two steps: 1 + 1/2·(2 + 1/4·8) = 3; one step: 1 + 1/2·4 = 3, from time 1: 2 + 1/4·8 = 4.
+    # With λ = 1/2, backwards: R_1 = 2 + 1/4·8 = 4, R_0 = 1 + 1/2·(1/2·4 + 1/2·4) = 3.
+    known = {"trajectory": CUT_OFF, "values": {"a": 2, "b": 4, "c": 8}, "gamma": ["1/2", "1/4"]}
+    assert solved("n-step-return", **known, asked=[[0, 2], [0, 1], [1, 1]]) == {"a": 3, "b": 3, "c": 4}
+    assert solved("lambda-return", **known, lam="1/2")["b"] == 3
+
+
+def test_a_discount_of_0_cuts_the_return_off() -> None:
+    # Sutton & Barto 2018, eq. 17.1: where γ is 0 the return ends, as if in a terminal state. R_2 = 4, R_1 = 2 and
+    # R_0 = 1 + 1/2·2 = 2.
+    assert solved("return", rewards=[1, 2, 4], gamma=["1/2", 0, 1])["a"] == (2, 2, 4)
+    assert solved("return", rewards=[1, 2, 4], gamma=["1/2", 0, 1], time=1) == {"a": 2, "b": 2}
+
+
+@pytest.mark.parametrize(
+    ("name", "more"), [("n-step-return", {"asked": [[0, 2], [0, 5]]}), ("lambda-return", {"lam": "1/3"})]
+)
+def test_the_same_discount_in_every_step_is_the_discount(name: str, more: dict[str, Any]) -> None:
+    known = {"trajectory": ENDED, "values": {"a": 2, "b": 4}} | more
+    assert solved(name, **known, gamma=["2/3", "2/3"]) == solved(name, **known, gamma="2/3")
+
+
+def test_there_are_as_many_discounts_as_rewards() -> None:
+    with pytest.raises(FileError, match="gamma: 3 rewards need as many discounts, or a single one, not 2"):
+        solved("return", rewards=[1, 2, 4], gamma=["1/2", 0])
