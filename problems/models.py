@@ -132,7 +132,7 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
             raise ValueError(f"{what} is given for {key!r}, which does not occur; {named}")
 
 
-def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str) -> None:
+def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str, cure: str) -> None:
     """Demand that what is given for a terminal state is 0, alone or for every action.
 
     Raises:
@@ -141,10 +141,7 @@ def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str)
     for state in terminal:
         given = values.get(state, 0)
         if any(given.values()) if isinstance(given, Mapping) else given:
-            raise ValueError(
-                f"{what} of {state!r} must be 0, because it is terminal; give 0, or take {state!r} out of terminal if "
-                "it is only where the episode was cut off"
-            )
+            raise ValueError(f"{what} of {state!r} must be 0, because it is terminal; give 0, or {cure}")
 
 
 def sums_to_one(probabilities: Iterable[Scalar]) -> bool:

@@ -21,6 +21,9 @@ _DRAWN = 12
 #: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
 _SHORT = 300
 
+#: What to do where a terminal state is given a value of its own.
+CUT_OFF = "take it out of terminal if the run was only cut off there"
+
 
 class Trajectory(Givens):
     """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
@@ -130,7 +133,7 @@ class ActionRun(Givens):
                 raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there")
             if action not in self.values[state]:
                 raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
-        check_ends(self.values, run.terminal, "values: the action value")
+        check_ends(self.values, run.terminal, "values: the action value", CUT_OFF)
         return self
 
     def demand_last_action(self, method: str) -> None:
@@ -160,7 +163,7 @@ def check_values(values: Mapping[str, object], run: Trajectory) -> None:
     """
     known = tuple(dict.fromkeys((*run.states, *run.terminal)))
     check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
-    check_ends(values, run.terminal, "the value")
+    check_ends(values, run.terminal, "the value", CUT_OFF)
 
 
 def draw_action_run(

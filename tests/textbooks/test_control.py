@@ -5,6 +5,7 @@ import sympy
 from flint import fmpq
 
 from asking import solved
+from rldrill.problems.errors import FileError
 
 
 def test_exercise_2_1() -> None:
@@ -98,3 +99,19 @@ def test_a_gradient_bandit_by_hand() -> None:
     answers = solved("bandit", pulls=[["x", 1], ["y", 3]], preferences={"x": 1, "y": 1}, alpha="1/4", pulled=["x", 6])
     assert answers["a"] == {"x": fmpq(1, 2), "y": fmpq(1, 2)}
     assert answers["b"] == {"x": fmpq(3, 2), "y": fmpq(1, 2)}
+
+
+def test_ucb_takes_an_arm_that_was_never_pulled_first() -> None:
+    # Sutton & Barto 2018, section 2.7: with N(a) = 0 an arm is considered to be maximising. It has no sample average.
+    pulls = [["a", 1], ["b", 0], ["a", 2]]
+    answers = solved("bandit", arms=["a", "b", "c"], pulls=pulls, c=1)
+    assert answers["a"] == {"a": fmpq(3, 2), "b": fmpq(0)}
+    assert list(answers["b"]) == ["a", "b"]
+    assert answers["c"] == {"next": ("c",)}
+    assert solved("bandit", arms=["a", "b", "c", "d"], pulls=pulls, c=1)["c"] == {"next": ("c", "d")}
+    assert solved("bandit", arms=["a", "b", "c"], pulls=pulls)["b"] == {"next": ("a",)}  # greedy: 3/2 beats 0
+
+
+def test_all_arms_that_are_pulled_are_listed() -> None:
+    with pytest.raises(FileError, match="a pull is given for 'c', which does not occur; known are a and b"):
+        solved("bandit", arms=["a", "b"], pulls=[["a", 1], ["c", 0]])

@@ -130,7 +130,7 @@ def test_a_terminal_state_is_worth_0(name: str, given: dict[str, Any], value: in
     if value == 0:
         assert solved(name, **given)
         return
-    with pytest.raises(FileError, match=r"the value of 'end' must be 0, because it is terminal; give 0, or take 'end'"):
+    with pytest.raises(FileError, match=r"the value of 'end' must be 0, because it is terminal; give 0, or take it"):
         solved(name, **given)
 
 
