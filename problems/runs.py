@@ -92,6 +92,16 @@ def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajecto
     return Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
 
 
+#: Whether eligibility traces are replacing.
+Replacing = Annotated[
+    bool,
+    Field(
+        exclude_if=lambda replacing: not replacing,
+        description="whether traces are replacing: a visit sets the trace to 1, instead of adding 1 to what is left",
+    ),
+]
+
+
 class ValueRun(Givens):
     """A run, the state values before it, the step size and the discount."""
 

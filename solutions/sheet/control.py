@@ -174,6 +174,25 @@ with evaluate(False):
             TRACE_WITHOUT_GAMMA: lam * e(s, a) + Indicator(s, S(t), a, A(t)),
         },
     )
+    ACCUMULATING_ACTION_TRACE = Misconception(
+        "accumulating-trace",
+        "A replacing trace is set to 1 at a visit; only accumulating traces add 1 to what is left.",
+    )
+    REPLACING_ACTION_TRACE = Formula(
+        "replacing-action-trace",
+        e(s, a),
+        Cases(Indicator(s, S(t), a, A(t)), 1, gamma * lam * e(s, a)),
+        title="Replacing eligibility trace of an action",
+        source="Sutton & Barto 1998, section 7.8",
+        hint="The trace of the visited pair is set to 1; every other one decays by γλ.",
+        sign="←",
+        place=Place.WORKING,
+        misread={
+            ACCUMULATING_ACTION_TRACE: gamma * lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+            TRACE_WITHOUT_LAMBDA: Cases(Indicator(s, S(t), a, A(t)), 1, gamma * e(s, a)),
+            TRACE_WITHOUT_GAMMA: Cases(Indicator(s, S(t), a, A(t)), 1, lam * e(s, a)),
+        },
+    )
     SARSA_LAMBDA = Formula(
         "sarsa-lambda",
         Q(s, a),
@@ -221,6 +240,20 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             Q_LEARNING_TARGET_FORGOT_GAMMA: _MAX_WITHOUT_GAMMA,
+        },
+    )
+
+    Q_LEARNING_TD_ERROR = Formula(
+        "q-learning-td-error",
+        delta(t),
+        _Q_LEARNING_TARGET - Q(S(t), A(t)),
+        title="TD error of Q-learning",
+        source="Sutton & Barto 2018, eq. 6.8",
+        hint="Q-learning's target minus the old value of the pair just left.",
+        place=Place.WORKING,
+        misread={
+            TAKEN_FOR_MAX: _SARSA_TARGET - Q(S(t), A(t)),
+            FORGOT_GAMMA: _MAX_WITHOUT_GAMMA - Q(S(t), A(t)),
         },
     )
 

@@ -7,6 +7,7 @@ from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
+    Cases,
     Counting,
     G,
     Gn,
@@ -164,6 +165,26 @@ with evaluate(False):
             DECAY_WITHOUT_LAMBDA: gamma * e(s) + _VISIT,
             REPLACING: _DECAYED * (1 - _VISIT) + _VISIT,
             INCREMENT_FIRST: gamma * lam * (e(s) + _VISIT),
+        },
+    )
+
+    ACCUMULATING = Misconception(
+        "accumulating-trace",
+        "A replacing trace is set to 1 at a visit; only accumulating traces add 1 to what is left.",
+    )
+    REPLACING_TRACE = Formula(
+        "replacing-trace",
+        e(s),
+        Cases(_VISIT, 1, _DECAYED),
+        title="Replacing eligibility trace",
+        source="Sutton & Barto 1998, eq. 7.13",
+        hint="The trace of the visited state is set to 1; every other one decays by γλ.",
+        sign="←",
+        place=Place.WORKING,
+        misread={
+            ACCUMULATING: _DECAYED + _VISIT,
+            DECAY_WITHOUT_GAMMA: Cases(_VISIT, 1, lam * e(s)),
+            DECAY_WITHOUT_LAMBDA: Cases(_VISIT, 1, gamma * e(s)),
         },
     )
 

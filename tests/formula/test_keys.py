@@ -16,6 +16,10 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
     ("return", {"rewards": [1, 2], "gamma": ["1/2", 1]}),
     ("n-step-return", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
                        "gamma": ["1/2"], "asked": [[0, 1]]}),
+    ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
+    ("sarsa-lambda", {"trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
+                      "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,
+                      "replacing": True}),
 ]  # fmt: skip
 
 

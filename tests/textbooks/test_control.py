@@ -1,5 +1,7 @@
 """TD control and bandits: numbers from Sutton & Barto 2018, or worked out here by hand from its equations."""
 
+from typing import Any
+
 import pytest
 import sympy
 from flint import fmpq
@@ -115,3 +117,39 @@ def test_ucb_takes_an_arm_that_was_never_pulled_first() -> None:
 def test_all_arms_that_are_pulled_are_listed() -> None:
     with pytest.raises(FileError, match="a pull is given for 'c', which does not occur; known are a and b"):
         solved("bandit", arms=["a", "b"], pulls=[["a", 1], ["c", 0]])
+
+
+TRACED: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b", "a", "end"], "actions": ["x", "y", "x"], "rewards": [0, 3, 8],
+                   "terminal": ["end"]},
+    "values": {"a": {"x": 4, "y": 0}, "b": {"x": 2, "y": 0}},
+    "alpha": "1/2", "gamma": 1, "lam": "1/2",
+}  # fmt: skip
+
+
+def test_sarsa_lambda_with_replacing_traces_by_hand() -> None:
+    # δ_0 = 0 − 4: Q(a, x) = 2. δ_1 = 3 + 2 − 0 = 5, e(a, x) = 1/2: Q(a, x) = 2 + 5/4 = 13/4, Q(b, y) = 5/2.
+    # δ_2 = 8 − 13/4 = 19/4, e(a, x) = 1, e(b, y) = 1/2: Q(a, x) = 13/4 + 19/8 = 45/8, Q(b, y) = 5/2 + 19/16 = 59/16.
+    answers = solved("sarsa-lambda", **TRACED, replacing=True)
+    assert answers["a"] == {("a", "x"): fmpq(1), ("b", "y"): fmpq(1, 2)}
+    assert answers["b"] == {("a", "x"): fmpq(45, 8), ("b", "y"): fmpq(59, 16)}
+
+
+def test_watkins_q_lambda_by_hand() -> None:
+    # δ_0 = 0 + max{2, 0} − 4 = −2: Q(a, x) = 3. In b the action y is not greedy, so the trace of (a, x) is cut.
+    # δ_1 = 3 + max{3, 0} − 0 = 6: Q(b, y) = 3, Q(a, x) stays. In a the action x is greedy: e(b, y) = 1/2, e(a, x) = 1.
+    # δ_2 = 8 − 3 = 5: Q(a, x) = 3 + 5/2 = 11/2, Q(b, y) = 3 + 5/4 = 17/4.
+    answers = solved("sarsa-lambda", **TRACED, watkins=True)
+    assert answers["a"] == {("a", "x"): fmpq(1), ("b", "y"): fmpq(1, 2)}
+    assert answers["b"] == {("a", "x"): fmpq(11, 2), ("b", "y"): fmpq(17, 4)}
+
+
+def test_watkins_q_0_is_q_learning() -> None:
+    known = {name: value for name, value in TRACED.items() if name != "lam"}
+    expected = solved("q-learning", **known)["a"]
+    assert solved("sarsa-lambda", **known, lam=0, watkins=True)["b"] == expected
+
+
+def test_no_action_is_greedy_while_a_parameter_is_open() -> None:
+    with pytest.raises(FileError, match="lambda is left open, so no action can be called greedy; give a number"):
+        solved("sarsa-lambda", **{**TRACED, "lam": "lambda"}, watkins=True)

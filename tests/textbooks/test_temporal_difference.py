@@ -165,3 +165,18 @@ def test_the_same_discount_in_every_step_is_the_discount(name: str, more: dict[s
 def test_there_are_as_many_discounts_as_rewards() -> None:
     with pytest.raises(FileError, match="gamma: 3 rewards need as many discounts, or a single one, not 2"):
         solved("return", rewards=[1, 2, 4], gamma=["1/2", 0])
+
+
+def test_replacing_traces_by_hand() -> None:
+    # γλ = 2/5. A visit sets the trace to 1: a at times 0, 2 and 3, b at time 1, so b has 2/5 at time 2, 4/25 at time 3.
+    known = {"states": ["a", "b", "a", "a"], "gamma": "1/2", "lam": "4/5", "asked": [2, 3]}
+    traces = solved("eligibility-trace", **known, replacing=True)
+    assert traces == {"a": {"a": fmpq(1), "b": fmpq(2, 5)}, "b": {"a": fmpq(1), "b": fmpq(4, 25)}}
+
+
+def test_the_backward_view_with_replacing_traces_by_hand() -> None:
+    # As with accumulating traces until V(a) = V(b) = 4; then e(a) = 1, e(b) = 1/2 and δ = 8 − 4 = 4:
+    # V(a) = 4 + 1/2·4 = 6, V(b) = 4 + 1/2·1/2·4 = 5.
+    run = {"states": ["a", "b", "a", "end"], "rewards": [0, 3, 8], "terminal": ["end"]}
+    known = {"trajectory": run, "values": {"a": 4, "b": 2}, "alpha": "1/2", "gamma": 1, "lam": "1/2"}
+    assert solved("td-lambda-backward", **known, replacing=True)["a"] == {"a": fmpq(6), "b": fmpq(5)}
