@@ -73,10 +73,9 @@ rbar = quantity("rbar", subscripted(Accent(variable("r"), "bar")))
 
 def _next_action_is_known_here(given: Any) -> bool:
     """Whether every action that is taken next also has a value in the state that is left."""
-    run = given.trajectory
     return all(
-        after in run.terminal or action in given.values[state]
-        for state, after, action in zip(run.states, run.states[1:], run.actions[1:], strict=False)
+        move.next in given.terminal or move.following is None or move.following in given.values[move.state]
+        for move in given.moves
     )
 
 

@@ -153,3 +153,24 @@ def test_watkins_q_0_is_q_learning() -> None:
 def test_no_action_is_greedy_while_a_parameter_is_open() -> None:
     with pytest.raises(FileError, match="lambda is left open, so no action can be called greedy; give a number"):
         solved("sarsa-lambda", **{**TRACED, "lam": "lambda"}, watkins=True)
+
+
+SEPARATE: dict[str, Any] = {"values": {"a": {"x": 4, "y": 0}, "b": {"x": 2, "y": 0}}, "alpha": "1/2", "gamma": 1,
+                            "terminal": ["end"], "td_errors": True}  # fmt: skip
+
+
+def test_transitions_that_do_not_join_by_hand() -> None:
+    # (a, x) → b with 2: max{2, 0} for Q-learning, so δ = 2 + 2 − 4 = 0; y follows for Sarsa, so δ = 2 + 0 − 4 = −2 and
+    # Q(a, x) = 3. (a, y) → end with 4: δ = 4 − 0, and Q(a, y) = 2.
+    q_learning = solved("q-learning", transitions=[["a", "x", "b", 2], ["a", "y", "end", 4]], **SEPARATE)
+    assert q_learning == {"a": (0, 4), "b": {("a", "x"): fmpq(4), ("a", "y"): fmpq(2)}}
+    sarsa = solved("sarsa", transitions=[["a", "x", "b", 2, "y"], ["a", "y", "end", 4]], **SEPARATE)
+    assert sarsa == {"a": (-2, 4), "b": {("a", "x"): fmpq(3), ("a", "y"): fmpq(2)}}
+
+
+@pytest.mark.parametrize("name", ["q-learning", "sarsa"])
+def test_transitions_that_join_are_a_run(name: str) -> None:
+    rows = [["a", "x", "b", 0, "y"], ["b", "y", "a", 3, "x"], ["a", "x", "end", 8]]
+    known = {"values": TRACED["values"], "alpha": "1/2", "gamma": 1}
+    along = solved(name, trajectory=TRACED["trajectory"], **known)
+    assert solved(name, transitions=rows, terminal=["end"], **known) == along

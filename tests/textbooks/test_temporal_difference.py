@@ -180,3 +180,56 @@ def test_the_backward_view_with_replacing_traces_by_hand() -> None:
     run = {"states": ["a", "b", "a", "end"], "rewards": [0, 3, 8], "terminal": ["end"]}
     known = {"trajectory": run, "values": {"a": 4, "b": 2}, "alpha": "1/2", "gamma": 1, "lam": "1/2"}
     assert solved("td-lambda-backward", **known, replacing=True)["a"] == {"a": fmpq(6), "b": fmpq(5)}
+
+
+def test_first_visits_in_a_batch() -> None:
+    # Exercise 5.5 of Sutton & Barto once more, with the first visit alone: the one return, 10. And by hand: the
+    # returns after first visits are 1 + 3 = 4 and 8, with the mean 6; TD(0) counts every visit as ever: 3 V = 12 + V.
+    episode = {"states": ["s"] * 10, "rewards": [1] * 10}
+    assert solved("batch-td-and-mc", episodes=[episode], gamma=1, visits="first")["a"] == {"s": fmpq(10)}
+    episodes = [{"states": ["a", "a"], "rewards": [1, 3]}, {"states": ["a"], "rewards": [8]}]
+    assert solved("batch-td-and-mc", episodes=episodes, gamma=1, visits="first") == {"a": {"a": 6}, "b": {"a": 6}}
+
+
+def test_the_temporal_difference_example_of_cs_188() -> None:
+    # Berkeley CS 188, lecture "Reinforcement Learning I": γ = 1, α = 1/2, V(D) = 8 and 0 elsewhere; B, east, C, −2 and
+    # C, east, D, −2 give V(B) = −1 and V(C) = 3. The TD errors are −2 + 0 − 0 and −2 + 8 − 0.
+    known = {"transitions": [["B", "C", -2], ["C", "D", -2]], "values": {"B": 0, "C": 0, "D": 8}}
+    answers = solved("td-zero", **known, alpha="1/2", gamma=1, td_errors=True)
+    assert answers == {"a": (-2, 6), "b": {"B": fmpq(-1), "C": fmpq(3)}}
+
+
+def test_transitions_that_do_not_join_by_hand() -> None:
+    # α = 1/2, γ = 1. A → B: V(A) = 0 + 1/2·(2 + 4 − 0) = 3; C → end: V(C) = 2 + 1/2·(4 − 2) = 3; A → C: the TD error
+    # is 0 + 3 − 3 = 0.
+    known = {"transitions": [["A", "B", 2], ["C", "end", 4], ["A", "C", 0]], "terminal": ["end"]}
+    answers = solved("td-zero", **known, values={"A": 0, "B": 4, "C": 2}, alpha="1/2", gamma=1, td_errors=True)
+    assert answers == {"a": (6, 2, 0), "b": {"A": fmpq(3), "C": fmpq(3)}}
+
+
+@pytest.mark.parametrize(
+    ("name", "more", "says"),
+    [
+        ("td-zero", {"transitions": [["end", "A", 1]]}, r"transitions\[1\]: 'end' is terminal, so nothing leads on"),
+        ("td-zero", {"transitions": [["A", "B", 1]]}, "the value of 'B' is missing"),
+        ("td-zero", {"transitions": [["A", "end", 1]], "trajectory": CUT_OFF}, "give either a trajectory, or transit"),
+        ("q-learning", {"transitions": [["A", "x", "B", 1]]}, "the action values of 'B' are missing"),
+        ("sarsa", {"transitions": [["A", "x", "A", 1]]}, r"transitions\[1\]: Sarsa needs the action taken in 'A' too"),
+        ("sarsa", {"transitions": [["A", "x", "end", 1, "x"]]}, "'end' is terminal, so no action is taken there"),
+    ],
+)
+def test_transitions_that_do_not_fit(name: str, more: dict[str, Any], says: str) -> None:
+    values = {"A": 1} if name == "td-zero" else {"A": {"x": 1}}
+    with pytest.raises(FileError, match=says):
+        solved(name, **{"terminal": ["end"], "values": values, "alpha": 1, "gamma": 1} | more)
+
+
+def test_monte_carlo_of_action_values_by_hand() -> None:
+    # γ = 1/2, rewards 2, 4, 8: R_2 = 8, R_1 = 4 + 4 = 8, R_0 = 2 + 4 = 6. The pair (a, x) is visited at times 0 and 2.
+    # First visit, α = 1/2: Q(a, x) = 0 + 1/2·(6 − 0) = 3; every visit: then 3 + 1/2·(8 − 3) = 11/2. Q(b, y) = 4 + 2.
+    run = {"states": ["a", "b", "a", "end"], "actions": ["x", "y", "x"], "rewards": [2, 4, 8], "terminal": ["end"]}
+    known = {"trajectory": run, "values": {"a": {"x": 0, "y": 1}, "b": {"y": 4}}, "alpha": "1/2", "gamma": "1/2"}
+    first = solved("monte-carlo", **known, visits="first")
+    assert first == {"a": (6, 8, 8), "b": {("a", "x"): fmpq(3), ("b", "y"): fmpq(6)}}
+    every = solved("monte-carlo", **known, visits="every")
+    assert every["b"] == {("a", "x"): fmpq(11, 2), ("b", "y"): fmpq(6)}
