@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, NamedTuple, Self
+from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -15,6 +15,7 @@ from rldrill.problems.exact import (
     OpenProbability,
     Parameter,
     Scalar,
+    read_scalar,
     shown,
 )
 from rldrill.problems.family import Givens
@@ -84,6 +85,11 @@ class Dynamics(Givens):
         return {state: tuple(actions) for state, actions in found.items()}
 
     @property
+    def chooses(self) -> bool:
+        """Whether there are actions; without any it is a Markov reward process."""
+        return any(transition.action != NO_CHOICE for transition in self.transitions)
+
+    @property
     def pairs(self) -> tuple[tuple[str, str], ...]:
         """Every state with every action that it has."""
         return tuple(self.outcomes)
@@ -105,6 +111,11 @@ class Model(Dynamics):
             return read_grid(data)
         if isinstance(data, dict) and "gymnasium" in data:
             return read_environment(data)
+        if _without_actions(data):
+            raise ValueError(
+                "rows of state, next state, probability and reward have no action, and here actions are needed; put "
+                "the action after the state"
+            )
         return data
 
     @model_validator(mode="after")
@@ -119,6 +130,37 @@ class Model(Dynamics):
                     f"{transition.next!r} is reached but has no action; give it one or list it as terminal"
                 )
         return self
+
+
+#: The action of a process in which there is nothing to choose.
+NO_CHOICE = "no action"
+
+
+def _without_actions(data: object) -> bool:
+    """Whether all rows of a model are state, next state, probability and reward."""
+    rows = data.get("transitions") if isinstance(data, dict) else None
+    if not (rows and isinstance(rows, list | tuple) and all(isinstance(r, list | tuple) and len(r) == 4 for r in rows)):
+        return False
+    try:
+        for row in rows:
+            read_scalar(row[2])
+    except ValueError:  # a name stands there: these are transitions with an action, and something else is missing
+        return False
+    return True
+
+
+def _read_process(value: Any) -> Any:
+    if not _without_actions(value):
+        return value
+    return value | {"transitions": [[state, NO_CHOICE, *rest] for state, *rest in value["transitions"]]}
+
+
+#: A Markov decision process, or a Markov reward process, which has no actions.
+Process = Annotated[
+    Model,
+    BeforeValidator(_read_process),
+    Field(description="the model; rows of state, next state, probability and reward are a process without actions"),
+]
 
 
 def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
@@ -251,6 +293,12 @@ def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
 
 def transitions_table(model: Dynamics) -> Table:
     """The model as a table, one line for every transition."""
+    if not model.chooses:
+        return Table(
+            header=("$s$", "$s'$", "$P_{s s'}$", "$R_{s s'}$"),
+            rows=tuple((t.state, t.next, f"${shown(t.probability)}$", f"${shown(t.reward)}$")
+                       for t in model.transitions),
+        )  # fmt: skip
     return Table(
         header=("$s$", "$a$", "$s'$", "$P_{s s'}^a$", "$R_{s s'}^a$"),
         rows=tuple(
@@ -263,9 +311,10 @@ def model_blocks(model: Model) -> tuple[Block, ...]:
     """A model as a question gives it: the story, its transitions, and what a terminal state is worth."""
     told = f"{model.story} " if model.story else ""
     table = transitions_table(model)
-    drawn = len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
+    drawn = model.chooses and len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
     arrows = " (on the arrows: probability, reward)" if drawn else ""
-    opening = Paragraph(f"{told}This Markov decision process moves and pays like this{arrows}:")
+    kind = "decision" if model.chooses else "reward"
+    opening = Paragraph(f"{told}This Markov {kind} process moves and pays like this{arrows}:")
     return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
 
 

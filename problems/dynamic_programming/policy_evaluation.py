@@ -4,7 +4,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import ModelAndPolicy, model_blocks, policy_table
+from rldrill.problems.models import ModelAndPolicy, Process, model_blocks, policy_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -16,8 +16,12 @@ REVISION = 1
 
 
 class Given(ModelAndPolicy, Sweeps):
-    """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps."""
+    """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps.
 
+    A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
+    """
+
+    mdp: Process
     in_place: bool = False
 
 
@@ -52,8 +56,7 @@ def question(given: Given) -> Question:
     k = given.sweeps
     blocks: tuple[Block, ...] = (
         *model_blocks(given.mdp),
-        Paragraph("The policy is:"),
-        policy_table(given.chances),
+        *((Paragraph("The policy is:"), policy_table(given.chances)) if given.mdp.chooses else ()),
         *begin(given, "Policy evaluation"),
         Paragraph(f"{discount(given.gamma)} {in_place(given.mdp.states) if given.in_place else SYNCHRONOUS}"),
     )
