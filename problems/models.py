@@ -186,6 +186,16 @@ def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str,
             raise ValueError(f"{what} of {state!r} must be 0, because it is terminal; give 0, or {cure}")
 
 
+def check_state_values(values: Mapping[str, object], model: Model) -> None:
+    """Demand a value for every state of a model; a terminal one may have its 0.
+
+    Raises:
+        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
+    """
+    check_keys(values, (*model.states, *model.terminal), "the value", needed=model.states)
+    check_ends(values, model.terminal, "the value", "make it the reward for getting there")
+
+
 def sums_to_one(probabilities: Iterable[Scalar]) -> bool:
     """Whether probabilities sum to 1; a parameter and its complement do."""
     rest = Fraction(1)

@@ -17,7 +17,6 @@ from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
     FORGOT_GAMMA,
     OPTIMAL_Q_BY_REWARD,
-    OPTIMAL_Q_MEAN_FOR_MAX,
 )
 from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_FROM_Q,
@@ -96,7 +95,7 @@ def paid_twice(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
-    newest, old_values, paid_twice, MEAN_FOR_MAX, FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD, OPTIMAL_Q_MEAN_FOR_MAX
+    newest, old_values, paid_twice, MEAN_FOR_MAX, FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
 )  # fmt: skip
 
 

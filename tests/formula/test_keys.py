@@ -1,26 +1,15 @@
 """The keys of the lecture's sheet, kept in ``keys.txt``: each is a formula here, and at least one family drills it."""
 
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import rldrill
+from from_files import FROM_FILES
 from rldrill.problems.catalogue import families
 from rldrill.solutions.sheet import formulas
 
 KEYS = (Path(__file__).parent / "keys.txt").read_text(encoding="utf-8").split()
-
-#: Problems that are not drawn: their formulas only serve problem files.
-FROM_FILES: list[tuple[str, dict[str, Any]]] = [
-    ("return", {"rewards": [1, 2], "gamma": ["1/2", 1]}),
-    ("n-step-return", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
-                       "gamma": ["1/2"], "asked": [[0, 1]]}),
-    ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
-    ("sarsa-lambda", {"trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
-                      "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,
-                      "replacing": True}),
-]  # fmt: skip
 
 
 @pytest.mark.parametrize("key", KEYS)

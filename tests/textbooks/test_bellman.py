@@ -116,3 +116,20 @@ def test_where_actions_are_needed_rows_of_four_are_refused() -> None:
     mdp = {"transitions": [["a", "end", 1, 1]], "terminal": ["end"]}
     with pytest.raises(FileError, match="have no action, and here actions are needed; put the action after the state"):
         solved("optimal-value", mdp=mdp, gamma="1/2")
+
+
+@pytest.mark.parametrize(
+    ("name", "more"),
+    [
+        ("bellman-residual", {}),
+        ("optimal-policy-from-v", {}),
+        ("policy-improvement", {"policy": {"a": "go"}}),
+        ("policy-improvement-theorem", {"policy": {"a": "go"}, "other": {"a": "stay"}}),
+    ],
+)
+def test_a_terminal_state_may_have_its_0_among_given_values(name: str, more: dict[str, Any]) -> None:
+    mdp = {"transitions": [["a", "go", "end", 1, 4], ["a", "stay", "a", 1, 1]], "terminal": ["end"]}
+    known = {"mdp": mdp, "gamma": "1/2", "values": {"a": 4}} | more
+    assert solved(name, **{**known, "values": {"a": 4, "end": 0}}) == solved(name, **known)
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal; give 0, or make it the"):
+        solved(name, **{**known, "values": {"a": 4, "end": 2}})
