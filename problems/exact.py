@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
@@ -202,9 +202,8 @@ Discounts = Annotated[
     Fraction | Parameter | tuple[Fraction | Parameter, ...],
     BeforeValidator(_discounts),
     PlainSerializer(lambda value: [*map(write, value)] if isinstance(value, tuple) else write(value)),
-    WithJsonSchema(
-        {"anyOf": [{"type": ["string", "number"]}, {"type": "array"}], "description": "a number, or a list"}
-    ),
+    WithJsonSchema({"type": ["string", "number", "array"]}),
+    Field(description="the discount; or a list with one for every step, the first for all after the first reward"),
 ]
 #: A weight of a policy, whose exponential may be a whole number: ``ln 2``.
 WeightField = Annotated[

@@ -1,5 +1,7 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
+from pydantic import Field
+
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
@@ -22,7 +24,10 @@ class Given(ModelAndPolicy, Sweeps):
     """
 
     mdp: Process
-    in_place: bool = False
+    in_place: bool = Field(
+        default=False,
+        description="whether a sweep uses each new value at once, instead of the values of the sweep before alone",
+    )
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -174,3 +174,12 @@ def test_transitions_that_join_are_a_run(name: str) -> None:
     known = {"values": TRACED["values"], "alpha": "1/2", "gamma": 1}
     along = solved(name, trajectory=TRACED["trajectory"], **known)
     assert solved(name, transitions=rows, terminal=["end"], **known) == along
+
+
+@pytest.mark.parametrize("name", ["q-learning", "sarsa"])
+def test_actions_in_a_terminal_state_are_worth_0(name: str) -> None:
+    known = {"trajectory": TRACED["trajectory"], "alpha": "1/2", "gamma": 1}
+    expected = solved(name, **known, values=TRACED["values"])
+    assert solved(name, **known, values=TRACED["values"] | {"end": {"x": 0}}) == expected
+    with pytest.raises(FileError, match="values: the action value of 'end' must be 0, because it is terminal"):
+        solved(name, **known, values=TRACED["values"] | {"end": {"x": 3}})

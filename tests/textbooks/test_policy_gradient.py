@@ -7,6 +7,7 @@ import sympy
 from flint import fmpq
 
 from asking import rounded, solved
+from rldrill.problems.errors import FileError
 
 
 @pytest.mark.parametrize(
@@ -148,3 +149,13 @@ def test_the_short_corridor(right: str, printed: float) -> None:
     mdp = {"transitions": rows, "terminal": ["end"]}
     value = float(rounded(solved("policy-value", mdp=mdp, policy=policy, gamma=1)["a"]["1"], 6))
     assert value == pytest.approx(printed, abs=0.3 if printed < -12 else 0.1)
+
+
+def test_a_critic_has_0_for_a_terminal_state() -> None:
+    run = {"states": ["a", "end"], "actions": ["x"], "rewards": [2], "terminal": ["end"]}
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal"):
+        solved("advantage", run={"trajectory": run, "values": {"a": 1, "end": 4}, "lam": "1/2"}, gamma=1)
+    actor = {"features": {"a": {"x": [1, 0], "y": [0, 1]}}, "theta": [0, 0], "alpha": "1/2", "beta": 1, "gamma": 1}
+    assert solved("actor-critic", trajectory=run, values={"a": 1, "end": 0}, **actor)["a"] == (1,)
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal"):
+        solved("actor-critic", trajectory=run, values={"a": 1, "end": 4}, **actor)
