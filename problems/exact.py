@@ -6,7 +6,7 @@ from functools import lru_cache
 from math import isqrt, sqrt
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, PlainSerializer, ValidationInfo, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
@@ -215,6 +215,12 @@ def _rate(value: Scalar) -> Scalar:
     return value
 
 
+def _discounts(value: object) -> Scalar | tuple[Scalar, ...]:
+    if isinstance(value, list | tuple):
+        return tuple(_probability(read_scalar(gamma)) for gamma in value)
+    return _probability(read_scalar(value))
+
+
 _serialised = PlainSerializer(write, return_type=str)
 _schema = WithJsonSchema({"type": ["string", "number"], "description": "an exact number: 3, 0.75 or '3/4'"})
 
@@ -240,6 +246,14 @@ Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialis
 OpenProbability = Annotated[Fraction | Parameter, _field(read_scalar, _probability), _serialised, _schema]
 #: A discount γ, 0 to 1, or left open.
 Discount = OpenProbability
+#: A discount for the whole run, or a list with one for each of its steps.
+Discounts = Annotated[
+    Fraction | Parameter | tuple[Fraction | Parameter, ...],
+    BeforeValidator(_discounts),
+    PlainSerializer(lambda value: [*map(write, value)] if isinstance(value, tuple) else write(value)),
+    WithJsonSchema({"type": ["string", "number", "array"]}),
+    Field(description="the discount; or a list with one for every step, the first for all after the first reward"),
+]
 #: A weight of a policy, whose exponential may be a whole number: ``ln 2``.
 WeightField = Annotated[
     Fraction | Parameter | Logarithm,

@@ -90,6 +90,11 @@ class Dynamics(Givens):
         return {state: tuple(actions) for state, actions in found.items()}
 
     @property
+    def chooses(self) -> bool:
+        """Whether there are actions; without any it is a Markov reward process."""
+        return any(transition.action != ALONE for transition in self.transitions)
+
+    @property
     def pairs(self) -> tuple[tuple[str, str], ...]:
         """Every state with every action that it has."""
         return tuple(self.outcomes)
@@ -161,6 +166,13 @@ def _both(first: Transition, second: Transition) -> Transition:
     return first._replace(probability=p + q, reward=(p * r + q * s) / (p + q) if p + q else r)
 
 
+#: A Markov decision process, or a Markov reward process, which has no actions.
+Process = Annotated[
+    Model,
+    Field(description="the model; rows of state, next state, probability and reward are a process without actions"),
+]
+
+
 def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, needed: tuple[str, ...]) -> None:
     """Demand that a mapping names the needed keys, and none that is not known."""
     for key in needed:
@@ -170,6 +182,28 @@ def check_keys(values: Mapping[str, object], known: tuple[str, ...], what: str, 
         if key not in known:
             named = f"known are {joined(list(known))}" if known else "none is known"
             raise ValueError(f"{what} is given for {key!r}, which does not occur; {named}")
+
+
+def check_ends(values: Mapping[str, object], terminal: Iterable[str], what: str, cure: str) -> None:
+    """Demand that what is given for a terminal state is 0, alone or for every action.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    for state in terminal:
+        given = values.get(state, 0)
+        if any(given.values()) if isinstance(given, Mapping) else given:
+            raise ValueError(f"{what} of {state!r} must be 0, because it is terminal; give 0, or {cure}")
+
+
+def check_state_values(values: Mapping[str, object], model: Model) -> None:
+    """Demand a value for every state of a model; a terminal one may have its 0.
+
+    Raises:
+        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
+    """
+    check_keys(values, (*model.states, *model.terminal), "the value", needed=model.states)
+    check_ends(values, model.terminal, "the value", "make it the reward for getting there")
 
 
 def sums_to_one(probabilities: Iterable[Scalar]) -> bool:
@@ -310,7 +344,7 @@ def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
 
 def transitions_table(model: Dynamics) -> Table:
     """The model as a table, one line for every transition; a process without actions has no column for them."""
-    alone = _alone(model)
+    alone = not model.chooses
     header = ("$s$", "$a$", "$s'$", "$P_{s s'}^a$", "$R_{s s'}^a$")
     return Table(
         header=("$s$", "$s'$", "$P_{s s'}$", "$R_{s s'}$") if alone else header,
@@ -321,18 +355,13 @@ def transitions_table(model: Dynamics) -> Table:
     )
 
 
-def _alone(model: Dynamics) -> bool:
-    """Whether this is a process without actions."""
-    return {action for _, action in model.pairs} == {ALONE}
-
-
 def model_blocks(model: Model) -> tuple[Block, ...]:
     """A model as a question gives it: the story, its transitions, and what a terminal state is worth."""
     told = f"{model.story} " if model.story else ""
     table = transitions_table(model)
-    drawn = len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
+    drawn = model.chooses and len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
     arrows = " (on the arrows: probability, reward)" if drawn else ""
-    process = "reward process" if _alone(model) else "decision process"
+    process = "decision process" if model.chooses else "reward process"
     opening = Paragraph(f"{told}This Markov {process} moves and pays like this{arrows}:")
     return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
 

@@ -5,8 +5,11 @@ from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens
 
 
-def discount(gamma: Scalar) -> str:
-    """The sentence that gives the discount."""
+def discount(gamma: Scalar | tuple[Scalar, ...]) -> str:
+    """The sentence that gives the discount, or that of every step."""
+    if isinstance(gamma, tuple):
+        every = ", ".join(f"γ_{{{time}}} = {shown(each)}" for time, each in enumerate(gamma, 1))
+        return f"Every step has its own discount, ${every}$: what comes after the reward $r_t$ is multiplied by $γ_t$."
     if isinstance(gamma, Parameter):
         return f"The discount ${shown(gamma)}$ is left open."
     return f"The discount is $γ = {shown(gamma)}$."

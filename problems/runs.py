@@ -1,23 +1,29 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Self
+from typing import Annotated, NamedTuple, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Discriminator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
-from rldrill.problems.models import Name, check_keys
-from rldrill.problems.phrases import check_one_open, discount, step_size, terminal_note
+from rldrill.problems.models import Name, check_ends, check_keys
+from rldrill.problems.parts import Number, Numbers, Part
+from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.settings import draw_setting
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
+#: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
+_SHORT = 300
+
+#: What to do where a terminal state is given a value of its own.
+CUT_OFF = "take it out of terminal if the run was only cut off there"
 
 
 class Trajectory(Givens):
@@ -41,23 +47,85 @@ class Trajectory(Givens):
                 raise ValueError(f"{state!r} is terminal, so the run cannot go on to {after!r}")
         return self
 
-
-class Episode(Trajectory):
-    """A run to its end: the last state is terminal."""
-
-    states: tuple[Name, ...] = Field(min_length=2, max_length=301)
-
-    @model_validator(mode="after")
-    def _ends(self) -> Self:
-        if self.states[-1] not in self.terminal:
-            raise ValueError(f"an episode ends in a terminal state; list {self.states[-1]!r}, its last, as terminal")
-        return self
+    @property
+    def ends(self) -> bool:
+        """Whether the last state is terminal; otherwise the run is cut off there."""
+        return self.states[-1] in self.terminal
 
 
-def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Episode:
+def _short(run: Trajectory) -> Trajectory:
+    if len(run.rewards) > _SHORT:
+        raise ValueError(f"has {len(run.rewards)} steps; it may have at most {_SHORT}")
+    return run
+
+
+def _to_its_end(run: Trajectory) -> Trajectory:
+    if not run.ends:
+        raise ValueError(
+            f"the whole return is needed, but the run does not end in {run.states[-1]!r}, its last state; list it as "
+            "terminal if the episode ends there, or go on to the end"
+        )
+    return run
+
+
+#: A run that is not so long that its n-step returns become too many.
+ShortRun = Annotated[Trajectory, AfterValidator(_short)]
+#: A run to its end: the last state is terminal.
+Episode = Annotated[ShortRun, AfterValidator(_to_its_end)]
+
+
+def per_step(gamma: Scalar | tuple[Scalar, ...], steps: int) -> tuple[Scalar, ...]:
+    """The discount of every step of a run; where one is given it is that of all steps.
+
+    Raises:
+        ValueError: there are too many or too few.
+    """
+    if not isinstance(gamma, tuple):
+        return (gamma,) * steps
+    if len(gamma) != steps:
+        raise ValueError(f"gamma: {steps} rewards need as many discounts, or a single one, not {len(gamma)}")
+    return gamma
+
+
+def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajectory:
     """An episode through these states to the terminal one, with small whole rewards that are not 0."""
     rewards = tuple(rng.nonzero(-4, 8) for _ in states)
-    return Episode(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+    return Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+
+
+#: Whether eligibility traces are replacing.
+Replacing = Annotated[
+    bool,
+    Field(
+        exclude_if=lambda replacing: not replacing,
+        description="whether traces are replacing: a visit sets the trace to 1, instead of adding 1 to what is left",
+    ),
+]
+
+
+class StateMove(NamedTuple):
+    """A transition from a state to the next, and its reward."""
+
+    state: Name
+    next: Name
+    reward: Exact
+
+
+class ActionMove(NamedTuple):
+    """A transition with its action; and the action taken after it, where that is known."""
+
+    state: Name
+    action: Name
+    next: Name
+    reward: Exact
+    following: Name | None = None
+
+
+#: Whether the TD errors are asked for, too.
+AskErrors = Annotated[
+    bool,
+    Field(exclude_if=lambda asked: not asked, description="whether the TD error of every transition is asked for, too"),
+]
 
 
 class ValueRun(Givens):
@@ -75,9 +143,53 @@ class ValueRun(Givens):
         return self
 
     @property
+    def moves(self) -> tuple[StateMove, ...]:
+        """The transitions one by one."""
+        return tuple(map(StateMove, self.trajectory.states, self.trajectory.states[1:], self.trajectory.rewards))
+
+    @property
+    def terminal(self) -> tuple[str, ...]:
+        """The states in which an episode ends."""
+        return self.trajectory.terminal
+
+    @property
     def visited(self) -> tuple[str, ...]:
         """The states that are left, in the order of their first visit."""
-        return tuple(dict.fromkeys(self.trajectory.states[:-1]))
+        return tuple(dict.fromkeys(move.state for move in self.moves))
+
+
+class ValueMoves(Givens):
+    """Transitions that need not join, the state values before them, the step size and the discount."""
+
+    transitions: tuple[StateMove, ...] = Field(
+        min_length=1,
+        max_length=300,
+        description="transitions in the order of their updates: rows of state, next state and reward",
+    )
+    terminal: tuple[Name, ...] = ()
+    values: dict[Name, Exact]
+    alpha: StepSize
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        check_moves(self.transitions, self.terminal)
+        left = [state for move in self.transitions for state in (move.state, move.next)]
+        known = tuple(dict.fromkeys((*left, *self.terminal)))
+        check_keys(self.values, known, "the value", needed=tuple(s for s in known if s not in self.terminal))
+        check_ends(self.values, self.terminal, "the value", CUT_OFF)
+        check_one_open(self)
+        return self
+
+    @property
+    def moves(self) -> tuple[StateMove, ...]:
+        """The transitions one by one."""
+        return self.transitions
+
+    @property
+    def visited(self) -> tuple[str, ...]:
+        """The states that are left, in the order of their first visit."""
+        return tuple(dict.fromkeys(move.state for move in self.moves))
 
 
 class ActionRun(Givens):
@@ -101,6 +213,7 @@ class ActionRun(Givens):
                 raise ValueError(f"trajectory: the run ends in {state!r}, so no action is taken there")
             if action not in self.values[state]:
                 raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+        check_ends(self.values, run.terminal, "values: the action value", CUT_OFF)
         return self
 
     def demand_last_action(self, method: str) -> None:
@@ -110,26 +223,120 @@ class ActionRun(Givens):
             raise ValueError(f"trajectory: {method} needs the action taken in {last!r}, the last state, too")
 
     @property
+    def moves(self) -> tuple[ActionMove, ...]:
+        """The transitions one by one."""
+        run = self.trajectory
+        after = [*run.actions[1:], None][: len(run.rewards)]
+        return tuple(map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, after))
+
+    @property
+    def terminal(self) -> tuple[str, ...]:
+        """The states in which an episode ends."""
+        return self.trajectory.terminal
+
+    @property
     def updated(self) -> tuple[tuple[str, str], ...]:
         """The pairs of state and action that are updated, in the order of their first visit."""
-        run = self.trajectory
-        return tuple(dict.fromkeys(zip(run.states[: len(run.rewards)], run.actions, strict=False)))
+        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
 
     @property
     def last_action_known(self) -> bool:
         """Whether something is known to be done in the last state, or nothing is because the run ends there."""
         run = self.trajectory
-        return run.states[-1] in run.terminal or len(run.actions) == len(run.states)
+        return run.ends or len(run.actions) == len(run.states)
+
+
+class ActionMoves(Givens):
+    """Transitions that need not join, the action values before them, the step size and the discount."""
+
+    transitions: tuple[ActionMove, ...] = Field(
+        min_length=1,
+        max_length=300,
+        description="transitions in the order of their updates: rows of state, action, next state and reward, and for "
+        "Sarsa the next action",
+    )
+    terminal: tuple[Name, ...] = ()
+    values: dict[Name, dict[Name, Exact]]
+    alpha: StepSize
+    gamma: Discount
+
+    @model_validator(mode="after")
+    def _valued(self) -> Self:
+        check_moves(self.transitions, self.terminal)
+        for number, move in enumerate(self.transitions, 1):
+            taken = [(move.state, move.action), *([(move.next, move.following)] if move.following else [])]
+            if move.following and move.next in self.terminal:
+                raise ValueError(f"transitions[{number}]: {move.next!r} is terminal, so no action is taken there")
+            if move.next not in self.terminal and not self.values.get(move.next):
+                raise ValueError(f"values: the action values of {move.next!r} are missing")
+            for state, action in taken:
+                if action not in self.values.get(state, {}):
+                    raise ValueError(f"values: {action!r} is taken in {state!r} but has no value there")
+        check_ends(self.values, self.terminal, "values: the action value", CUT_OFF)
+        return self
+
+    def demand_last_action(self, method: str) -> None:
+        """Raise a ``ValueError`` unless the method, which needs the next actions, is given them."""
+        for number, move in enumerate(self.transitions, 1):
+            if move.following is None and move.next not in self.terminal:
+                raise ValueError(
+                    f"transitions[{number}]: {method} needs the action taken in {move.next!r} too; add it at the end"
+                )
+
+    @property
+    def moves(self) -> tuple[ActionMove, ...]:
+        """The transitions one by one."""
+        return self.transitions
+
+    @property
+    def updated(self) -> tuple[tuple[str, str], ...]:
+        """The pairs of state and action that are updated, in the order of their first visit."""
+        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
+
+    @property
+    def last_action_known(self) -> bool:
+        """Whether it is known after every transition what is done next, or nothing is."""
+        return all(move.following is not None or move.next in self.terminal for move in self.moves)
+
+
+def check_moves(moves: Sequence[StateMove | ActionMove], terminal: tuple[str, ...]) -> None:
+    """Demand that no transition leaves a terminal state.
+
+    Raises:
+        ValueError: one does.
+    """
+    for number, move in enumerate(moves, 1):
+        if move.state in terminal:
+            raise ValueError(f"transitions[{number}]: {move.state!r} is terminal, so nothing leads on from there")
+
+
+def which_kind(given: object) -> str | None:
+    """The tag of a run, or of transitions that need not join."""
+    match given:
+        case {"trajectory": _, "transitions": _}:
+            return None
+        case {"transitions": _}:
+            return "transitions"
+    return "run"
+
+
+#: What tells a run and transitions apart.
+RUN_OR_MOVES = Discriminator(
+    which_kind,
+    custom_error_type="kind",
+    custom_error_message="give either a trajectory, or transitions that need not join",
+)
 
 
 def check_values(values: Mapping[str, object], run: Trajectory) -> None:
     """Demand a value for every state of a run that is not terminal.
 
     Raises:
-        ValueError: one is missing, or given for an unknown state.
+        ValueError: one is missing, given for an unknown state, or not 0 for a terminal one.
     """
     known = tuple(dict.fromkeys((*run.states, *run.terminal)))
     check_keys(values, known, "the value", needed=tuple(state for state in known if state not in run.terminal))
+    check_ends(values, run.terminal, "the value", CUT_OFF)
 
 
 def draw_action_run(
@@ -183,7 +390,7 @@ def timeline(run: Trajectory) -> Timeline:
         run.states,
         run.actions,
         tuple(f"$r_{{{time}}} = {shown(reward)}$" for time, reward in enumerate(run.rewards, 1)),
-        ended=run.states[-1] in run.terminal,
+        ended=run.ends,
     )
 
 
@@ -210,19 +417,65 @@ def action_values_table(values: Mapping[str, Mapping[str, Scalar]], of: str = "Q
     )
 
 
-def run_situation(given: ValueRun | ActionRun, *values: Table, more: str = "") -> tuple[Block, ...]:
+def cut_off(run: Trajectory) -> tuple[Block, ...]:
+    """The sentence that says how λ-returns are closed where a run does not come to its end."""
+    if run.ends:
+        return ()
+    last = run.states[-1]
+    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal: the longest n-step return"
+    return (Paragraph(f'{told} ends with $V("{last}")$, and has all the weight that the shorter ones leave.'),)
+
+
+def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
+    """Transitions that need not join."""
+    following = isinstance(given, ActionMoves) and any(move.following for move in given.transitions)
+    head = ("$s_{t+1}$", "$r_{t+1}$")
+    header = ("$s_t$", *(("$a_t$",) if isinstance(given, ActionMoves) else ()), *head)
+    rows = [
+        tuple("–" if entry is None else entry if isinstance(entry, str) else f"${shown(entry)}$" for entry in move)
+        for move in given.moves
+    ]
+    return (
+        Paragraph("These transitions were seen, in this order; one need not begin where the one before it ended:"),
+        Table(
+            header=("$t$", *header, *(("$a_{t+1}$",) if following else ())),
+            rows=tuple((f"${time}$", *row[: len(header) + following]) for time, row in enumerate(rows)),
+        ),
+        *terminal_note(given.terminal),
+    )
+
+
+def run_situation(
+    given: ValueRun | ActionRun | ValueMoves | ActionMoves, *values: Table, more: str = ""
+) -> tuple[Block, ...]:
     """A run, and the values before it; ``more`` is said after the step size and the discount."""
-    told = f"Before the run the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
-    return (*seen(given.trajectory), Paragraph(told.rstrip()), *values)
+    before = "the first of them" if isinstance(given, ValueMoves | ActionMoves) else "the run"
+    told = f"Before {before} the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
+    return (*happened, Paragraph(told.rstrip()), *values)
 
 
-def values_asked(given: ValueRun) -> str:
+def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part:
+    """The part that asks for the TD error of every transition."""
+    errors = tuple(f"δ_{{{time}}}" for time in range(len(given.moves)))
+    if len(errors) == 1:
+        return Part(f"What is the TD error $δ_0$ of the transition{in_open(given)}?", Number(), zero=True)
+    ask = f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given)}?"
+    return Part(ask, Numbers(errors), zero=True)
+
+
+def after(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> str:
+    """When the values are asked for."""
+    return "after these transitions" if isinstance(given, ValueMoves | ActionMoves) else "after the run"
+
+
+def values_asked(given: ValueRun | ValueMoves) -> str:
     """What a question asks for where every visited state changes."""
     visited = given.visited
     return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
 
 
-def run_blocks(given: ValueRun | ActionRun, values: Table, method: str) -> tuple[Block, ...]:
+def run_blocks(given: ValueRun | ActionRun | ValueMoves | ActionMoves, values: Table, method: str) -> tuple[Block, ...]:
     """The situation of a question about updates along a run: the run, the values before it, and the method."""
     return (
         *run_situation(given, values),

@@ -4,12 +4,17 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens
-from rldrill.problems.models import Model, Name, check_keys, values_table
+from rldrill.problems.models import Model, Name, check_ends, check_keys, values_table
 
 SYNCHRONOUS = "Sweeps are synchronous: each uses only the values of the sweep before."
+
+
+def in_place(states: tuple[str, ...]) -> str:
+    """The sentence that says in which order a sweep in place goes through the states."""
+    return f"Sweeps are in place: the states are updated in the order {joined([*states])}, each with the newest values."
 
 
 class Sweeps(Givens):
@@ -23,6 +28,7 @@ class Sweeps(Givens):
     def _fits(self) -> Self:
         if self.start is not None:
             check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
+            check_ends(self.start, self.mdp.terminal, "start: the value", "make it the reward for getting there")
         return self
 
 

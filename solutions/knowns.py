@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Scalar
 from rldrill.problems.models import Dynamics, Model, Policy
-from rldrill.problems.runs import ActionRun, Trajectory
+from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, StateMove, Trajectory, ValueMoves, ValueRun
 from rldrill.solutions.exact import ZERO, Value, exact
 
 Key = TypeVar("Key")
@@ -24,6 +24,13 @@ def values(numbers: Mapping[Key, Scalar]) -> dict[Key, Value]:
 def state_values(numbers: Mapping[str, Scalar], terminal: tuple[str, ...]) -> dict[str, Value]:
     """Given state values; a terminal state is worth 0."""
     return values(numbers) | dict.fromkeys(terminal, ZERO)
+
+
+def discounts(gamma: Scalar | tuple[Scalar, ...]) -> dict[str, Any]:
+    """The discount γ, or the discounts of the steps, γ_1 first."""
+    if isinstance(gamma, tuple):
+        return {"gammas": {time: exact(each) for time, each in enumerate(gamma, 1)}}
+    return {"gamma": exact(gamma)}
 
 
 def model(given: Dynamics) -> dict[str, Any]:
@@ -87,20 +94,39 @@ def trajectory(run: Trajectory) -> dict[str, Any]:
     }
 
 
+def moves(given: ValueRun | ValueMoves | ActionRun | ActionMoves) -> list[dict[str, Any]]:
+    """What is known of every transition, which goes from its time t to t + 1: t, s, a and r."""
+    seen: Sequence[StateMove | ActionMove] = given.moves
+    return [_move(time, move, given.terminal) for time, move in enumerate(seen)]
+
+
+def _move(time: int, move: StateMove | ActionMove, terminal: tuple[str, ...]) -> dict[str, Any]:
+    known = {"t": time, "S": {time: move.state, time + 1: move.next}, "r": {time + 1: exact(move.reward)}}
+    if isinstance(move, ActionMove):
+        following = NO_ACTION if move.next in terminal else move.following
+        known["A"] = {time: move.action} | ({} if following is None else {time + 1: following})
+    return known
+
+
 def action_run(given: ActionRun) -> dict[str, Any]:
     """A run with its action values, α and γ; where an episode ends there is one action, worth 0."""
     run = given.trajectory
-    known = trajectory(run) | {
+    known = trajectory(run) | action_values(given)
+    if run.ends:
+        known["A"][len(run.rewards)] = NO_ACTION
+    return known
+
+
+def action_values(given: ActionRun | ActionMoves) -> dict[str, Any]:
+    """The action values, α and γ; where an episode ends there is one action, worth 0."""
+    return {
         "alpha": exact(given.alpha),
         "gamma": exact(given.gamma),
         "actions": {state: tuple(row) for state, row in given.values.items()}
-        | dict.fromkeys(run.terminal, (NO_ACTION,)),
+        | dict.fromkeys(given.terminal, (NO_ACTION,)),
         "Q": {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
-        | {(state, NO_ACTION): ZERO for state in (*given.values, *run.terminal)},
+        | {(state, NO_ACTION): ZERO for state in (*given.values, *given.terminal)},
     }
-    if run.states[-1] in run.terminal:
-        known["A"][len(run.rewards)] = NO_ACTION
-    return known
 
 
 def pays_at_the_end(given: Model) -> bool:

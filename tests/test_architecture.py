@@ -9,6 +9,8 @@ from statistics import median
 
 import pytest
 
+import rldrill
+from from_files import FROM_FILES
 from rldrill.exam import expected
 from rldrill.problems.catalogue import families, family, topics
 from rldrill.solutions.drawing import draw
@@ -152,6 +154,9 @@ def test_a_family_is_complete(name: str) -> None:
     assert twin.misconceptions, "a family recognises at least one typical mistake"
     assert len({m.name for m in twin.misconceptions}) == len(twin.misconceptions)
     used = {formula for level in found.levels for formula in draw(name, level, 0).formulas()}
+    for family_, given in FROM_FILES:
+        if family_ == name:
+            used |= {*rldrill.read({"family": name, "given": given}).formulas()}
     for misconception in twin.misconceptions:
         assert misconception.says.endswith("."), misconception
         assert misconception.is_slip or any(misconception in formula.misread for formula in used), (

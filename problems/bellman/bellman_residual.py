@@ -14,7 +14,7 @@ from rldrill.problems.models import (
     ModelAndPolicy,
     Name,
     Transition,
-    check_keys,
+    check_state_values,
     model_blocks,
     policy_blocks,
     values_table,
@@ -42,7 +42,7 @@ class Given(ModelAndPolicy):
             raise ValueError("gamma: must be below 1, or other values may solve the equations too")
         if self.optimal and self.policy is not None:
             raise ValueError("policy: optimal values belong to no given policy; leave it out")
-        check_keys(self.values, self.mdp.states, "the value", needed=self.mdp.states)
+        check_state_values(self.values, self.mdp)
         return self
 
 

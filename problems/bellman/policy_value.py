@@ -4,7 +4,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import Model, ModelAndPolicy, Transition, model_blocks, policy_blocks
+from rldrill.problems.models import Model, ModelAndPolicy, Process, Transition, model_blocks, policy_blocks
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -15,7 +15,12 @@ REVISION = 1
 
 
 class Given(ModelAndPolicy):
-    """A model, a policy and the discount; without a policy every action is equally probable."""
+    """A model, a policy and the discount; without a policy every action is equally probable.
+
+    A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
+    """
+
+    mdp: Process
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -63,7 +68,8 @@ def _left_open(rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
+    values = "V^π" if given.mdp.chooses else "V"
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
-        (Part(f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),),
+        (Part(f"What is ${values}(s)$ for every state{in_open(given)}?", Values(values, given.mdp.states)),),
     )

@@ -5,7 +5,7 @@ from typing import Annotated, NamedTuple, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.document import Table as Cells
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
@@ -38,23 +38,55 @@ class Bandit(Givens):
 
     @model_validator(mode="after")
     def _choice(self) -> Self:
-        if len(self.arms) < 2:
+        if len(self.every_arm) < 2:
             raise ValueError("there must be at least two arms")
+        check_keys(dict.fromkeys(pull.arm for pull in self.every_pull), self.every_arm, "a pull", needed=())
         return self
 
     @property
-    def arms(self) -> tuple[str, ...]:
+    def every_pull(self) -> tuple[Pull, ...]:
+        """All pulls."""
+        return self.pulls
+
+    @property
+    def every_arm(self) -> tuple[str, ...]:
         """The arms, in the order of their first pulls."""
         return tuple(dict.fromkeys(pull.arm for pull in self.pulls))
 
 
-class Estimates(Bandit):
+class Averaged(Bandit):
+    """The pulls so far, and all arms if some were never pulled."""
+
+    arms: tuple[Name, ...] = Field(
+        default=(),
+        max_length=100,
+        exclude_if=lambda arms: not arms,
+        description="all arms, those that were never pulled too; left out, they are the arms of the pulls",
+    )
+
+    @property
+    def every_arm(self) -> tuple[str, ...]:
+        """The arms, in the order of the list or of their first pulls."""
+        return tuple(dict.fromkeys(self.arms)) or super().every_arm
+
+    @property
+    def tried(self) -> tuple[str, ...]:
+        """The arms that were pulled, which alone have a sample average."""
+        return tuple(arm for arm in self.every_arm if any(pull.arm == arm for pull in self.pulls))
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """The arms that were never pulled."""
+        return tuple(arm for arm in self.every_arm if arm not in self.tried)
+
+
+class Estimates(Averaged):
     """The pulls so far, which are averaged."""
 
     story: Story = ""
 
 
-class Bounds(Bandit):
+class Bounds(Averaged):
     """The pulls so far, and the weight of the exploration in upper confidence bounds."""
 
     c: Exact = Field(gt=0)
@@ -69,13 +101,8 @@ class Preferences(Bandit):
     pulled: Pull
     story: Story = ""
 
-    @model_validator(mode="after")
-    def _known_arms(self) -> Self:
-        check_keys(dict.fromkeys(pull.arm for pull in self.every_pull), self.arms, "a pull", needed=())
-        return self
-
     @property
-    def arms(self) -> tuple[str, ...]:
+    def every_arm(self) -> tuple[str, ...]:
         """The arms, in the order of their preferences."""
         return tuple(self.preferences)
 
@@ -150,7 +177,7 @@ def question(given: Given) -> Question:
     pulls = len(given.pulls)
     told = f"{given.story} " if given.story else ""
     blocks = (
-        Paragraph(f"{told}There are {len(given.arms)} arms, and so far these pulls ($r_i$ is the reward of pull $i$):"),
+        Paragraph(f"{told}There are {_listed(given)}, and so far these pulls ($r_i$ is the reward of pull $i$):"),
         Cells(
             header=("$i$", *(f"${number}$" for number in range(1, pulls + 1))),
             rows=(
@@ -161,16 +188,39 @@ def question(given: Given) -> Question:
     )
     match given:
         case Estimates():
-            greedy = Part("Which arm is pulled next, if the choice is greedy?", Policy({NEXT: given.arms}))
-            return Question(blocks, (_averages(given), greedy))
+            greedy = Part("Which arm is pulled next, if the choice is greedy?", Policy({NEXT: given.every_arm}))
+            return Question(
+                (*blocks, *_untried(given, "a greedy choice leaves out what has none")), (_averages(given), greedy)
+            )
         case Bounds():
-            return Question((*blocks, _exploration(given)), (_averages(given), *_bounds(given)))
+            first = "UCB takes an arm that was never pulled before all others"
+            return Question(
+                (*blocks, _exploration(given), *_untried(given, first)), (_averages(given), *_bounds(given))
+            )
         case Preferences():
             return Question((*blocks, *_preferences(given)), _gradient_step(given))
 
 
-def _averages(given: Bandit) -> Part:
-    return Part("What is the sample average $Q(a)$ of every arm?", Values("Q", given.arms), zero=True)
+def _listed(given: Bandit) -> str:
+    """How many arms there are; by name, where the pulls do not name them all."""
+    named = isinstance(given, Averaged) and given.untried
+    return f"{len(given.every_arm)} arms" + (f", {joined([*given.every_arm])}" if named else "")
+
+
+def _untried(given: Averaged, then: str) -> tuple[Block, ...]:
+    """What follows from an arm's never having been pulled."""
+    if not given.untried:
+        return ()
+    verb, of = ("was", "its sample average does") if len(given.untried) == 1 else ("were", "their sample averages do")
+    return (Paragraph(f"{joined([*given.untried])} {verb} never pulled, so {of} not exist: {then}."),)
+
+
+def _pulled(given: Averaged) -> str:
+    return "every arm that was pulled" if given.untried else "every arm"
+
+
+def _averages(given: Averaged) -> Part:
+    return Part(f"What is the sample average $Q(a)$ of {_pulled(given)}?", Values("Q", given.tried), zero=True)
 
 
 def _exploration(given: Bounds) -> Block:
@@ -182,8 +232,8 @@ def _exploration(given: Bounds) -> Block:
 
 def _bounds(given: Bounds) -> tuple[Part, ...]:
     return (
-        Part("What is the upper confidence bound $U(a)$ of every arm?", Values("U", given.arms), points=2),
-        Part("Which arm does UCB pull next?", Policy({NEXT: given.arms})),
+        Part(f"What is the upper confidence bound $U(a)$ of {_pulled(given)}?", Values("U", given.tried), points=2),
+        Part("Which arm does UCB pull next?", Policy({NEXT: given.every_arm})),
     )
 
 
@@ -204,8 +254,8 @@ def _preferences(given: Preferences) -> tuple[Block, ...]:
 
 
 def _gradient_step(given: Preferences) -> tuple[Part, ...]:
-    last = len(given.every_pull)
+    last, arms = len(given.every_pull), given.every_arm
     return (
-        Part(f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", given.arms)),
-        Part(f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", given.arms), points=2),
+        Part(f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", arms)),
+        Part(f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", arms), points=2),
     )

@@ -9,10 +9,10 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
-from rldrill.problems.models import Name
+from rldrill.problems.models import Name, check_ends
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, draw_row, run_situation
+from rldrill.problems.runs import CUT_OFF, ActionRun, action_values_table, draw_action_run, draw_row, run_situation
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
@@ -32,6 +32,7 @@ class Given(ActionRun):
                              f"{len(self.updates)}")  # fmt: skip
         if {state: set(row) for state, row in self.second.items()} != {s: set(row) for s, row in self.values.items()}:
             raise ValueError("second: both tables need the same states and actions")
+        check_ends(self.second, self.trajectory.terminal, "second: the action value", CUT_OFF)
         return self
 
     @property

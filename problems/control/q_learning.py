@@ -1,10 +1,24 @@
 """The action values after Q-learning updates along a run of transitions."""
 
+from typing import Annotated
+
+from pydantic import Tag
+
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, run_blocks
+from rldrill.problems.runs import (
+    RUN_OR_MOVES,
+    ActionMoves,
+    ActionRun,
+    AskErrors,
+    Trajectory,
+    action_values_table,
+    after,
+    errors_asked,
+    run_blocks,
+)
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
@@ -12,8 +26,19 @@ SOURCE = "Sutton & Barto 2018, section 6.5"
 REVISION = 1
 
 
-class Given(ActionRun):
+class AlongRun(ActionRun):
     """A run with its actions, the action values before it, the step size and the discount."""
+
+    td_errors: AskErrors = False
+
+
+class Separate(ActionMoves):
+    """Transitions that need not join, the action values before them, the step size and the discount."""
+
+    td_errors: AskErrors = False
+
+
+Given = Annotated[Annotated[AlongRun, Tag("run")] | Annotated[Separate, Tag("transitions")], RUN_OR_MOVES]
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -24,7 +49,7 @@ def draw(level: int, rng: Draws) -> Given:
     states = {1: (first, second), 2: (first, second, first, second), 3: (first, second, third, second, first)}[level]
     named = [state for state in setting.states if state in states]
     values = {state: dict(zip(choices, rng.distinct(len(choices), -3, 9), strict=True)) for state in named}
-    return Given(
+    return AlongRun(
         trajectory=Trajectory(
             states=states,
             actions=tuple(rng.choice(choices) for _ in states),
@@ -42,5 +67,8 @@ def question(given: Given) -> Question:
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
         run_blocks(given, action_values_table(given.values), "Q-learning"),
-        (Part(f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
+        (
+            *([errors_asked(given)] if given.td_errors else []),
+            Part(f"What is {asked} {after(given)}{in_open(given)}?", Values("Q", pairs)),
+        ),
     )

@@ -1,9 +1,9 @@
-"""The eligibility traces and the action values after Sarsa(λ) updates along a run of transitions."""
+"""The eligibility traces and the action values after updates of Sarsa(λ), or of Watkins's Q(λ), along a run."""
 
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -12,11 +12,17 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_situation
+from rldrill.problems.runs import ActionRun, Replacing, action_values_table, draw_action_run, run_situation
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
 REVISION = 1
+
+_CUT = (
+    "The TD error takes the greatest action value of the next state. Where an action is taken that is not greedy, all "
+    "traces are set to $0$ before its own visit counts; whether it is greedy is told by the values with which the TD "
+    "error of the transition before it was worked out."
+)
 
 
 class Given(ActionRun):
@@ -24,10 +30,19 @@ class Given(ActionRun):
 
     lam: OpenProbability
     traces: dict[Name, dict[Name, Exact]] | None = None
+    replacing: Replacing = False
+    watkins: bool = Field(
+        default=False,
+        exclude_if=lambda watkins: not watkins,
+        description="whether Watkins's Q(λ) learns instead of Sarsa(λ)",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        self.demand_last_action("Sarsa(λ)")
+        if not self.watkins:
+            self.demand_last_action("Sarsa(λ)")
+        elif self.parameters():
+            raise ValueError(f"{self.parameters()[0]} is left open, so no action can be called greedy; give a number")
         for state, row in (self.traces or {}).items():
             check_keys({state: row}, tuple(self.values), "the trace", needed=())
             check_keys(row, tuple(self.values[state]), f"the trace in {state!r}", needed=())
@@ -68,13 +83,16 @@ def question(given: Given) -> Question:
         if given.traces
         else (Paragraph("Before the run all eligibility traces are $0$."),)
     )
+    kind = "replacing traces (a visit sets the trace to $1$)" if given.replacing else "accumulating traces"
+    method = "Watkins's Q(λ)" if given.watkins else "Sarsa(λ)"
     blocks = (
         *run_situation(given, action_values_table(given.values)),
         *begin,
         Paragraph(
-            f"The trace parameter {decay}. Sarsa(λ) with accumulating traces updates after every transition: first "
+            f"The trace parameter {decay}. {method} with {kind} updates after every transition: first "
             "all traces, then all action values, with a TD error $δ_t$ from the values before this update."
         ),
+        *((Paragraph(_CUT),) if given.watkins else ()),
     )
     return Question(
         blocks,

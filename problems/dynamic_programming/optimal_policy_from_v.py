@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_keys, model_blocks, values_table
+from rldrill.problems.models import Model, Name, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Part, Policy
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -28,7 +28,7 @@ class Given(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        check_keys(self.values, self.mdp.states, "the value", needed=self.mdp.states)
+        check_state_values(self.values, self.mdp)
         if not self.parameters():
             check_optimal_values(self.values, self.mdp, self.gamma)
         return self

@@ -1,14 +1,16 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
-from rldrill.problems.document import Block, Paragraph, joined
+from pydantic import Field
+
+from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import ModelAndPolicy, model_blocks, policy_table
+from rldrill.problems.models import ModelAndPolicy, Process, model_blocks, policy_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
-from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted
+from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
@@ -16,9 +18,16 @@ REVISION = 1
 
 
 class Given(ModelAndPolicy, Sweeps):
-    """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps."""
+    """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps.
 
-    in_place: bool = False
+    A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
+    """
+
+    mdp: Process
+    in_place: bool = Field(
+        default=False,
+        description="whether a sweep uses each new value at once, instead of the values of the sweep before alone",
+    )
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -49,17 +58,12 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model, the policy and the kind of sweep; the values after the last sweep are asked for."""
-    states = list(given.mdp.states)
-    in_place = (
-        f"Sweeps are in place: the states are updated in the order {joined(states)}, each with the newest values."
-    )
     k = given.sweeps
     blocks: tuple[Block, ...] = (
         *model_blocks(given.mdp),
-        Paragraph("The policy is:"),
-        policy_table(given.chances),
+        *((Paragraph("The policy is:"), policy_table(given.chances)) if given.mdp.chooses else ()),
         *begin(given, "Policy evaluation"),
-        Paragraph(f"{discount(given.gamma)} {in_place if given.in_place else SYNCHRONOUS}"),
+        Paragraph(f"{discount(given.gamma)} {in_place(given.mdp.states) if given.in_place else SYNCHRONOUS}"),
     )
     ask = f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}{in_open(given)}?"
-    return Question(blocks, (Part(ask, Values(f"V_{{{k}}}", given.mdp.states), points=len(states)),))
+    return Question(blocks, (Part(ask, Values(f"V_{{{k}}}", given.mdp.states), points=len(given.mdp.states)),))

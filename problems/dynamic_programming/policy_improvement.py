@@ -8,7 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, PolicyField, check_keys, check_policy, model_blocks
+from rldrill.problems.models import Model, Name, PolicyField, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Policy, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -38,7 +38,7 @@ class Given(Givens):
     def _fits(self) -> Self:
         check_policy(self.policy, self.mdp)
         if self.values is not None:
-            check_keys(self.values, self.mdp.states, "the value", needed=self.mdp.states)
+            check_state_values(self.values, self.mdp)
             if not self.parameters():
                 check_policy_values(self.values, self.policy, self.mdp, self.gamma)
         return self

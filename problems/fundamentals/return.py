@@ -4,10 +4,11 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter, shown
+from rldrill.problems.exact import Discounts, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.parts import Number, Numbers, Part
-from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.runs import per_step
 
 TITLE = "Return"
 SOURCE = "Sutton & Barto 2018, section 3.3"
@@ -17,17 +18,20 @@ REVISION = 1
 class Given(Givens):
     """The rewards r_1 … r_T of an episode, the discount, and the time from which the return is asked.
 
-    Without ``time`` the returns from all times are asked for.
+    Without ``time`` the returns from all times are asked for. Instead of one discount there may be a list with one for
+    every step: the first multiplies all that comes after the first reward.
     """
 
     rewards: tuple[Exact, ...] = Field(min_length=1, max_length=500)
-    gamma: Discount
+    gamma: Discounts
     time: int | None = Field(default=None, ge=0)
 
     @model_validator(mode="after")
     def _inside(self) -> "Given":
         if self.time is not None and self.time >= len(self.rewards):
             raise ValueError(f"time is {self.time}, but the episode ends at {len(self.rewards)}")
+        per_step(self.gamma, len(self.rewards))
+        check_one_open(self)
         return self
 
 

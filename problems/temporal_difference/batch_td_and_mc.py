@@ -1,6 +1,7 @@
 """What batch TD(0) and batch Monte Carlo make of the same episodes."""
 
 from collections import Counter
+from typing import Literal
 
 from pydantic import Field, model_validator
 
@@ -40,6 +41,11 @@ class Given(Givens):
 
     episodes: tuple[Observed, ...] = Field(min_length=1, max_length=50)
     gamma: Discount
+    visits: Literal["every", "first"] = Field(
+        default="every",
+        exclude_if=lambda visits: visits == "every",
+        description="which visits of an episode count for Monte Carlo; for TD(0) all do",
+    )
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -83,11 +89,12 @@ def question(given: Given) -> Question:
     tail = in_open(given)
     key = Values("V", given.states)
     what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
+    ask = f"What are {what} at the end if the updates are those of"
     return Question(
         blocks,
         (
-            Part(f"What are {what} at the end if the updates are those of every-visit Monte Carlo{tail}?", key),
-            Part(f"What are {what} at the end if the updates are those of TD(0){tail}?", key),
+            Part(f"{ask} {given.visits}-visit Monte Carlo{tail}?", key),
+            Part(f"{ask} TD(0){tail}?", key),
         ),
     )
 

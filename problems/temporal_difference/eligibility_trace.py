@@ -1,4 +1,4 @@
-"""The accumulating eligibility traces of all states along a run."""
+"""The eligibility traces of all states along a run, accumulating or replacing."""
 
 from typing import Self
 
@@ -11,6 +11,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
+from rldrill.problems.runs import Replacing
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Eligibility traces"
@@ -25,6 +26,7 @@ class Given(Givens):
     gamma: Discount
     lam: OpenProbability
     asked: tuple[int, ...] = Field(min_length=1, max_length=26)
+    replacing: Replacing = False
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -58,6 +60,10 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The visits as a table over time; the traces at every time asked for are a part."""
+    kind = (
+        "a replacing eligibility trace, which a visit sets to $1$" if given.replacing
+        else "an accumulating eligibility trace"
+    )  # fmt: skip
     blocks = (
         Paragraph("An agent visits these states:"),
         Table(
@@ -66,7 +72,7 @@ def question(given: Given) -> Question:
         ),
         Paragraph(f"{discount(given.gamma)} {trace_parameter(given.lam)}"),
         Paragraph(
-            "Each state has an accumulating eligibility trace. All traces are $0$ before the first visit, "
+            f"Each state has {kind}. All traces are $0$ before the first visit, "
             "and all are updated at every time, from $t = 0$ on."
         ),
     )

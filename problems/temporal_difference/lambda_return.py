@@ -1,4 +1,4 @@
-"""The λ-return of an episode, from its n-step returns."""
+"""The λ-return of an episode, or of a run that is cut off, from its n-step returns."""
 
 from typing import Self
 
@@ -6,12 +6,12 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, OpenProbability, Parameter
+from rldrill.problems.exact import Discounts, Exact, OpenProbability, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
-from rldrill.problems.runs import Episode, check_values, draw_episode, seen
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_episode, per_step, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
@@ -20,20 +20,25 @@ REVISION = 1
 
 
 class Given(Givens):
-    """An episode, the current values, γ and λ, and the time from which the λ-return is asked."""
+    """An episode, the current values, γ and λ, and the time from which the λ-return is asked.
 
-    trajectory: Episode
+    Instead of one discount there may be a list with one for every step. A run that is cut off, in a state that is not
+    terminal, goes on with the value of that state.
+    """
+
+    trajectory: ShortRun
     values: dict[Name, Exact]
-    gamma: Discount
+    gamma: Discounts
     lam: OpenProbability
     time: int = Field(default=0, ge=0)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_values(self.values, self.trajectory)
+        per_step(self.gamma, len(self.trajectory.rewards))
         check_one_open(self)
         if self.time >= len(self.trajectory.rewards):
-            raise ValueError(f"time is {self.time}, but the episode ends at {len(self.trajectory.rewards)}")
+            raise ValueError(f"time is {self.time}, but the run ends at {len(self.trajectory.rewards)}")
         return self
 
     @property
@@ -72,11 +77,17 @@ def question(given: Given) -> Question:
         *seen(given.trajectory),
         Paragraph(f"The current values are these. {discount(given.gamma)} {trace_parameter(given.lam)}"),
         values_table(given.values),
+        *cut_off(given.trajectory),
     )
-    average = f"What is the λ-return $R_{{{t}}}^{{(λ)}}$ of this episode{in_open(given)}?"
+    whole = "episode" if given.trajectory.ends else "run"
+    average = f"What is the λ-return $R_{{{t}}}^{{(λ)}}$ of this {whole}{in_open(given)}?"
     if not given.in_parts:
         return Question(blocks, (Part(average, Number()),))
-    entries = (*(f"R_{{{t}}}^{{({n})}}" for n in range(1, given.steps_left)), f"R_{{{t}}}")
+    entries = tuple(f"R_{{{t}}}^{{({n})}}" for n in range(1, given.steps_left + 1))
+    if not given.trajectory.ends:
+        ask = f"What are the n-step returns ${', '.join(entries)}$?"
+        return Question(blocks, (Part(ask, Numbers(entries)), Part(average, Number())))
+    entries = (*entries[:-1], f"R_{{{t}}}")
     shorter = [f"${entry}$" for entry in entries[:-1]]
     many = f"n-step returns {', '.join(shorter)}" if len(shorter) > 1 else f"one-step return {shorter[0]}"
     return Question(

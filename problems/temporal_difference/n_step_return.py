@@ -6,34 +6,50 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter
+from rldrill.problems.exact import Discounts, Exact, Parameter
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.runs import Trajectory, check_values, seen
+from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.runs import Trajectory, check_values, per_step, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "n-step return"
 SOURCE = "Sutton & Barto 2018, section 7.1"
 REVISION = 1
 
+#: Steps that one asks for, beyond the end of the episode too.
+_LONGEST = 1000
+
 
 class Given(Givens):
-    """A trajectory, the current values, the discount, and which returns are asked: pairs of time and n."""
+    """A trajectory, the current values, the discount, and which returns are asked: pairs of time and n.
+
+    Instead of one discount there may be a list with one for every step.
+    """
 
     trajectory: Trajectory
     values: dict[Name, Exact]
-    gamma: Discount
+    gamma: Discounts
     asked: tuple[tuple[int, int], ...] = Field(min_length=1, max_length=26)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_values(self.values, self.trajectory)
+        per_step(self.gamma, len(self.trajectory.rewards))
+        check_one_open(self)
         last = len(self.trajectory.rewards)
         for time, steps in self.asked:
-            if time < 0 or steps < 1 or time + steps > last:
-                raise ValueError(f"asked: from time {time}, {steps} steps do not fit into a run that ends at {last}")
+            if not 0 <= time < last or not 1 <= steps <= _LONGEST:
+                raise ValueError(
+                    f"asked: the time {time} must be from 0 to {last - 1}, since the run ends at {last}, and the "
+                    f"number of steps {steps} from 1 to {_LONGEST}"
+                )
+            if time + steps > last and not self.trajectory.ends:
+                raise ValueError(
+                    f"asked: from time {time}, {steps} steps do not fit into a run that is cut off at {last}; list "
+                    f"{self.trajectory.states[-1]!r} as terminal if the episode ends there"
+                )
         return self
 
 

@@ -7,7 +7,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import Trajectory, ValueRun, run_situation, values_asked
+from rldrill.problems.runs import Replacing, Trajectory, ValueRun, run_situation, values_asked
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), backward view"
@@ -19,6 +19,7 @@ class Given(ValueRun):
     """A run, the values before it, α, γ and λ."""
 
     lam: OpenProbability
+    replacing: Replacing = False
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -45,11 +46,12 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The run, the values before it, and the order of the updates; all visited states are asked for."""
+    traces = "replacing traces (a visit sets the trace to $1$)" if given.replacing else "accumulating traces"
     return Question(
         (
             *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
             Paragraph(
-                "TD(λ) learns during the run, in the backward view with accumulating traces, which are all $0$ before "
+                f"TD(λ) learns during the run, in the backward view with {traces}, which are all $0$ before "
                 "it. After every transition first the traces of all states are updated, and then their values, with "
                 "the TD error of the values that are current before the transition."
             ),

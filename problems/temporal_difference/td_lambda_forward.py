@@ -1,4 +1,4 @@
-"""The values of some states of an episode after TD(λ) updates in the forward view."""
+"""The values of some states of a run after TD(λ) updates in the forward view."""
 
 from typing import Self
 
@@ -11,7 +11,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import Episode, ValueRun, draw_episode, run_situation
+from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_episode, run_situation
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
@@ -20,9 +20,12 @@ REVISION = 1
 
 
 class Given(ValueRun):
-    """An episode, the values before it, α, γ and λ, and the times whose states are updated."""
+    """A run, the values before it, α, γ and λ, and the times whose states are updated.
 
-    trajectory: Episode
+    A run that is cut off, in a state that is not terminal, goes on with the value of that state.
+    """
+
+    trajectory: ShortRun
     lam: OpenProbability
     asked: tuple[int, ...] = Field(min_length=1)
 
@@ -31,7 +34,7 @@ class Given(ValueRun):
         end = len(self.trajectory.rewards)
         for time in self.asked:
             if not 0 <= time < end:
-                raise ValueError(f"asked: there is no state to update at time {time} in an episode that ends at {end}")
+                raise ValueError(f"asked: there is no state to update at time {time} in a run that ends at {end}")
         if len(set(self.updated)) < len(self.updated):
             raise ValueError("asked: a state is updated twice; ask for one time of each state only")
         return self
@@ -64,6 +67,7 @@ def question(given: Given) -> Question:
             "TD(λ) learns in the forward view: the λ-returns are computed with the values before the run, "
             "and the updates are made after the run."
         ),
+        *cut_off(given.trajectory),
     )
     tail = in_open(given)
     entries = tuple(f"R_{{{time}}}^{{(λ)}}" for time in given.asked)

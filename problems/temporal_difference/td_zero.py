@@ -1,12 +1,26 @@
 """The values of the visited states after TD(0) updates along a run of transitions."""
 
+from typing import Annotated
+
+from pydantic import Tag
+
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import Trajectory, ValueRun, run_blocks, values_asked
+from rldrill.problems.runs import (
+    RUN_OR_MOVES,
+    AskErrors,
+    Trajectory,
+    ValueMoves,
+    ValueRun,
+    after,
+    errors_asked,
+    run_blocks,
+    values_asked,
+)
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(0)"
@@ -14,8 +28,19 @@ SOURCE = "Sutton & Barto 2018, section 6.1"
 REVISION = 1
 
 
-class Given(ValueRun):
+class AlongRun(ValueRun):
     """A run, the values before it, the step size and the discount."""
+
+    td_errors: AskErrors = False
+
+
+class Separate(ValueMoves):
+    """Transitions that need not join, the values before them, the step size and the discount."""
+
+    td_errors: AskErrors = False
+
+
+Given = Annotated[Annotated[AlongRun, Tag("run")] | Annotated[Separate, Tag("transitions")], RUN_OR_MOVES]
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -30,7 +55,7 @@ def draw(level: int, rng: Draws) -> Given:
     rewards = tuple(rng.nonzero(-4, 8) for _ in states[1:])
     terminal = tuple(state for state in states if state == setting.terminal)
     named = [state for state in setting.states if state in states]
-    return Given(
+    return AlongRun(
         trajectory=Trajectory(states=states, rewards=rewards, terminal=terminal),
         values={state: rng.nonzero(-4, 10) for state in named},
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/10", "1/5"),
@@ -42,5 +67,8 @@ def question(given: Given) -> Question:
     """The run, the values before it; all visited states are asked for."""
     return Question(
         run_blocks(given, values_table(given.values), "TD(0)"),
-        (Part(f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
+        (
+            *([errors_asked(given)] if given.td_errors else []),
+            Part(f"What is {values_asked(given)} {after(given)}{in_open(given)}?", Values("V", given.visited)),
+        ),
     )

@@ -11,6 +11,8 @@ from rldrill.solutions.work import Work
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """One equation for every state; what is reached and terminal is worth nothing."""
     known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    if not given.mdp.chooses:
+        work.say("There is nothing to choose, so $V$ is $V^π$ of the only policy there is.")
     work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
 
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from rldrill.problems.control.bandit import NEXT, Bounds, Estimates, Given, Preferences, Pull
+from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, decimal, exact
 from rldrill.solutions.oracle import Answers, Array, at
@@ -40,7 +41,7 @@ def solve(given: Given, work: Work) -> None:
     match given:
         case Estimates():
             averages = _averages(given, work)
-            work.answer({NEXT: work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.arms)})
+            work.answer({NEXT: work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.tried)})
         case Bounds():
             _explore(given, work, _averages(given, work))
         case Preferences():
@@ -58,7 +59,7 @@ def _pulls(pulls: tuple[Pull, ...]) -> dict[str, Any]:
 def _averages(given: Estimates | Bounds, work: Work) -> dict[str, Value]:
     """The first answer: what each arm gave on average."""
     known = _pulls(given.pulls) | {"n": len(given.pulls)}
-    averages: dict[str, Value] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.arms})
+    averages: dict[str, Value] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.tried})
     return averages
 
 
@@ -69,24 +70,28 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
         "Q": averages,
         "t": time,
         "c": exact(given.c),
-        "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.arms},
+        "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.tried},
     }
-    bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.arms})
+    bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.tried})
     work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
-    work.answer({NEXT: work.step(UCB_ARM, t=time, U=bounds, choices=given.arms)})
+    if given.untried:
+        work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
+        work.answer({NEXT: given.untried})
+    else:
+        work.answer({NEXT: work.step(UCB_ARM, t=time, U=bounds, choices=given.tried)})
 
 
 def _follow_gradient(given: Preferences, work: Work) -> None:
     """Probabilities, the baseline, then all preferences at once."""
     known = _pulls(given.every_pull) | {
         "n": len(given.pulls),
-        "choices": given.arms,
+        "choices": given.every_arm,
         "H": knowns.values(given.preferences),
         "alpha": exact(given.alpha),
     }
-    known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.arms})
+    known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.every_arm})
     known["rbar"] = {known["n"]: work.step(REWARD_BASELINE, r=known["r"], n=known["n"])}
-    work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.arms})
+    work.answer({arm: work.step(GRADIENT_BANDIT, a=arm, **known) for arm in given.every_arm})
 
 
 def oracle(given: Given) -> Answers:
@@ -95,18 +100,19 @@ def oracle(given: Given) -> Answers:
     if isinstance(given, Preferences):
         H = np.array([at(value) for value in given.preferences.values()])
         surplus = at(given.pulled.reward) - rewards.mean()
-        slope = _slope(H, given.arms.index(given.pulled.arm))
+        slope = _slope(H, given.every_arm.index(given.pulled.arm))
         return (np.exp(_log_softmax(H)), H + at(given.alpha) * surplus * slope)
-    pulled = np.array([[pull.arm == arm for pull in given.pulls] for arm in given.arms])
+    pulled = np.array([[pull.arm == arm for pull in given.pulls] for arm in given.tried])
     means = np.array([rewards[mask].mean() for mask in pulled])
     if isinstance(given, Estimates):
         return (means, {NEXT: _best(given, means)})
     bounds = means + at(given.c) * np.sqrt(np.log(len(rewards) + 1) / pulled.sum(axis=1))
-    return (means, bounds, {NEXT: _best(given, bounds)})
+    never = set(given.every_arm) - {pull.arm for pull in given.pulls}
+    return (means, bounds, {NEXT: never or _best(given, bounds)})
 
 
 def _best(given: Estimates | Bounds, worth: Array) -> set[str]:
-    return {arm for arm, value in zip(given.arms, worth, strict=True) if np.isclose(value, worth.max(), rtol=1e-12)}
+    return {arm for arm, value in zip(given.tried, worth, strict=True) if np.isclose(value, worth.max(), rtol=1e-12)}
 
 
 def _log_softmax(H: Array) -> Array:

@@ -2,9 +2,10 @@
 
 from rldrill.problems.control.q_learning import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.exact import Value
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
-from rldrill.solutions.sheet.control import MEAN_FOR_MAX, Q_LEARNING, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.control import MEAN_FOR_MAX, Q_LEARNING, Q_LEARNING_TD_ERROR, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
@@ -12,18 +13,26 @@ MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    known = knowns.action_run(given)
-    for time, pair in enumerate(zip(given.trajectory.states[:-1], given.trajectory.actions, strict=False)):
-        known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, t=time, **known)}
+    known = knowns.action_values(given)
+    errors: list[Value] = []
+    for seen in knowns.moves(given):
+        if given.td_errors:
+            errors.append(work.step(Q_LEARNING_TD_ERROR, **seen, **known))
+        pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
+        known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, **seen, **known)}
+    if given.td_errors:
+        work.answer(tuple(errors) if len(errors) > 1 else errors[0])
+        work.say("The values are those at the end of the same updates.")
     work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def oracle(given: Given) -> Answers:
     """The update as a weighted mean of old value and target, on nested dictionaries of floats."""
-    run = given.trajectory
     table = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
-    for state, action, reward, after in zip(run.states, run.actions, run.rewards, run.states[1:], strict=False):
-        best = 0.0 if after in run.terminal else sorted(table[after].values())[-1]
-        target = at(reward) + at(given.gamma) * best
-        table[state][action] += at(given.alpha) * (target - table[state][action])
-    return ([table[state][action] for state, action in given.updated],)
+    errors = []
+    for state, action, after, reward, _ in given.moves:
+        best = 0.0 if after in given.terminal else sorted(table[after].values())[-1]
+        errors.append(at(reward) + at(given.gamma) * best - table[state][action])
+        table[state][action] += at(given.alpha) * errors[-1]
+    answers = ([table[state][action] for state, action in given.updated],)
+    return (errors if len(errors) > 1 else errors[0], *answers) if given.td_errors else answers

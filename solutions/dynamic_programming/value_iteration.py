@@ -1,6 +1,7 @@
-"""Synchronous sweeps of value iteration, then the greedy actions."""
+"""Sweeps of value iteration, over states or over actions, then the greedy actions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -9,10 +10,16 @@ from rldrill.problems.models import Model
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import (
+    BELLMAN_OPTIMALITY_Q,
+    FORGOT_GAMMA,
+    OPTIMAL_Q_BY_REWARD,
+)
 from rldrill.solutions.sheet.dynamic_programming import (
+    GREEDY_FROM_Q,
     GREEDY_FROM_V,
     MEAN_FOR_MAX,
     VALUE_ITERATION,
@@ -23,30 +30,58 @@ from rldrill.solutions.work import Work
 def solve(
     given: Given,
     work: Work,
-    in_place: bool = False,
     ends: Callable[[Model], dict[str, Value]] = lambda mdp: dict.fromkeys(mdp.terminal, ZERO),
 ) -> None:
-    """Each sweep from the values of the one before; an end is worth nothing."""
+    """Each sweep from the values of the one before, or with the newest in place; an end is worth nothing."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    if given.action_values:
+        _over_actions(given, work, known, ends(mdp))
+        return
     values = dict.fromkeys(mdp.states, ZERO) | knowns.values(given.start or {}) | ends(mdp)
     for sweep in range(1, given.sweeps + 1):
         work.say(f"Sweep {sweep}:")
         before = values
         for state in mdp.states:
-            V_k = values if in_place else before
+            V_k = values if given.in_place else before
             values = values | {state: work.step(VALUE_ITERATION, s=state, V=V_k, into=numbered(V, sweep), **known)}
     values |= work.answer({state: values[state] for state in mdp.states})
     work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
+def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping[str, Value]) -> None:
+    """The same for the values of states with actions; an end has one action, worth nothing."""
+    mdp = given.mdp
+    known["actions"] = mdp.actions | dict.fromkeys(mdp.terminal, (knowns.NO_ACTION,))
+    Q = dict.fromkeys(mdp.pairs, ZERO) | {(state, knowns.NO_ACTION): value for state, value in ends.items()}
+    for sweep in range(1, given.sweeps + 1):
+        work.say(f"Sweep {sweep}:")
+        name, before = numbered(ActionValue, sweep), Q
+        Q = before | {
+            (s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
+        }
+    Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
+    work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, into=pi, **known) for state in mdp.states})
+
+
 @slip(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
+    when=lambda given: not given.in_place and not given.action_values,
 )
 def newest(given: Given, work: Work) -> None:
     """Every value is used as soon as it is there."""
-    solve(given, work, in_place=True)
+    solve(given.model_copy(update={"in_place": True}), work)
+
+
+@slip(
+    "synchronous",
+    "In place, a value found in this sweep is used at once for the states that follow.",
+    when=lambda given: given.in_place,
+)
+def old_values(given: Given, work: Work) -> None:
+    """Every value waits for the next sweep."""
+    solve(given.model_copy(update={"in_place": False}), work)
 
 
 @slip(
@@ -59,7 +94,9 @@ def paid_twice(given: Given, work: Work) -> None:
     solve(given, work, ends=knowns.last_rewards)
 
 
-MISCONCEPTIONS = (newest, paid_twice, MEAN_FOR_MAX, FORGOT_GAMMA)
+MISCONCEPTIONS = (
+    newest, old_values, paid_twice, MEAN_FOR_MAX, FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
+)  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:
@@ -68,7 +105,14 @@ def oracle(given: Given) -> Answers:
     P, R = tensors(given.mdp, states)
     V = np.array([at((given.start or {}).get(state, 0)) for state in states])
     n = len(given.mdp.states)
+    V[n:] = 0
     for _ in range(given.sweeps):
-        V = np.concatenate([lookahead(P, R, V, at(given.gamma))[:n].max(axis=1), V[n:] * 0])
-    worth = lookahead(P, R, V, at(given.gamma))[:n]
-    return (V[:n], best_actions(given.mdp, worth))
+        worth = lookahead(P, R, V, at(given.gamma))[:n]
+        for line in range(n):
+            source = lookahead(P, R, V, at(given.gamma)) if given.in_place else worth
+            V[line] = source[line].max()
+    if given.action_values:
+        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        values = [worth[states.index(state), names.index(action)] for state, action in given.mdp.pairs]
+        return (values, best_actions(given.mdp, worth))
+    return (V[:n], best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n]))

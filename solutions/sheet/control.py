@@ -76,10 +76,9 @@ model_next = quantity("model_next", called(Accent(variable("s"), "hat")))
 
 def _next_action_is_known_here(given: Any) -> bool:
     """Whether every action that is taken next also has a value in the state that is left."""
-    run = given.trajectory
     return all(
-        after in run.terminal or action in given.values[state]
-        for state, after, action in zip(run.states, run.states[1:], run.actions[1:], strict=False)
+        move.next in given.terminal or move.following is None or move.following in given.values[move.state]
+        for move in given.moves
     )
 
 
@@ -177,6 +176,25 @@ with evaluate(False):
             TRACE_WITHOUT_GAMMA: lam * e(s, a) + Indicator(s, S(t), a, A(t)),
         },
     )
+    ACCUMULATING_ACTION_TRACE = Misconception(
+        "accumulating-trace",
+        "A replacing trace is set to 1 at a visit; only accumulating traces add 1 to what is left.",
+    )
+    REPLACING_ACTION_TRACE = Formula(
+        "replacing-action-trace",
+        e(s, a),
+        Cases(Indicator(s, S(t), a, A(t)), 1, gamma * lam * e(s, a)),
+        title="Replacing eligibility trace of an action",
+        source="Sutton & Barto 1998, section 7.8",
+        hint="The trace of the visited pair is set to 1; every other one decays by γλ.",
+        sign="←",
+        place=Place.WORKING,
+        misread={
+            ACCUMULATING_ACTION_TRACE: gamma * lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+            TRACE_WITHOUT_LAMBDA: Cases(Indicator(s, S(t), a, A(t)), 1, gamma * e(s, a)),
+            TRACE_WITHOUT_GAMMA: Cases(Indicator(s, S(t), a, A(t)), 1, lam * e(s, a)),
+        },
+    )
     SARSA_LAMBDA = Formula(
         "sarsa-lambda",
         Q(s, a),
@@ -252,6 +270,20 @@ with evaluate(False):
                 model_reward(s, a) + MaxOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))
             ),
             OWN_STATE_MAX: _planned(model_reward(s, a) + gamma * MaxOver(Q(s, a1), a1, Actions(s))),
+        },
+    )
+
+    Q_LEARNING_TD_ERROR = Formula(
+        "q-learning-td-error",
+        delta(t),
+        _Q_LEARNING_TARGET - Q(S(t), A(t)),
+        title="TD error of Q-learning",
+        source="Sutton & Barto 2018, eq. 6.8",
+        hint="Q-learning's target minus the old value of the pair just left.",
+        place=Place.WORKING,
+        misread={
+            TAKEN_FOR_MAX: _SARSA_TARGET - Q(S(t), A(t)),
+            FORGOT_GAMMA: _MAX_WITHOUT_GAMMA - Q(S(t), A(t)),
         },
     )
 

@@ -22,6 +22,7 @@ from rldrill.solutions.formula.notation import (
     called,
     conditioned,
     gamma,
+    gammas,
     h,
     i,
     letter,
@@ -141,6 +142,22 @@ with evaluate(False):
         hint="Begin with the last return, which is the last reward, and go back in time.",
         misread={
             RECURSION_UNDISCOUNTED: r(t + 1) + G(t + 1),
+        },
+    )
+
+    STEP_UNDISCOUNTED = Misconception(
+        "discount-of-the-step-forgotten", "All that comes after a reward is multiplied by the discount of its step."
+    )
+    RETURN_STEP_BY_STEP = Formula(
+        "return-step-by-step",
+        G(t),
+        r(t + 1) + gammas(t + 1) * G(t + 1),
+        title="Return with a discount for every step",
+        source="Sutton & Barto 2018, eq. 17.1",
+        hint="Begin with the last return, and go back in time; every step has its own discount.",
+        place=Place.WORKING,
+        misread={
+            STEP_UNDISCOUNTED: r(t + 1) + G(t + 1),
         },
     )
 

@@ -7,6 +7,7 @@ from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
     INFINITY,
+    Cases,
     Counting,
     G,
     Gn,
@@ -18,6 +19,7 @@ from rldrill.solutions.formula.notation import (
     alpha,
     called,
     gamma,
+    gammas,
     i,
     lam,
     n,
@@ -28,6 +30,7 @@ from rldrill.solutions.formula.notation import (
     t,
 )
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 
 #: The λ-return, eligibility traces, the count of visits, the visits themselves and the weights of their returns.
 Glam = quantity("Glam", lambda below: Script(variable("R"), below, Fence(variable("λ"))))
@@ -123,6 +126,19 @@ with evaluate(False):
         },
     )
 
+    N_STEP_RETURN_STEP_BY_STEP = Formula(
+        "n-step-return-step-by-step",
+        Gn(t, n),
+        r(t + 1) + gammas(t + 1) * Gn(t + 1, n - 1),
+        title="n-step return with a discount for every step",
+        source="Sutton & Barto 2018, eqs. 7.1 and 17.1",
+        hint="Begin with the value of the state reached after n steps, and go back in time, step by step.",
+        place=Place.WORKING,
+        misread={
+            STEP_UNDISCOUNTED: r(t + 1) + Gn(t + 1, n - 1),
+        },
+    )
+
     _DECAYED = gamma * lam * e(s)
     _VISIT = Indicator(s, S(t))
 
@@ -149,6 +165,26 @@ with evaluate(False):
             DECAY_WITHOUT_LAMBDA: gamma * e(s) + _VISIT,
             REPLACING: _DECAYED * (1 - _VISIT) + _VISIT,
             INCREMENT_FIRST: gamma * lam * (e(s) + _VISIT),
+        },
+    )
+
+    ACCUMULATING = Misconception(
+        "accumulating-trace",
+        "A replacing trace is set to 1 at a visit; only accumulating traces add 1 to what is left.",
+    )
+    REPLACING_TRACE = Formula(
+        "replacing-trace",
+        e(s),
+        Cases(_VISIT, 1, _DECAYED),
+        title="Replacing eligibility trace",
+        source="Sutton & Barto 1998, eq. 7.13",
+        hint="The trace of the visited state is set to 1; every other one decays by γλ.",
+        sign="←",
+        place=Place.WORKING,
+        misread={
+            ACCUMULATING: _DECAYED + _VISIT,
+            DECAY_WITHOUT_GAMMA: Cases(_VISIT, 1, lam * e(s)),
+            DECAY_WITHOUT_LAMBDA: Cases(_VISIT, 1, gamma * e(s)),
         },
     )
 

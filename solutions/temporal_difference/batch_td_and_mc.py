@@ -58,8 +58,23 @@ def _monte_carlo(given: Given, work: Work, known: dict[str, Any]) -> dict[str, V
         returns = _returns(episode, work, known["gamma"])
         everything += [*returns, ZERO] * episode.times
     G = dict(enumerate(everything))
-    work.say("The mean over all visits of each state:")
+    if given.visits == "first":
+        known = known | _first_visits(given)
+        work.say("The mean over the first visits of each state in its episodes:")
+    else:
+        work.say("The mean over all visits of each state:")
     return {state: work.step(BATCH_MONTE_CARLO, s=state, G=G, **known) for state in given.states}
+
+
+def _first_visits(given: Given) -> dict[str, Any]:
+    """The times of the first visit of each state in every episode, and how many those are."""
+    visits: dict[str, tuple[int, ...]] = dict.fromkeys(given.states, ())
+    start = 0
+    for episode in _one_by_one(given):
+        for state in dict.fromkeys(episode.states):
+            visits[state] += (start + episode.states.index(state),)
+        start += len(episode.states) + 1
+    return {"visits": visits, "count": {state: exact(len(times)) for state, times in visits.items()}}
 
 
 def _returns(episode: Observed, work: Work, gamma: Value) -> list[Value]:
@@ -102,14 +117,24 @@ def monte_carlo_for_td(given: Given, work: Work) -> None:
     _answer(given, work, _monte_carlo, _monte_carlo)
 
 
-MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td)
+@slip(
+    "other-visits",
+    "First-visit Monte Carlo counts a state once in an episode, every-visit Monte Carlo once for each of its visits.",
+    when=lambda given: given.visits == "first",
+)
+def other_visits(given: Given, work: Work) -> None:
+    """Every visit instead of the first."""
+    solve(given.model_copy(update={"visits": "every"}), work)
+
+
+MISCONCEPTIONS = (td_for_monte_carlo, monte_carlo_for_td, other_visits)
 
 
 def oracle(given: Given) -> Answers:
     """Least squares: returns on indicators of the states for Monte Carlo, the equations of LSTD for TD."""
     states = given.states
     gamma = at(given.gamma)
-    rows, after, rewards, returns = [], [], [], []
+    rows, after, rewards, returns, counted = [], [], [], [], []
     for episode in _one_by_one(given):
         features = np.array([[float(state == visited) for state in states] for visited in episode.states])
         earned = np.array([at(reward) for reward in episode.rewards])
@@ -117,7 +142,9 @@ def oracle(given: Given) -> Answers:
         rows.append(features)
         after.append(np.vstack([features[1:], np.zeros((1, len(states)))]))
         rewards.append(earned)
+        counted.append([given.visits == "every" or s not in episode.states[:t] for t, s in enumerate(episode.states)])
         returns.append([discounts[: len(earned) - t] @ earned[t:] for t in range(len(earned))])
     X, following = np.vstack(rows), np.vstack(after)
-    fit = np.linalg.lstsq(X, np.concatenate(returns), rcond=None)[0]
+    count = np.concatenate(counted)
+    fit = np.linalg.lstsq(X[count], np.concatenate(returns)[count], rcond=None)[0]
     return (fit, np.linalg.solve(X.T @ (X - gamma * following), X.T @ np.concatenate(rewards)))

@@ -5,23 +5,23 @@ from typing import Any
 
 import numpy as np
 
-from rldrill.problems.runs import Episode
+from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.oracle import Answers, Array, at
-from rldrill.solutions.sheet.fundamentals import RETURN
+from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     CLOSING_LIKE_OTHERS,
     FORGOT_CLOSING,
     FORGOT_ONE_MINUS_LAMBDA,
     LAMBDA_RETURN,
-    N_STEP_RETURN,
     POWER_ONE_LATE,
 )
+from rldrill.solutions.temporal_difference.n_step_return import n_step
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FORGOT_ONE_MINUS_LAMBDA, FORGOT_CLOSING, CLOSING_LIKE_OTHERS, POWER_ONE_LATE)
+MISCONCEPTIONS = (FORGOT_ONE_MINUS_LAMBDA, FORGOT_CLOSING, CLOSING_LIKE_OTHERS, POWER_ONE_LATE, STEP_UNDISCOUNTED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -34,20 +34,34 @@ def solve(given: Given, work: Work) -> None:
 
 
 def known_episode(given: Any) -> dict[str, Any]:
-    """An episode with its values, γ, λ and the time of its end."""
-    run: Episode = given.trajectory
-    return knowns.trajectory(run) | {
-        "V": knowns.state_values(given.values, run.terminal),
-        "gamma": exact(given.gamma),
-        "lam": exact(given.lam),
-        "T": len(run.rewards),
-    }
+    """A run with its values, γ, λ and the time of its end."""
+    run: Trajectory = given.trajectory
+    return (
+        knowns.trajectory(run)
+        | knowns.discounts(given.gamma)
+        | {
+            "V": knowns.state_values(given.values, run.terminal),
+            "lam": exact(given.lam),
+            "T": len(run.rewards),
+            "ends": run.ends,
+        }
+    )
 
 
 def averaged(work: Work, known: Mapping[str, Any], time: int) -> tuple[Value, ...]:
-    """The n-step returns from a time on that end before the episode does, then the full return."""
-    shorter = [work.step(N_STEP_RETURN, t=time, n=n, **known) for n in range(1, known["T"] - time)]
-    return (*shorter, work.step(RETURN, t=time, **known))
+    """The n-step returns from a time on; the longest is the full return, if the run comes to its end."""
+    left = known["T"] - time
+    returns = tuple(n_step(work, known, time, n) for n in range(1, left if known["ends"] else left + 1))
+    return (*returns, _whole(work, known, time)) if known["ends"] else returns
+
+
+def _whole(work: Work, known: Mapping[str, Any], time: int) -> Value:
+    if "gamma" in known:
+        return work.step(RETURN, t=time, **known)
+    value: Value = ZERO
+    for start in reversed(range(time, known["T"])):
+        value = work.step(RETURN_STEP_BY_STEP, t=start, G={start + 1: value}, **known)
+    return value
 
 
 def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[Value]) -> Value:
@@ -59,21 +73,23 @@ def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[V
 
 def backwards(given: Any) -> Array:
     """The λ-returns of all times by the recursion from the end: what follows is λ times the next one, else V."""
-    run: Episode = given.trajectory
-    gamma, lam = at(given.gamma), at(given.lam)
+    run: Trajectory = given.trajectory
+    gammas, lam = per_step(given.gamma, len(run.rewards)), at(given.lam)
     returns = np.zeros(len(run.states))
+    returns[-1] = 0.0 if run.ends else at(given.values[run.states[-1]])
     for time in reversed(range(len(run.rewards))):
         after = run.states[time + 1]
         value = 0.0 if after in run.terminal else at(given.values[after])
-        returns[time] = at(run.rewards[time]) + gamma * ((1 - lam) * value + lam * returns[time + 1])
+        returns[time] = at(run.rewards[time]) + at(gammas[time]) * ((1 - lam) * value + lam * returns[time + 1])
     return returns[:-1]
 
 
 def oracle(given: Given) -> Answers:
     """The n-step returns from a table of discounted rewards; the λ-return backwards in time."""
-    run, gamma = given.trajectory, at(given.gamma)
-    earned = np.cumsum([gamma**k * at(reward) for k, reward in enumerate(run.rewards[given.time :])])
+    run = given.trajectory
+    left = np.cumprod([1.0, *map(at, per_step(given.gamma, len(run.rewards))[given.time :])])
+    earned = np.cumsum(left[:-1] * [at(reward) for reward in run.rewards[given.time :]])
     ends = run.states[given.time + 1 :]
-    worth = [0.0 if s in run.terminal else gamma ** (k + 1) * at(given.values[s]) for k, s in enumerate(ends)]
+    worth = left[1:] * [0.0 if s in run.terminal else at(given.values[s]) for s in ends]
     whole = float(backwards(given)[given.time])
     return (earned + worth, whole) if given.in_parts else (whole,)

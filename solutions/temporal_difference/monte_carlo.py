@@ -1,12 +1,16 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
+from fractions import Fraction
+from typing import Any
+
 import numpy as np
 
-from rldrill.problems.temporal_difference.monte_carlo import Given
+from rldrill.problems.temporal_difference.monte_carlo import Given, OfActions, OfStates
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.control import TOWARDS_TARGET
 from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
 from rldrill.solutions.work import Work
@@ -33,7 +37,15 @@ def _returns(given: Given, work: Work) -> tuple[Value, ...]:
 
 def _update(given: Given, work: Work, returns: tuple[Value, ...]) -> None:
     run = given.trajectory
-    known = {"S": dict(enumerate(run.states)), "G": dict(enumerate(returns)), "alpha": exact(given.alpha)}
+    targets = dict(enumerate(returns))
+    if isinstance(given, OfActions):
+        known = knowns.action_run(given)
+        for time in given.counted:
+            pair = given.occasions[time]
+            known["Q"] = known["Q"] | {pair: work.step(TOWARDS_TARGET, t=time, y=targets, **known)}
+        work.answer({pair: known["Q"][pair] for pair in given.updated})
+        return
+    known = {"S": dict(enumerate(run.states)), "G": targets, "alpha": exact(given.alpha)}
     values = knowns.state_values(given.values, run.terminal)
     for time in given.counted:
         values = values | {run.states[time]: work.step(MONTE_CARLO, t=time, V=values, **known)}
@@ -64,6 +76,15 @@ def reward_before(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before)
 
 
+def _before(given: Given, what: Any) -> Fraction:
+    match given:
+        case OfStates():
+            return given.values[what]
+        case OfActions():
+            state, action = what
+            return given.values[state][action]
+
+
 def oracle(given: Given) -> Answers:
     """The returns as a triangle of powers times the rewards; each value as old value and returns, weighted."""
     run, alpha = given.trajectory, at(given.alpha)
@@ -71,9 +92,9 @@ def oracle(given: Given) -> Answers:
     ahead = times[None, :] - times[:, None]
     returns = np.where(ahead >= 0, at(given.gamma) ** np.maximum(ahead, 0), 0.0) @ [at(r) for r in run.rewards]
     after = []
-    for state in given.visited:
-        own = np.array([returns[time] for time, visited in enumerate(run.states[:-1]) if visited == state])
+    for what in dict.fromkeys(given.occasions):
+        own = np.array([returns[time] for time, visited in enumerate(given.occasions) if visited == what])
         own = own[:1] if given.visits == "first" else own
         weights = alpha * (1 - alpha) ** np.arange(len(own) - 1, -1, -1)
-        after.append((1 - alpha) ** len(own) * at(given.values[state]) + weights @ own)
+        after.append((1 - alpha) ** len(own) * at(_before(given, what)) + weights @ own)
     return (returns, after) if given.in_parts else (after,)

@@ -1,40 +1,63 @@
 """The n-step returns asked for, each from its formula."""
 
+from collections.abc import Mapping
+from typing import Any
+
+from rldrill.problems.runs import per_step
 from rldrill.problems.temporal_difference.n_step_return import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.exact import ZERO, Value
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     BOOTSTRAP_ONE_SHORT,
     BOOTSTRAP_UNDISCOUNTED,
     N_STEP_RETURN,
+    N_STEP_RETURN_STEP_BY_STEP,
     ONE_REWARD_TOO_MANY,
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (BOOTSTRAP_UNDISCOUNTED, BOOTSTRAP_ONE_SHORT, ONE_REWARD_TOO_MANY)
+MISCONCEPTIONS = (BOOTSTRAP_UNDISCOUNTED, BOOTSTRAP_ONE_SHORT, ONE_REWARD_TOO_MANY, STEP_UNDISCOUNTED)
 
 
 def solve(given: Given, work: Work) -> None:
     """One application for every part."""
-    run = knowns.trajectory(given.trajectory)
-    run["r"] |= {len(given.trajectory.rewards) + 1: ZERO}  # nothing comes after the run
-    known = run | {
-        "V": knowns.state_values(given.values, given.trajectory.terminal),
-        "gamma": exact(given.gamma),
-    }
+    run = given.trajectory
+    known = knowns.trajectory(run) | knowns.discounts(given.gamma)
+    known["V"] = knowns.state_values(given.values, run.terminal)
+    end = len(run.rewards)
+    beyond = range(end + 1, max(end, *(time + steps for time, steps in given.asked)) + 2)
+    known["r"] |= dict.fromkeys(beyond, ZERO)  # nothing comes after the run
+    known["S"] |= dict.fromkeys(beyond, run.states[-1])
     for time, steps in given.asked:
-        work.answer(work.step(N_STEP_RETURN, t=time, n=steps, **known))
+        if time + steps > end:
+            work.say(f"The episode ends at $t = {end}$; after that all rewards are $0$, so this is the whole return:")
+        work.answer(n_step(work, known, time, steps))
+
+
+def n_step(work: Work, known: Mapping[str, Any], time: int, steps: int) -> Value:
+    """An n-step return from its formula; or where every step has its own discount, backwards from the value."""
+    if "gamma" in known:
+        return work.step(N_STEP_RETURN, t=time, n=steps, **known)
+    steps = min(steps, len(known["gammas"]) - time)
+    value = known["V"][known["S"][time + steps]]
+    for n in range(1, steps + 1):
+        start = time + steps - n
+        value = work.step(N_STEP_RETURN_STEP_BY_STEP, t=start, n=n, Gn={(start + 1, n - 1): value}, **known)
+    return value
 
 
 def oracle(given: Given) -> Answers:
     """Backwards from the bootstrap: worth = reward + γ · worth."""
     run = given.trajectory
+    gammas = per_step(given.gamma, len(run.rewards))
     answers = []
     for time, steps in given.asked:
+        steps = min(steps, len(run.rewards) - time)
         last = run.states[time + steps]
         worth = 0.0 if last in run.terminal else at(given.values[last])
-        for reward in reversed(run.rewards[time : time + steps]):
-            worth = at(reward) + at(given.gamma) * worth
+        for reward, gamma in reversed([*zip(run.rewards, gammas, strict=True)][time : time + steps]):
+            worth = at(reward) + at(gamma) * worth
         answers.append(worth)
     return answers

@@ -9,7 +9,13 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.temporal_difference import ELIGIBILITY_TRACE, LITERAL_VALUE, TD_LAMBDA_BACKWARD
+from rldrill.solutions.sheet.temporal_difference import (
+    ACCUMULATING,
+    ELIGIBILITY_TRACE,
+    LITERAL_VALUE,
+    REPLACING_TRACE,
+    TD_LAMBDA_BACKWARD,
+)
 from rldrill.solutions.work import Work
 
 Traces = dict[str, Value]
@@ -39,7 +45,7 @@ def trace_late(given: Given, work: Work) -> None:
     _learn(given, work, lambda _state, before, _after: before)
 
 
-MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late)
+MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING)
 
 
 def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
@@ -48,10 +54,11 @@ def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Tra
     known = knowns.trajectory(run) | {name: exact(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
     values = knowns.state_values(given.values, run.terminal)
     traces: Traces = {}
+    formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     for time, state in enumerate(run.states[:-1]):
         work.say(f"Transition from $t = {time}$ to ${time + 1}$:")
         before = traces | {state: traces.get(state, ZERO)}
-        traces = {s: work.step(ELIGIBILITY_TRACE, s=s, t=time, e=before, **known) for s in before}
+        traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
         values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=e, **known) for s in e}
     work.answer({state: values[state] for state in given.visited})
@@ -65,6 +72,7 @@ def oracle(given: Given) -> Answers:
     visits = np.array([[state == visited for visited in run.states[:-1]] for state in states], dtype=float)
     for time, reward in enumerate(run.rewards):
         error = at(reward) + at(given.gamma) * V[run.states[time + 1]] - V[run.states[time]]
-        change = at(given.alpha) * error * (visits[:, : time + 1] @ decay ** np.arange(time, -1, -1))
+        left = visits[:, : time + 1] * decay ** np.arange(time, -1, -1)
+        change = at(given.alpha) * error * (left.max(axis=1) if given.replacing else left.sum(axis=1))
         V |= {state: V[state] + step for state, step in zip(states, change, strict=True)}
     return ([V[state] for state in states],)

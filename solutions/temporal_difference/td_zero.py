@@ -6,32 +6,39 @@ from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.policy_gradient import TD_ERROR
 from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    values = knowns.state_values(given.values, given.trajectory.terminal)
-    for time, state in enumerate(given.trajectory.states[:-1]):
-        values = values | {state: _update(given, work, time, values)}
+    _learn(given, work)
+
+
+def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
+    before = values = knowns.state_values(given.values, given.terminal)
+    known = {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+    errors: list[Value] = []
+    for seen in knowns.moves(given):
+        current = values if newest else before
+        if given.td_errors:
+            errors.append(work.step(TD_ERROR, V=current, **seen, **known))
+        values = values | {seen["S"][seen["t"]]: work.step(TD_ZERO, V=current, **seen, **known)}
+    if given.td_errors:
+        work.answer(tuple(errors) if len(errors) > 1 else errors[0])
+        work.say("The values are those at the end of the same updates.")
     work.answer({state: values[state] for state in given.visited})
-
-
-def _update(given: Given, work: Work, time: int, values: dict[str, Value]) -> Value:
-    known = knowns.trajectory(given.trajectory) | {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
-    return work.step(TD_ZERO, t=time, V=values, **known)
 
 
 @slip(
     "stale-values",
     "Each update uses the values that are current then, changed ones included; the old ones were kept.",
-    when=lambda given: len(given.trajectory.rewards) > len(given.visited),
+    when=lambda given: len(given.moves) > len(given.visited),
 )
 def stale(given: Given, work: Work) -> None:
     """Every update from the values before the run; of a state's updates the last one stands."""
-    before = knowns.state_values(given.values, given.trajectory.terminal)
-    work.answer({state: _update(given, work, t, before) for t, state in enumerate(given.trajectory.states[:-1])})
+    _learn(given, work, newest=False)
 
 
 MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN)
@@ -39,9 +46,11 @@ MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN)
 
 def oracle(given: Given) -> Answers:
     """The update as a weighted mean of old value and target, on a plain dictionary of floats."""
-    run = given.trajectory
-    values = {state: at(number) for state, number in given.values.items()} | dict.fromkeys(run.terminal, 0.0)
-    for state, after, reward in zip(run.states, run.states[1:], run.rewards, strict=False):
+    values = {state: at(number) for state, number in given.values.items()} | dict.fromkeys(given.terminal, 0.0)
+    errors = []
+    for state, after, reward in given.moves:
         target = at(reward) + at(given.gamma) * values[after]
+        errors.append(target - values[state])
         values[state] = (1 - at(given.alpha)) * values[state] + at(given.alpha) * target
-    return ([values[state] for state in given.visited],)
+    answers = ([values[state] for state in given.visited],)
+    return (errors if len(errors) > 1 else errors[0], *answers) if given.td_errors else answers

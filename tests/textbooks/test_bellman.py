@@ -3,8 +3,11 @@
 from typing import Any
 
 import pytest
+from flint import fmpq
 
+import rldrill
 from asking import solved
+from rldrill.problems.errors import FileError
 
 # Sutton & Barto 2018, example 3.5: every action in A earns +10 and leads to A', in B +5 and to B'; a move off the
 # grid earns −1 and changes nothing; γ = 0.9.
@@ -79,3 +82,55 @@ def test_the_example_of_the_bellman_equation_at_the_centre_of_figure_3_2() -> No
     neighbours = {"north of it": "2.3", "west of it": "0.7", "south of it": "-0.4", "east of it": "0.4"}
     pairs = solved("action-value", dynamics={"transitions": moves}, values=neighbours, gamma="0.9")["a"]
     assert sum(map(as_float, pairs.values())) / 4 == pytest.approx(0.675)
+
+
+def test_a_process_without_actions() -> None:
+    # γ = 1/2. V(b) = 3/4·(4 + 0) + 1/4·(0 + 1/2·V(a)) and V(a) = 2 + 1/2·V(b): V(b) = 3 + 1/8·(2 + 1/2·V(b)), so
+    # 15/16·V(b) = 13/4, V(b) = 52/15 and V(a) = 2 + 26/15 = 56/15.
+    rows = [["a", "b", 1, 2], ["b", "end", "3/4", 4], ["b", "a", "1/4", 0]]
+    mdp = {"transitions": rows, "terminal": ["end"]}
+    assert solved("policy-value", mdp=mdp, gamma="1/2")["a"] == {"a": fmpq(56, 15), "b": fmpq(52, 15)}
+    # Two sweeps from 0: V_1 = 2, 3; V_2(a) = 2 + 3/2, V_2(b) = 3 + 1/4·1/2·2.
+    assert solved("policy-evaluation", mdp=mdp, gamma="1/2", sweeps=2)["a"] == {"a": fmpq(7, 2), "b": fmpq(13, 4)}
+
+
+def test_the_random_walk_of_example_6_2_is_a_reward_process() -> None:
+    # Sutton & Barto 2018, example 6.2: the true values of A to E are 1/6, 2/6, 3/6, 4/6, 5/6.
+    line = ["left", "A", "B", "C", "D", "E", "right"]
+    rows = [[s, line[i + step], 0.5, int(line[i + step] == "right")] for i, s in enumerate(line[1:-1], 1)
+            for step in (-1, 1)]  # fmt: skip
+    values = solved("policy-value", mdp={"transitions": rows, "terminal": ["left", "right"]}, gamma=1)["a"]
+    assert values == {state: fmpq(number, 6) for number, state in enumerate("ABCDE", 1)}
+
+
+def test_the_print_of_a_reward_process_names_no_action() -> None:
+    mdp = {"transitions": [["a", "a", "1/2", 1], ["a", "end", "1/2", 0]], "terminal": ["end"]}
+    for name, more in (("policy-value", {}), ("policy-evaluation", {"sweeps": 1})):
+        page = str(rldrill.read({"family": name, "given": {"mdp": mdp, "gamma": "1/2"} | more}).question())
+        assert "Markov reward process" in page
+        assert "action" not in page
+        assert "policy is" not in page
+
+
+def test_where_actions_are_asked_for_a_reward_process_has_one_called_step() -> None:
+    mdp = {"transitions": [["a", "end", 1, 1]], "terminal": ["end"]}
+    answers = solved("optimal-value", mdp=mdp, gamma="1/2")
+    assert answers["a"] == {"a": 1}
+    assert answers["b"] == {"a": ("step",)}
+
+
+@pytest.mark.parametrize(
+    ("name", "more"),
+    [
+        ("bellman-residual", {}),
+        ("optimal-policy-from-v", {}),
+        ("policy-improvement", {"policy": {"a": "go"}}),
+        ("policy-improvement-theorem", {"policy": {"a": "go"}, "other": {"a": "stay"}}),
+    ],
+)
+def test_a_terminal_state_may_have_its_0_among_given_values(name: str, more: dict[str, Any]) -> None:
+    mdp = {"transitions": [["a", "go", "end", 1, 4], ["a", "stay", "a", 1, 1]], "terminal": ["end"]}
+    known = {"mdp": mdp, "gamma": "1/2", "values": {"a": 4}} | more
+    assert solved(name, **{**known, "values": {"a": 4, "end": 0}}) == solved(name, **known)
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal; give 0, or make it the"):
+        solved(name, **{**known, "values": {"a": 4, "end": 2}})

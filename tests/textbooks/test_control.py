@@ -1,10 +1,13 @@
 """TD control and bandits: numbers from Sutton & Barto 2018, or worked out here by hand from its equations."""
 
+from typing import Any
+
 import pytest
 import sympy
 from flint import fmpq
 
 from asking import solved
+from rldrill.problems.errors import FileError
 
 
 def test_exercise_2_1() -> None:
@@ -113,3 +116,85 @@ def test_a_gradient_bandit_by_hand() -> None:
     answers = solved("bandit", pulls=[["x", 1], ["y", 3]], preferences={"x": 1, "y": 1}, alpha="1/4", pulled=["x", 6])
     assert answers["a"] == {"x": fmpq(1, 2), "y": fmpq(1, 2)}
     assert answers["b"] == {"x": fmpq(3, 2), "y": fmpq(1, 2)}
+
+
+def test_ucb_takes_an_arm_that_was_never_pulled_first() -> None:
+    # Sutton & Barto 2018, section 2.7: with N(a) = 0 an arm is considered to be maximising. It has no sample average.
+    pulls = [["a", 1], ["b", 0], ["a", 2]]
+    answers = solved("bandit", arms=["a", "b", "c"], pulls=pulls, c=1)
+    assert answers["a"] == {"a": fmpq(3, 2), "b": fmpq(0)}
+    assert list(answers["b"]) == ["a", "b"]
+    assert answers["c"] == {"next": ("c",)}
+    assert solved("bandit", arms=["a", "b", "c", "d"], pulls=pulls, c=1)["c"] == {"next": ("c", "d")}
+    assert solved("bandit", arms=["a", "b", "c"], pulls=pulls)["b"] == {"next": ("a",)}  # greedy: 3/2 beats 0
+
+
+def test_all_arms_that_are_pulled_are_listed() -> None:
+    with pytest.raises(FileError, match="a pull is given for 'c', which does not occur; known are a and b"):
+        solved("bandit", arms=["a", "b"], pulls=[["a", 1], ["c", 0]])
+
+
+TRACED: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b", "a", "end"], "actions": ["x", "y", "x"], "rewards": [0, 3, 8],
+                   "terminal": ["end"]},
+    "values": {"a": {"x": 4, "y": 0}, "b": {"x": 2, "y": 0}},
+    "alpha": "1/2", "gamma": 1, "lam": "1/2",
+}  # fmt: skip
+
+
+def test_sarsa_lambda_with_replacing_traces_by_hand() -> None:
+    # δ_0 = 0 − 4: Q(a, x) = 2. δ_1 = 3 + 2 − 0 = 5, e(a, x) = 1/2: Q(a, x) = 2 + 5/4 = 13/4, Q(b, y) = 5/2.
+    # δ_2 = 8 − 13/4 = 19/4, e(a, x) = 1, e(b, y) = 1/2: Q(a, x) = 13/4 + 19/8 = 45/8, Q(b, y) = 5/2 + 19/16 = 59/16.
+    answers = solved("sarsa-lambda", **TRACED, replacing=True)
+    assert answers["a"] == {("a", "x"): fmpq(1), ("b", "y"): fmpq(1, 2)}
+    assert answers["b"] == {("a", "x"): fmpq(45, 8), ("b", "y"): fmpq(59, 16)}
+
+
+def test_watkins_q_lambda_by_hand() -> None:
+    # δ_0 = 0 + max{2, 0} − 4 = −2: Q(a, x) = 3. In b the action y is not greedy, so the trace of (a, x) is cut.
+    # δ_1 = 3 + max{3, 0} − 0 = 6: Q(b, y) = 3, Q(a, x) stays. In a the action x is greedy: e(b, y) = 1/2, e(a, x) = 1.
+    # δ_2 = 8 − 3 = 5: Q(a, x) = 3 + 5/2 = 11/2, Q(b, y) = 3 + 5/4 = 17/4.
+    answers = solved("sarsa-lambda", **TRACED, watkins=True)
+    assert answers["a"] == {("a", "x"): fmpq(1), ("b", "y"): fmpq(1, 2)}
+    assert answers["b"] == {("a", "x"): fmpq(11, 2), ("b", "y"): fmpq(17, 4)}
+
+
+def test_watkins_q_0_is_q_learning() -> None:
+    known = {name: value for name, value in TRACED.items() if name != "lam"}
+    expected = solved("q-learning", **known)["a"]
+    assert solved("sarsa-lambda", **known, lam=0, watkins=True)["b"] == expected
+
+
+def test_no_action_is_greedy_while_a_parameter_is_open() -> None:
+    with pytest.raises(FileError, match="lambda is left open, so no action can be called greedy; give a number"):
+        solved("sarsa-lambda", **{**TRACED, "lam": "lambda"}, watkins=True)
+
+
+SEPARATE: dict[str, Any] = {"values": {"a": {"x": 4, "y": 0}, "b": {"x": 2, "y": 0}}, "alpha": "1/2", "gamma": 1,
+                            "terminal": ["end"], "td_errors": True}  # fmt: skip
+
+
+def test_transitions_that_do_not_join_by_hand() -> None:
+    # (a, x) → b with 2: max{2, 0} for Q-learning, so δ = 2 + 2 − 4 = 0; y follows for Sarsa, so δ = 2 + 0 − 4 = −2 and
+    # Q(a, x) = 3. (a, y) → end with 4: δ = 4 − 0, and Q(a, y) = 2.
+    q_learning = solved("q-learning", transitions=[["a", "x", "b", 2], ["a", "y", "end", 4]], **SEPARATE)
+    assert q_learning == {"a": (0, 4), "b": {("a", "x"): fmpq(4), ("a", "y"): fmpq(2)}}
+    sarsa = solved("sarsa", transitions=[["a", "x", "b", 2, "y"], ["a", "y", "end", 4]], **SEPARATE)
+    assert sarsa == {"a": (-2, 4), "b": {("a", "x"): fmpq(3), ("a", "y"): fmpq(2)}}
+
+
+@pytest.mark.parametrize("name", ["q-learning", "sarsa"])
+def test_transitions_that_join_are_a_run(name: str) -> None:
+    rows = [["a", "x", "b", 0, "y"], ["b", "y", "a", 3, "x"], ["a", "x", "end", 8]]
+    known = {"values": TRACED["values"], "alpha": "1/2", "gamma": 1}
+    along = solved(name, trajectory=TRACED["trajectory"], **known)
+    assert solved(name, transitions=rows, terminal=["end"], **known) == along
+
+
+@pytest.mark.parametrize("name", ["q-learning", "sarsa"])
+def test_actions_in_a_terminal_state_are_worth_0(name: str) -> None:
+    known = {"trajectory": TRACED["trajectory"], "alpha": "1/2", "gamma": 1}
+    expected = solved(name, **known, values=TRACED["values"])
+    assert solved(name, **known, values=TRACED["values"] | {"end": {"x": 0}}) == expected
+    with pytest.raises(FileError, match="values: the action value of 'end' must be 0, because it is terminal"):
+        solved(name, **known, values=TRACED["values"] | {"end": {"x": 3}})

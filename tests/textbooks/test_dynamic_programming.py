@@ -9,6 +9,7 @@ import pytest
 from flint import fmpq
 
 from asking import solved
+from rldrill.problems.errors import FileError
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 
@@ -157,3 +158,33 @@ def test_how_many_sweeps_an_error_of_a_hundredth_takes_by_hand() -> None:
     other = {"a": 3, "b": -6}
     assert solved("contraction", **given, optimum=other) == {"a": 6, "b": fmpq(3, 4), "c": 10}
     assert solved("contraction", **given, first=other) == {"a": 6, "b": 12, "c": fmpq(3, 2), "d": 11}
+
+
+def test_q_value_iteration_on_the_racing_car() -> None:
+    # Q_1 is the expected reward: 1, 2, 1, −10. Q_2(cool, slow) = 1 + 2, Q_2(cool, fast) = 2 + 1/2·2 + 1/2·1,
+    # Q_2(warm, slow) = 1 + 1/2·2 + 1/2·1; the greatest of each state are 3.5 and 2.5, as value iteration has them.
+    answers = solved("value-iteration", mdp=RACING, gamma=1, sweeps=2, action_values=True)
+    assert answers["a"] == {
+        ("cool", "slow"): fmpq(3), ("cool", "fast"): fmpq(7, 2), ("warm", "slow"): fmpq(5, 2), ("warm", "fast"): -10,
+    }  # fmt: skip
+    assert answers["b"] == {"cool": ("fast",), "warm": ("slow",)}
+
+
+def test_value_iteration_in_place_on_the_racing_car() -> None:
+    # Sweep 1: V(cool) = 2, then V(warm) = 1/2·(1 + 2) + 1/2·1 = 2. Sweep 2: V(cool) = max{1 + 2, 2 + 2} = 4, then
+    # V(warm) = 1/2·(1 + 4) + 1/2·(1 + 2) = 4.
+    answers = solved("value-iteration", mdp=RACING, gamma=1, sweeps=2, in_place=True)
+    assert answers["a"] == {"cool": fmpq(4), "warm": fmpq(4)}
+
+
+@pytest.mark.parametrize("field", [{"in_place": True}, {"start": {"cool": 1, "warm": 1}}])
+def test_sweeps_over_action_values_are_synchronous_and_begin_with_0(field: dict[str, Any]) -> None:
+    with pytest.raises(FileError, match=f"leave out {next(iter(field))}, or action_values"):
+        solved("value-iteration", mdp=RACING, gamma=1, sweeps=2, action_values=True, **field)
+
+
+def test_sweeps_start_with_0_in_a_terminal_state() -> None:
+    start = {"cool": 1, "warm": 1}
+    assert solved("value-iteration", mdp=RACING, gamma=1, sweeps=1, start=start | {"overheated": 0})
+    with pytest.raises(FileError, match="start: the value of 'overheated' must be 0, because it is terminal"):
+        solved("value-iteration", mdp=RACING, gamma=1, sweeps=1, start=start | {"overheated": 3})

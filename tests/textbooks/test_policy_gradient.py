@@ -188,3 +188,13 @@ def test_the_entropy_of_a_policy_in_powers_of_e() -> None:
     # With h = 1 and 0: ln(1 + e) − e/(1 + e).
     answers = solved("softmax-policy", theta=[1], features={"a": [1], "b": [0]}, entropy=True)
     assert rounded(answers["c"], 6) == rounded(sympy.log(1 + sympy.E) - sympy.E / (1 + sympy.E), 6) == "0.582203"
+
+
+def test_a_critic_has_0_for_a_terminal_state() -> None:
+    run = {"states": ["a", "end"], "actions": ["x"], "rewards": [2], "terminal": ["end"]}
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal"):
+        solved("advantage", run={"trajectory": run, "values": {"a": 1, "end": 4}, "lam": "1/2"}, gamma=1)
+    actor = {"features": {"a": {"x": [1, 0], "y": [0, 1]}}, "theta": [0, 0], "alpha": "1/2", "beta": 1, "gamma": 1}
+    assert solved("actor-critic", trajectory=run, values={"a": 1, "end": 0}, **actor)["a"] == (1,)
+    with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal"):
+        solved("actor-critic", trajectory=run, values={"a": 1, "end": 4}, **actor)

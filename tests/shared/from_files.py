@@ -1,0 +1,20 @@
+"""Problems that are not drawn: small ones, whose formulas and mistakes only problem files reach."""
+
+from typing import Any
+
+#: Each with its family.
+FROM_FILES: list[tuple[str, dict[str, Any]]] = [
+    ("return", {"rewards": [1, 2], "gamma": ["1/2", 1]}),
+    ("n-step-return", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
+                       "gamma": ["1/2"], "asked": [[0, 1]]}),
+    ("lambda-return", {"trajectory": {"states": ["a", "b", "end"], "rewards": [1, 1], "terminal": ["end"]},
+                       "values": {"a": 1, "b": 2}, "gamma": ["1/2", 1], "lam": 1}),
+    ("value-iteration", {"mdp": {"transitions": [["a", "x", "end", 1, 1]], "terminal": ["end"]}, "gamma": 1,
+                         "sweeps": 1, "action_values": True}),
+    ("td-lambda-backward", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
+                            "alpha": 1, "gamma": 1, "lam": 1, "replacing": True}),
+    ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
+    ("sarsa-lambda", {"trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
+                      "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,
+                      "replacing": True}),
+]  # fmt: skip
