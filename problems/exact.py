@@ -9,9 +9,10 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
+from rldrill.problems.latex import typed
 from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
 from rldrill.problems.readings import meant, note_of
-from rldrill.problems.spelling import Unreadable, respelled
+from rldrill.problems.spelling import Unreadable
 
 _LONGEST = 200
 _BITS = 4000  # of a power
@@ -103,7 +104,7 @@ def read_fraction(value: object) -> Fraction:
 @lru_cache(maxsize=1024)
 def _parsed(text: str) -> Node:
     try:
-        return read(respelled(text, _LONGEST))
+        return read(typed(text, _LONGEST))
     except Unreadable as fault:
         raise ValueError(f"{text[:40]!r} is not a number: {fault.message}") from None
 
