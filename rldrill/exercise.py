@@ -184,17 +184,18 @@ class Exercise:
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}
             result["parts"].append(entry)
         if answers:
-            result["steps"] = [
-                {
-                    "formula": line.formula.key,
-                    "quantity": unicode(line.equation().left),
-                    "put_in": unicode(line.equation().rights[0]),
-                    "value": unicode(line.equation().rights[-1]),
-                }
-                for line in self.solution.lines
-                if isinstance(line, Step)
-            ]
+            result["steps"] = [_step(line) for line in self.solution.lines if isinstance(line, Step)]
         return result
+
+
+def _step(step: Step) -> dict[str, str]:
+    equation = step.equation()
+    return {
+        "formula": step.formula.key,
+        "quantity": unicode(equation.left),
+        "put_in": unicode(equation.rights[0]),
+        "value": unicode(equation.rights[-1]),
+    }
 
 
 def _asked(part: Part) -> Iterator[str]:
