@@ -6,6 +6,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import NoReturn
 
+import numpy as np
 from flint import fmpq, fmpq_mat
 
 from rldrill.problems.document import joined
@@ -17,6 +18,9 @@ from rldrill.solutions.work import Work
 
 #: The effort that the sweeps may take by which it is found out whether value iteration comes to the optimal values.
 _SWEPT_OUTCOMES = 2_000_000
+#: Up to so many states policy iteration is exact from the first; the rounds that floating point takes before it at
+#: most, and what counts as better there.
+_FEW, _ROUNDS, _CLEARLY = 40, 60, 1e-9
 #: The name of the way that a state has beside its actions: to go round for ever in a loop that pays nothing.
 _STAY = ""
 #: When sweeps have settled, and how far from the values they must be then.
@@ -144,7 +148,7 @@ def _improved(
 
     With ``states`` there is no discount: a policy that never ends is refused, by their names.
     """
-    chosen = list(chosen)
+    chosen = _near_best(table, chosen, gamma)
     while True:
         if states:
             _demand_end(states, table, chosen)
@@ -157,6 +161,43 @@ def _improved(
         if better == chosen:
             return chosen, values, worth
         chosen = better
+
+
+def _near_best(table: _Table, first: Sequence[int], gamma: fmpq) -> list[int]:
+    """A policy to begin with that leaves little to improve: found in floating point where there are many states.
+
+    It is only a guess. Without discount it must end, as the first one does, or the first one is taken.
+    """
+    size = len(table)
+    if size <= _FEW:
+        return list(first)
+    pay = [np.array([_float(choice.reward) for choice in choices]) for choices in table]
+    onward = [np.zeros((len(choices), size)) for choices in table]
+    for state, choices in enumerate(table):
+        for index, choice in enumerate(choices):
+            for after, chance in choice.onward:
+                onward[state][index, after] = _float(gamma * chance)
+    chosen = list(first)
+    for _ in range(_ROUNDS):
+        chain = np.eye(size) - np.array([onward[state][index] for state, index in enumerate(chosen)])
+        try:
+            values = np.linalg.solve(chain, [pay[state][index] for state, index in enumerate(chosen)])
+        except np.linalg.LinAlgError:
+            return list(first)
+        worth = [pay[state] + onward[state] @ values for state in range(size)]
+        better = [
+            int(row.argmax()) if row.max() > row[index] + _CLEARLY * (1 + abs(row[index])) else index
+            for row, index in zip(worth, chosen, strict=True)
+        ]
+        if better == chosen:
+            break
+        chosen = better
+    return chosen if gamma != 1 or not end_components(_of(table, chosen)) else list(first)
+
+
+def _of(table: _Table, chosen: Sequence[int]) -> dict[int, list[tuple[int, tuple[int, ...]]]]:
+    """Where a policy leads from the states in which it cannot end."""
+    return {s: [(index, table[s][index].targets)] for s, index in enumerate(chosen) if not table[s][index].ends}
 
 
 def _evaluated(table: _Table, chosen: Iterable[int], gamma: fmpq) -> list[fmpq]:
@@ -175,12 +216,7 @@ def _evaluated(table: _Table, chosen: Iterable[int], gamma: fmpq) -> list[fmpq]:
 
 def _demand_end(states: Sequence[str], table: _Table, chosen: Sequence[int]) -> None:
     """Demand that a policy ends: an improvement that gives up the end goes round where a step earns more than 0."""
-    ways = {
-        state: [(index, table[state][index].targets)]
-        for state, index in enumerate(chosen)
-        if not table[state][index].ends
-    }
-    for component in end_components(ways):
+    for component in end_components(_of(table, chosen)):
         loop = _loop(states, table, {state: labels[0] for state, labels in component.items()})
         raise NoSolution(no_value(loop, "an episode can go on for ever with", "let the loop pay nothing"))
 

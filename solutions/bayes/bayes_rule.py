@@ -8,7 +8,6 @@ from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after
 from rldrill.solutions.exact import Value
-from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.nodes.sets import LONG
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
@@ -46,15 +45,13 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
-    """Hypothesis by hypothesis; of many only a few are written, and what stands below the line is worked out once."""
+    """Hypothesis by hypothesis; where there are many, what stands below the line is worked out once."""
     hypotheses, z = known["hypotheses"], known["z"]
     if len(hypotheses) <= LONG or z in hypotheses or work.misreads(BAYES):
         return {h: work.step(BAYES, h=h, **known) for h in hypotheses}
     below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, **known)
     known = known | {"p": known["p"] | {z: below}}
-    written = {h: work.step(BAYES, right=BAYES_BY_READING, h=h, **known) for h in hypotheses[:LONG]}
-    work.say(f"And so on, for all {len(hypotheses)}.")
-    return written | {h: value_of(BAYES_BY_READING, known | {"h": h}) for h in hypotheses[LONG:]}
+    return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, **known) for h in hypotheses}
 
 
 def oracle(given: Given) -> Answers:
