@@ -22,6 +22,7 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.page import Page
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
+from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.exact import NoSolution
@@ -129,7 +130,7 @@ class Exercise:
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
         blocks: list[Block] = []
-        for line in self.solution.lines if part is None else self.solution.lines_of(self._part(part).label):
+        for line in abridged(self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)):
             if isinstance(line, Step | Recalled):
                 blocks.append(line.equation())
             elif isinstance(line, Note):
@@ -184,7 +185,7 @@ class Exercise:
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}
             result["parts"].append(entry)
         if answers:
-            result["steps"] = [_step(line) for line in self.solution.lines if isinstance(line, Step)]
+            result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]
         return result
 
 

@@ -100,9 +100,6 @@ class Result:
         )
 
 
-#: Of more steps by one formula in a row only so many are written down.
-_MOST_ALIKE = 100
-
 Line = Step | Note | Recalled | Drawn | Result
 
 
@@ -132,9 +129,6 @@ class Work:
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
     read: dict[Formula, None] = field(default_factory=dict)
-    last: tuple[Formula, Expr] | None = None
-    alike: int = 0
-    written: int = 0
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
@@ -173,16 +167,8 @@ class Work:
             raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
         left = formula.left if into is None else into(*formula.left.args)
         sign = sign or (formula.sign if into is None else "=")
-        self._write(Step(formula, right, known, value, left, sign, own))
+        self.lines.append(Step(formula, right, known, value, left, sign, own))
         return value
-
-    def _write(self, step: Step) -> None:
-        alike = self.alike + 1 if len(self.lines) == self.written and self.last == (step.formula, step.right) else 1
-        if alike <= _MOST_ALIKE:
-            self.lines.append(step)
-        elif alike == _MOST_ALIKE + 1:
-            self.lines.append(Note("And so on, in the same way."))
-        self.alike, self.written, self.last = alike, len(self.lines), (step.formula, step.right)
 
     def value(self, formula: Formula, **known: Any) -> Any:
         """What a formula, as it is read here, gives for known quantities, without a step in the working."""
@@ -210,7 +196,7 @@ class Work:
         equations = {}
         for key, case in keys:
             equations[key] = value_of(right, {**bound, **case})
-            self._write(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
+            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
         solution = solve_linear(equations)
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
         self.lines.append(Note("Solving these equations:"))

@@ -29,7 +29,7 @@ from rldrill.solutions.answers.text import (
     read_words,
     read_yes_no,
 )
-from rldrill.solutions.exact import Value, decimal, in_one_quotient, to_sympy
+from rldrill.solutions.exact import Value, decimal, in_one_quotient, is_rational, to_sympy
 from rldrill.solutions.formula.typesetting import tabular, typeset_answer
 from rldrill.solutions.matrices import is_matrix, matrix
 
@@ -106,6 +106,8 @@ class Answer(ABC, Generic[KindT]):
 
 def text_of(value: Value) -> str:
     """An exact number as it is typed and stored: ``7/2``, ``exp(-1/8)``, ``gamma/(1 - gamma)``."""
+    if is_rational(value):
+        return str(value)  # flint's, which has no limit of digits
     return str(in_one_quotient(to_sympy(value))).replace("**", "^")
 
 

@@ -49,6 +49,7 @@ def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
     hypotheses, z = known["hypotheses"], known["z"]
     if len(hypotheses) <= LONG or z in hypotheses or work.misreads(BAYES):
         return {h: work.step(BAYES, h=h, **known) for h in hypotheses}
+    work.reading(BAYES)  # it is read, though written with p(z) here: so its misreadings can be made
     below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, **known)
     known = known | {"p": known["p"] | {z: below}}
     return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, **known) for h in hypotheses}
