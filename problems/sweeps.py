@@ -9,6 +9,8 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Model, Name, check_ends, check_keys, values_table
 
+#: Outcomes that are averaged in all sweeps together: so many take seconds.
+_MOST_OUTCOMES = 300_000
 SYNCHRONOUS = "Sweeps are synchronous: each uses only the values of the sweep before."
 
 
@@ -26,6 +28,12 @@ class Sweeps(Givens):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        count = len(self.mdp.transitions)
+        if self.sweeps * count > _MOST_OUTCOMES:
+            raise ValueError(
+                f"sweeps: {self.sweeps} sweeps over {count} transitions take too long; at most "
+                f"{_MOST_OUTCOMES // count} are possible here"
+            )
         if self.start is not None:
             check_keys(self.start, (*self.mdp.states, *self.mdp.terminal), "the starting value", self.mdp.states)
             check_ends(self.start, self.mdp.terminal, "start: the value", "make it the reward for getting there")

@@ -23,6 +23,7 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.page import Page
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
+from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.exact import NoSolution
@@ -132,7 +133,7 @@ class Exercise:
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
         blocks: list[Block] = []
-        for line in self.solution.lines if part is None else self.solution.lines_of(self._part(part).label):
+        for line in abridged(self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)):
             if isinstance(line, Step | Recalled):
                 blocks.append(line.equation())
             elif isinstance(line, Note):
@@ -187,17 +188,18 @@ class Exercise:
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}
             result["parts"].append(entry)
         if answers:
-            result["steps"] = [
-                {
-                    "formula": line.formula.key,
-                    "quantity": unicode(line.equation().left),
-                    "put_in": unicode(line.equation().rights[0]),
-                    "value": unicode(line.equation().rights[-1]),
-                }
-                for line in self.solution.lines
-                if isinstance(line, Step)
-            ]
+            result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]
         return result
+
+
+def _step(step: Step) -> dict[str, str]:
+    equation = step.equation()
+    return {
+        "formula": step.formula.key,
+        "quantity": unicode(equation.left),
+        "put_in": unicode(equation.rights[0]),
+        "value": unicode(equation.rights[-1]),
+    }
 
 
 def _asked(part: Part) -> Iterator[str]:

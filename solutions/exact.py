@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import singledispatch
+from math import isfinite
 from typing import Any, TypeGuard
 
 import sympy
@@ -117,7 +118,7 @@ def digits(value: Value) -> int:
 
 @digits.register(fmpq)
 def _(value: fmpq) -> int:
-    above, below = str(abs(int(value.p))), str(int(value.q))
+    above, below = str(abs(value.p)), str(value.q)  # flint's, which has no limit
     return len(above) + (0 if below == "1" else len(below))
 
 
@@ -282,5 +283,6 @@ def decimal(value: Value, digits: int = 6) -> str | None:
     """The value as a decimal of at most ``digits`` significant digits; None while a parameter is open."""
     if parameters(value):
         return None
-    number = float(to_sympy(value).evalf(digits + 10))
-    return f"{number:.{digits}g}"
+    close = to_sympy(value).evalf(digits + 10)
+    number = float(close)
+    return f"{number:.{digits}g}" if isfinite(number) else str(close.evalf(digits))

@@ -5,7 +5,7 @@ tries everything. Open parameters are replaced by ``OPEN``; exact answers are ev
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Logarithm, Parameter, Weight
-from rldrill.problems.models import Dynamics, ModelAndPolicy, Policy
+from rldrill.problems.models import Dynamics, Model, ModelAndPolicy, Policy
 
 #: Answers in floating point, in the order of the parts; tables and vectors in the order of the part's keys, policies by
 #: state.
@@ -94,8 +94,14 @@ def swept(given: ModelAndPolicy) -> tuple[Array, Array]:
 
 
 def optimal_values(P: Array, R: Array, gamma: float, states: int) -> Array:
-    """The optimal values by sweeps until nothing changes; only the first states act, the others are terminal."""
+    """The optimal values by sweeps until nothing changes; only the first states act, the others are terminal.
+
+    Without discount sweeps from 0 need not come to them. There they are the values of the policy that is best for a
+    discount close to 1 (Blackwell 1962): for it, too, a loop that pays nothing is worth 0.
+    """
     V = np.zeros(len(P))
+    if gamma == 1:
+        return policy_values(P, R, _patient(P, R, states), 1.0)
     for _ in range(100_000):
         after = np.concatenate([lookahead(P, R, V, gamma)[:states].max(axis=1), V[states:]])
         change = np.abs(after - V).max()
@@ -105,6 +111,26 @@ def optimal_values(P: Array, R: Array, gamma: float, states: int) -> Array:
     return V
 
 
+def _patient(P: Array, R: Array, states: int) -> Array:
+    """The policy that is best for a discount close to 1, by policy iteration."""
+    gamma, rows = 1 - 1e-6, np.arange(states)
+    pay = np.einsum("ijk,ijk->ij", P, np.where(np.isinf(R), 0.0, R))
+    chosen = lookahead(P, R, np.zeros(len(P)), gamma)[:states].argmax(axis=1)
+    while True:
+        chain = np.eye(states) - gamma * P[rows, chosen][:, :states]
+        V = np.concatenate([np.linalg.solve(chain, pay[rows, chosen]), np.zeros(len(P) - states)])
+        worth = lookahead(P, R, V, gamma)[:states]
+        better = np.where(
+            worth.max(axis=1) > worth[rows, chosen] + 1e-9 * (1 + np.abs(V[:states])), worth.argmax(axis=1), chosen
+        )
+        if (better == chosen).all():
+            break
+        chosen = better
+    policy = np.zeros(P.shape[:2])
+    policy[rows, chosen] = 1.0
+    return policy
+
+
 def best_actions(model: Dynamics, worth: Array) -> dict[str, set[str]]:
     """The best actions of every state, from an array of shape (states, actions)."""
     names = tuple(dict.fromkeys(action for _, action in model.outcomes))
@@ -112,3 +138,18 @@ def best_actions(model: Dynamics, worth: Array) -> dict[str, set[str]]:
         state: {names[j] for j in np.flatnonzero(np.isclose(row, row.max(), rtol=1e-12))}
         for state, row in zip(model.states, worth, strict=True)
     }
+
+
+def without_loss(model: Model, best: Mapping[str, set[str]]) -> dict[str, set[str]]:
+    """Of best actions, undiscounted, those that may be taken each time: all optimal values stay as they are."""
+    states, count = (*model.states, *model.terminal), len(model.states)
+    P, R = tensors(model, states)
+    names = tuple(dict.fromkeys(action for _, action in model.outcomes))
+    V = optimal_values(P, R, 1.0, count)
+
+    def kept(state: str, action: str) -> bool:
+        others = R.copy()
+        others[states.index(state), [index for index, name in enumerate(names) if name != action]] = -np.inf
+        return np.allclose(optimal_values(P, others, 1.0, count), V, atol=1e-6)
+
+    return {state: {action for action in row if kept(state, action)} for state, row in best.items()}

@@ -1,13 +1,15 @@
 """The values of a policy from its Bellman equations, and the mistakes that are made on the way to them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeAlias
 
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value
+from rldrill.solutions.endless import Loop, no_value
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.formula.notation import Vpi
+from rldrill.solutions.recurrence import end_components
 from rldrill.solutions.work import Work
 
 #: How somebody comes to the values of a policy, those of terminal states among them: from the policy's equation, in
@@ -21,12 +23,75 @@ Solve: TypeAlias = Callable[[Any, Work, Evaluation], None]
 def evaluated(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
     """The values of a policy: one equation for every state; terminal states keep what they begin with, 0 in general.
 
+    Without discount they are expected totals: a loop that is never left and pays nothing is worth 0, and the
+    equations of the other states have one solution then (Puterman 1994, section 7.1).
+
     Raises:
-        NoSolution: the policy has no unique values.
+        NoSolution: the policy has no values: without discount, since it goes on for ever in a loop that pays.
     """
     begin = _begin(mdp, known)
-    ends = {state: begin[state] for state in mdp.terminal}
-    return work.system(formula, Vpi, [{"s": state} for state in mdp.states], **{**known, "V": ends})
+    fixed = {state: begin[state] for state in mdp.terminal} | _resting(work, formula, mdp, known)
+    cases = [{"s": state} for state in mdp.states if state not in fixed]
+    return work.system(formula, Vpi, cases, **{**known, "V": fixed}) if cases else fixed
+
+
+def _resting(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
+    """The states that an undiscounted process never leaves although it has not ended: they must be worth 0."""
+    resting: dict[str, Value] = {}
+    for loop in endless(mdp, known):
+        if not loop.pays_nothing:
+            raise NoSolution(
+                no_value(loop, "the policy goes on for ever with", "let it lead to an end, let the loop pay nothing")
+            )
+        work.say(
+            f"Whoever comes to {loop} stays there for ever, and every step there pays $0$ on average. With $γ = 1$ the "
+            "equations would hold there with any number, but the value is the sum of all rewards to come, and that is:"
+        )
+        for state in loop.actions:
+            work.give(formula, ZERO, s=state)
+            resting[state] = ZERO
+    return resting
+
+
+def endless(mdp: Model, known: Mapping[str, Any]) -> list[Loop]:
+    """The loops that a policy never leaves, where there is no discount; terminal states end everything."""
+    if known["gamma"] != ONE:
+        return []
+    taken = {state: _taken(known["pi"], state, mdp.actions[state]) for state in mdp.states}
+    chances: dict[str, dict[str, Value]] = {state: {} for state in mdp.states}
+    for state, actions in taken.items():
+        for action, chance in actions.items():
+            for row in mdp.outcomes[state, action]:
+                way = chance * exact(row.probability)
+                if not is_zero(way):
+                    chances[state][row.next] = chances[state].get(row.next, ZERO) + way
+    ways = {state: [(None, to)] for state, to in chances.items() if not any(end in to for end in mdp.terminal)}
+    return [_loop(mdp, component, taken, chances) for component in end_components(ways)]
+
+
+def _loop(mdp: Model, states: Iterable[str], taken: Mapping[str, Mapping[str, Value]], chances: Any) -> Loop:
+    return Loop(
+        {state: tuple(taken[state]) for state in states},
+        {
+            state: sum(
+                (
+                    chance * exact(row.probability) * exact(row.reward)
+                    for action, chance in taken[state].items()
+                    for row in mdp.outcomes[state, action]
+                ),
+                ZERO,
+            )
+            for state in states
+        },
+        {state: chances[state] for state in states},
+    )
+
+
+def _taken(policy: Mapping[Any, Any], state: str, actions: Iterable[str]) -> dict[str, Value]:
+    """What a policy does in a state, by its probabilities or by its one action; what it never does is left out."""
+    if state in policy:
+        return {policy[state]: ONE}
+    return {action: policy[action, state] for action in actions if not is_zero(policy[action, state])}
 
 
 def of_states(mdp: Model, values: Mapping[str, Value]) -> dict[str, Value]:

@@ -211,9 +211,9 @@ class Work:
         """Draw pictures between the steps."""
         self.lines += map(Drawn, pictures)
 
-    def give(self, formula: Formula, value: Any) -> None:
+    def give(self, formula: Formula, value: Any, **indices: Any) -> None:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
-        self.lines.append(Result((formula.left,), (value,)))
+        self.lines.append(Result((indexed(formula.left, indices),), (value,)))
 
     def say(self, text: str) -> None:
         """Write a sentence between the steps; mathematics stands between ``$`` signs."""

@@ -38,8 +38,6 @@ class Given(ModelAndPolicy):
     def _fits(self) -> Self:
         if self.parameters():
             raise ValueError(f"{self.parameters()[0]} is left open, so it cannot be told whether the values are right")
-        if self.gamma == 1:
-            raise ValueError("gamma: must be below 1, or other values may solve the equations too")
         if self.optimal and self.policy is not None:
             raise ValueError("policy: optimal values belong to no given policy; leave it out")
         check_state_values(self.values, self.mdp)

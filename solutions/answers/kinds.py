@@ -29,8 +29,8 @@ from rldrill.solutions.answers.text import (
     read_words,
     read_yes_no,
 )
-from rldrill.solutions.exact import Value, decimal, in_one_quotient, to_sympy
-from rldrill.solutions.formula.typesetting import tabular, typeset_value
+from rldrill.solutions.exact import Value, decimal, in_one_quotient, is_rational, to_sympy
+from rldrill.solutions.formula.typesetting import tabular, typeset_answer
 from rldrill.solutions.matrices import is_matrix, matrix
 
 KindT = TypeVar("KindT", bound=parts.Kind)
@@ -106,6 +106,8 @@ class Answer(ABC, Generic[KindT]):
 
 def text_of(value: Value) -> str:
     """An exact number as it is typed and stored: ``7/2``, ``exp(-1/8)``, ``gamma/(1 - gamma)``."""
+    if is_rational(value):
+        return str(value)  # flint's, which has no limit of digits
     return str(in_one_quotient(to_sympy(value))).replace("**", "^")
 
 
@@ -134,7 +136,7 @@ class NumberAnswer(Answer[parts.Number]):
         return decimal(value)
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
-        return [(None, typeset_value(value))]
+        return [(None, typeset_answer(value))]
 
     def how_to_type(self) -> str:
         return "a number: 3/4, 0.75 or 2 + 1/2*3"
@@ -163,7 +165,7 @@ class NumbersAnswer(Answer[parts.Numbers]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         return [
-            (mathematics(entry), typeset_value(number)) for entry, number in zip(self.kind.entries, value, strict=True)
+            (mathematics(entry), typeset_answer(number)) for entry, number in zip(self.kind.entries, value, strict=True)
         ]
 
     def how_to_type(self) -> str:
@@ -202,7 +204,7 @@ class MatrixAnswer(Answer[parts.Matrix]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         rows = self._lines(value)
-        return [(None, typeset_value(rows[0][0]) if len(rows) == len(rows[0]) == 1 else tabular(rows))]
+        return [(None, typeset_answer(rows[0][0]) if len(rows) == len(rows[0]) == 1 else tabular(rows, typeset_answer))]
 
     def how_to_type(self) -> str:
         if self.kind.rows == self.kind.columns == 1:
@@ -244,7 +246,7 @@ class ValuesAnswer(Answer[parts.Values]):
         return result
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
-        return [(self._left(key), typeset_value(value[key])) for key in self.kind.keys]
+        return [(self._left(key), typeset_answer(value[key])) for key in self.kind.keys]
 
     def _left(self, key: parts.Key) -> Math:
         if "·" in self.kind.of and isinstance(key, str):

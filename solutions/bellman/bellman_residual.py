@@ -1,18 +1,23 @@
 """The residual of every state from the given values; they are right where all residuals are 0."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 
 from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, is_zero
+from rldrill.solutions.exact import Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
+from rldrill.solutions.policy_values import evaluated
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
+    BELLMAN_V,
     FORGOT_GAMMA,
     MAX_FOR_MEAN,
     RESIDUAL_MEAN,
@@ -27,9 +32,24 @@ def solve(given: Given, work: Work) -> None:
     wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
     if wrong:
         work.say(f"The equation does not hold in {joined(wrong)}, so these are not the values.")
-    else:
+    elif given.gamma != 1:
         work.say("The equations hold in every state. With γ below 1 they have one solution only, so it is this one.")
+    else:
+        true = _totals(given)
+        wrong = [state for state in given.mdp.states if true[state] != exact(given.values[state])]
+        work.say(
+            "The equations hold in every state. With $γ = 1$ other numbers may solve them, too, so the values are held "
+            f"against the expected totals: they {f'differ in {joined(wrong)}' if wrong else 'are the same'}."
+        )
     work.answer(not wrong)
+
+
+def _totals(given: Given) -> Mapping[str, Value]:
+    """The true values without discount."""
+    if given.optimal:
+        return optimum(given.mdp, Fraction(1)).values
+    known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    return evaluated(Work(), BELLMAN_V, given.mdp, known)
 
 
 def _residuals(given: Given, work: Work) -> dict[str, Value]:

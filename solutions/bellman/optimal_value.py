@@ -12,7 +12,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.optimality import optimum
-from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors
+from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors, without_loss
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
@@ -27,16 +27,30 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """The equations of the best policy, their solution put into the optimality equation, and what follows."""
-    mdp, policy = given.mdp, optimum(given.mdp, given.gamma).policy
+    mdp, best = given.mdp, optimum(given.mdp, given.gamma)
+    policy = best.policy
     told = joined([f"in {state} {action}" for state, action in policy.items()])
     work.say(f"Suppose that these actions are best (policy iteration finds them): {told}. Their values:")
     known = knowns.model_and_policy(mdp, deterministic(policy), given.gamma)
     values = evaluation(work, BELLMAN_V, mdp, known)
-    work.say("Put into the optimality equation, no other action is better, so these are the optimal values:")
+    endless = (
+        "Going round for ever in a loop that pays nothing is worth 0, not more than the value there. "
+        if given.gamma == 1
+        else ""
+    )
+    work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
     for state in mdp.states:
         work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
+    if best.unlike_sweeps:
+        work.say(
+            "Value iteration that begins with 0 does not come to them: in {} it settles at {}.".format(
+                *best.unlike_sweeps
+            )
+        )
     values |= work.answer(of_states(mdp, values))
-    work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states})
+    greedy = {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
+    best.tell(work)
+    work.answer(best.among(greedy))
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
@@ -96,8 +110,9 @@ def oracle(given: Given) -> Answers:
     V = optimal_values(P, R, at(given.gamma), n)
     Q = lookahead(P, R, V, at(given.gamma))
     names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    best = best_actions(mdp, Q[:n])
     return (
         V[:n],
-        best_actions(mdp, Q[:n]),
+        without_loss(mdp, best) if given.gamma == 1 else best,
         [Q[states.index(state), names.index(action)] for state, action in mdp.pairs],
     )

@@ -3,7 +3,8 @@
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.oracle import Answers, at, best_actions, tensors
+from rldrill.solutions.optimality import optimum
+from rldrill.solutions.oracle import Answers, at, best_actions, tensors, without_loss
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_BY_REWARD, GREEDY_BY_VALUE, GREEDY_FROM_V
 from rldrill.solutions.work import Work
 
@@ -16,7 +17,13 @@ def solve(given: Given, work: Work) -> None:
         "gamma": exact(given.gamma),
         "V": knowns.state_values(given.values, given.mdp.terminal),
     }
-    work.answer({state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states})
+    greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
+    if given.gamma != 1:
+        work.answer(greedy)
+        return
+    best = optimum(given.mdp, given.gamma)
+    best.tell(work)
+    work.answer(best.among(greedy))
 
 
 def oracle(given: Given) -> Answers:
@@ -25,4 +32,5 @@ def oracle(given: Given) -> Answers:
     P, R = tensors(given.mdp, states)
     ahead = P @ [at(given.values.get(state, 0)) for state in states]
     worth = (P * R.clip(min=-1e300)).sum(axis=2) + at(given.gamma) * ahead
-    return (best_actions(given.mdp, worth[: len(given.mdp.states)]),)
+    best = best_actions(given.mdp, worth[: len(given.mdp.states)])
+    return (without_loss(given.mdp, best) if given.gamma == 1 else best,)

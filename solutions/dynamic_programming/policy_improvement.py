@@ -4,7 +4,17 @@ from typing import Any
 
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
+from rldrill.solutions.oracle import (
+    Answers,
+    at,
+    best_actions,
+    chances,
+    lookahead,
+    optimal_values,
+    policy_values,
+    tensors,
+)
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.bellman import BELLMAN_V
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -26,12 +36,16 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         values = knowns.state_values(given.values, mdp.terminal)
     greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, **known) for s in mdp.states})
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
-    optimal = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
-    work.say(
-        "The greedy policy takes no other action than $π$, so no action is better in any state: $π$ is optimal."
-        if optimal
-        else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
-    )
+    stable = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
+    optimal = stable and is_optimal(mdp, given.gamma, values)
+    if stable and not optimal:
+        work.say(ONLY_GREEDY)
+    else:
+        work.say(
+            "The greedy policy takes no other action than $π$, so no action is better in any state: $π$ is optimal."
+            if optimal
+            else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
+        )
     work.answer(optimal)
 
 
@@ -46,5 +60,6 @@ def oracle(given: Given) -> Answers:
     V = policy_values(P, R, chances(given.policy, given.mdp, states), at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n]
     answers: list[Any] = [V[:n]] if given.values is None else []
-    answers += [best_actions(given.mdp, worth), bool((worth.max(axis=1) < V[:n] + 1e-9).all())]
+    best = optimal_values(P, R, 1.0, n)[:n] if given.gamma == 1 else worth.max(axis=1)
+    answers += [best_actions(given.mdp, worth), bool((best < V[:n] + 1e-9).all())]
     return answers

@@ -8,10 +8,11 @@ import numpy as np
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
+from rldrill.solutions.endless import Loop
 from rldrill.solutions.exact import NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
+from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.bellman import BELLMAN_Q
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work
@@ -19,12 +20,29 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """What one step of the other policy is worth; the theorem applies if that is never a loss."""
-    applies = -1 not in _gaps(given, work, evaluation)
-    if applies:
+    holds = -1 not in _gaps(given, work, evaluation)
+    loop = _trap(given) if holds else None
+    applies = holds and loop is None
+    if loop is not None:
+        work.say(
+            f"This holds in every state, but with $γ = 1$ that is not enough: $π'$ goes on for ever with {loop} and "
+            "never earns what $V^π$ counts on, so the theorem says nothing about $π'$."
+        )
+    elif applies:
         work.say("This holds in every state, so $π'$ is at least as good as $π$.")
     else:
         work.say("This does not hold in every state, so the theorem says nothing about $π'$.")
     work.answer(applies)
+
+
+def _trap(given: Given) -> Loop | None:
+    """A loop in which the other policy, undiscounted, stays for ever although there is more to be had."""
+    mdp, known = given.mdp, _known(given)
+    loops = endless(mdp, known | {"pi": given.other})
+    if not loops:
+        return None
+    values = _values(given, Work(), evaluated)
+    return next((loop for loop in loops if any(sign(values[state]) > 0 for state in loop.actions)), None)
 
 
 def _gaps(given: Given, work: Work, evaluation: Evaluation = evaluated) -> tuple[int, ...]:
@@ -98,5 +116,8 @@ def oracle(given: Given) -> Answers:
     V = policy_values(P, R, first, at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n][second[:n] > 0]
     answers: list[Any] = [V[:n]] if given.values is None else []
-    answers += [worth, bool(np.all(worth > V[:n] - 1e-9))]
+    holds = bool(np.all(worth > V[:n] - 1e-9))
+    if holds and given.gamma == 1:  # what the theorem shows must be so
+        holds = bool(np.all(policy_values(P, R, second, 1.0)[:n] > V[:n] - 1e-9))
+    answers += [worth, holds]
     return answers

@@ -11,7 +11,17 @@ from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
-from rldrill.solutions.oracle import Answers, at, best_actions, chances, lookahead, policy_values, tensors
+from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
+from rldrill.solutions.oracle import (
+    Answers,
+    at,
+    best_actions,
+    chances,
+    lookahead,
+    optimal_values,
+    policy_values,
+    tensors,
+)
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
@@ -38,11 +48,14 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         improved = work.answer(_improved(policy, best))
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
+    optimal = not changed and is_optimal(mdp, given.gamma, values)
     if changed:
         work.say("The last improvement still changed the policy, so it is not known whether another round would.")
-    else:
+    elif optimal:
         work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
-    work.answer(not changed)
+    else:
+        work.say(ONLY_GREEDY)
+    work.answer(optimal)
 
 
 def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
@@ -79,5 +92,7 @@ def oracle(given: Given) -> Answers:
         best = {state: {policy[state]} & actions or actions for state, actions in best.items()}
         answers += [np.array(V[:n]), best]
         stable = all(policy[state] in actions for state, actions in best.items())
+        if given.gamma == 1:
+            stable = stable and np.allclose(V, optimal_values(P, R, 1.0, n), atol=1e-9)
         policy = {state: next(a for a in given.mdp.actions[state] if a in best[state]) for state in given.mdp.states}
-    return [*answers, stable]
+    return [*answers, bool(stable)]

@@ -1,10 +1,11 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import lcm
 from typing import Any
 
 import sympy
+from flint import fmpq
 from sympy import Expr
 from sympy.printing.printer import Printer
 
@@ -35,6 +36,8 @@ _MINUS = operator("−")
 _PLUS = operator("+")
 _TIMES = operator("·")
 _LONG = 10**6
+#: From here on a number of a working is written as a decimal that is cut off, with so many of its digits.
+_UNREADABLE, _DIGITS = 10**40, 12
 
 
 class _Typesetter(Printer):
@@ -50,8 +53,10 @@ class _Typesetter(Printer):
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
 
     def _print_Rational(self, expression: Expr) -> Math:
-        """A fraction, unless it is a decimal that is long but ends."""
+        """A fraction, unless it is a decimal that is long but ends, or longer than anybody reads."""
         places = 0
+        if max(abs(expression.p), expression.q) > _UNREADABLE:
+            return _cut_off(int(expression.p), int(expression.q))
         if expression.q > _LONG:
             places = next((places for places in range(7, 15) if 10**places % expression.q == 0), 0)
         if not places:
@@ -93,6 +98,24 @@ class _Typesetter(Printer):
 
     def emptyPrinter(self, expression: Expr) -> Math:
         raise TypeError(f"{expression.func.__name__} has no typesetting")
+
+
+def _cut_off(above: int, below: int) -> Math:
+    """The first digits of a quotient, the rest left out: 3.14159265358…"""
+    size = (abs(above).bit_length() - below.bit_length()) * 3 // 10
+    shift = _DIGITS + 2 - size
+    scaled = abs(above) * 10**shift // below if shift >= 0 else abs(above) // (below * 10**-shift)
+    digits = str(scaled)
+    exponent = len(digits) - 1 - shift
+    digits = digits[:_DIGITS]
+    if -5 <= exponent < 0:
+        written: Math = Glyph(f"0.{'0' * (-exponent - 1)}{digits}…", "number")
+    elif 0 <= exponent < _DIGITS - 1:
+        written = Glyph(f"{digits[: exponent + 1]}.{digits[exponent + 1 :]}…", "number")
+    else:
+        power = Script(number(10), above=number(exponent))
+        written = row(Glyph(f"{digits[0]}.{digits[1:]}…", "number"), _TIMES, power)
+    return row(_MINUS, written) if above < 0 else written
 
 
 _TYPESETTER = _Typesetter()
@@ -146,6 +169,13 @@ def typeset_value(value: Value) -> Math:
         quotient = Fraction(typeset_value(-numerator if minus else numerator), typeset_value(denominator))
         return row(_MINUS, quotient) if minus else quotient
     return typeset(expression)
+
+
+def typeset_answer(value: Value) -> Math:
+    """An answer as mathematics: as a value, but a rational number is written out, however long it is."""
+    if isinstance(value, fmpq) and max(abs(value.p), value.q) > _UNREADABLE:
+        return number(value)
+    return typeset_value(value)
 
 
 def _surd(surd: surds.Surd) -> Math:
@@ -286,9 +316,9 @@ def vector(entries: Iterable[Value]) -> Math:
     return Fence(listed(map(typeset_value, entries)))
 
 
-def tabular(lines: Sequence[Sequence[Value]]) -> Tabular:
+def tabular(lines: Sequence[Sequence[Value]], write: Callable[[Value], Math] = typeset_value) -> Tabular:
     """A matrix of values as mathematics."""
-    return Tabular(tuple(tuple(typeset_value(value) for value in line) for line in lines))
+    return Tabular(tuple(tuple(map(write, line)) for line in lines))
 
 
 def _power_of_e(exponent: Math) -> Math:

@@ -158,6 +158,10 @@ with evaluate(False):
         },
     )
 
+    #: What stands below the line of Bayes' rule, and the rule with its value there, where there are many hypotheses.
+    SUM_OF_JOINT = SumOver(likelihood(z, h1) * p(h1), h1, Hypotheses)
+    BAYES_BY_READING = likelihood(z, h) * p(h) / p(z)
+
     BAYES_TWO_STATES = Formula(
         "bayes-two-states",
         p(first, z),

@@ -136,7 +136,6 @@ MDP = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 3], ["b", "x"
     [
         ({"values": {"a": 1}}, "the value of 'b' is missing"),
         ({"values": {"a": 1, "b": 2, "c": 3}}, "the value is given for 'c'"),
-        ({"gamma": 1}, "gamma: must be below 1"),
         ({"gamma": "gamma"}, "gamma is left open"),
         ({"optimal": True, "policy": {"a": "x", "b": "x"}}, "optimal values belong to no given policy"),
     ],

@@ -69,19 +69,6 @@ def test_without_discount_where_every_episode_can_end() -> None:
     assert answers["b"] == {"a": ("jump",), "b": ("walk",), "c": ("walk",)}
 
 
-@pytest.mark.parametrize(
-    ("rows", "fragment"),
-    [
-        ([["a", "stay", "a", 1, -1]], "from a none can"),
-        ([["a", "stay", "a", 1, 1], ["a", "go", "end", 1, 0]], "more and more without an end"),
-        ([["a", "stay", "a", 1, 0], ["a", "go", "end", 1, -1]], "go on for ever without loss, from a"),
-    ],
-)
-def test_without_discount_and_without_an_end_there_is_no_answer(rows: list[list[Any]], fragment: str) -> None:
-    with pytest.raises(FileError, match=fragment):
-        solved("optimal-value", mdp={"transitions": rows, "terminal": ["end"]}, gamma=1)
-
-
 def test_what_is_left_open_decides_no_action() -> None:
     rows = [["a", "x", "end", "p", 4], ["a", "x", "a", "1-p", 4]]
     with pytest.raises(FileError, match="p is left open"):

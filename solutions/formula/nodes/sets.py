@@ -8,10 +8,11 @@ import sympy
 from sympy import Expr, Integer
 
 from rldrill.problems.mathematics import Big, Fence, Math, Script, listed, operator, relation, row, variable, word
-from rldrill.solutions.exact import ONE, ZERO, largest
+from rldrill.solutions.exact import ONE, ZERO, NotGiven, is_rational, largest, to_sympy
 from rldrill.solutions.formula.compiling import Compiler, arg_max
 from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.nodes.choices import Greatest
+from rldrill.solutions.formula.nodes.leaves import PutInName, computed
 from rldrill.solutions.formula.putting_in import PutIn, power_of, product_of, reduced, sum_of
 from rldrill.solutions.formula.typesetting import alone
 
@@ -111,12 +112,58 @@ class Over(Node):
         return [put_in.knowing(self.index.name, item)(self.body) for item in put_in.value(self.domain)]
 
 
+#: A sum of more terms than this is written with its first terms and its last.
+LONG = 24
+_FIRST = 3
+
+
+class LongSum(Node):
+    """A sum of many numbers, put in: its value, how many terms it has, and those of them that are written."""
+
+    is_Add = True  # it needs the brackets of a sum
+
+    def _typeset(self, typeset: Typeset) -> Math:
+        *first, last = self.args[2:]
+        return typeset(sympy.Add(*first, PutInName("…"), last, evaluate=False))
+
+    @property
+    def operations(self) -> int:
+        """A product and an addition for every term."""
+        return 2 * int(self.args[1])
+
+    def _evaluated(self, _: object) -> Any:
+        return self.args[0]
+
+    def _reduced(self, _: object) -> Expr:
+        return computed(self.args[0])
+
+
 class SumOver(Over):
     """Σ over a finite set."""
 
     sign = "Σ"
     value = staticmethod(lambda values: sum(values[1:], values[0]) if values else ZERO)  # 0 + matrix is an error
     written_out = staticmethod(sum_of)
+
+    def _put_in(self, put_in: PutIn) -> Expr:
+        if len(put_in.value(self.domain)) <= LONG or (summed := self._long(put_in)) is None:
+            return super()._put_in(put_in)
+        return summed
+
+    def _long(self, put_in: PutIn) -> Expr | None:
+        """The sum without its zeros, and shortened where it is still long; None where not all terms are numbers."""
+        here = {item: put_in.knowing(self.index.name, item) for item in put_in.value(self.domain)}
+        try:
+            values = {item: inside.value(self.body) for item, inside in here.items()}
+        except NotGiven:  # the unknowns of a system
+            return None
+        if not all(map(is_rational, values.values())):
+            return None
+        kept = [inside for item, inside in here.items() if values[item] != 0]
+        written = [inside(self.body) for inside in (kept if len(kept) <= LONG else (*kept[:_FIRST], kept[-1]))]
+        if len(kept) <= LONG:
+            return sum_of(written)
+        return LongSum(to_sympy(sum(values.values(), ZERO)), Integer(len(kept)), *written)
 
 
 class ProductOver(Over):
