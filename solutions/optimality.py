@@ -13,7 +13,7 @@ from rldrill.problems.document import joined
 from rldrill.problems.models import Model
 from rldrill.solutions.endless import Loop, no_value
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, exact
-from rldrill.solutions.recurrence import Ways, end_components, loop_through, ranks
+from rldrill.solutions.recurrence import Ways, end_components, loop_through, predecessors, ranks
 from rldrill.solutions.work import Work
 
 #: The effort that the sweeps may take by which it is found out whether value iteration comes to the optimal values.
@@ -249,9 +249,10 @@ def _undiscounted(mdp: Model, table: _Table) -> Optimum:
                 chosen[state] = inside[0]
     useful = list(best)
     still = [component for component in idle if values[next(iter(component))] == 0]
+    finishing_ways = _finishing_ways(table, best, still)
     for state in chain.from_iterable(around):
-        later = [index for index in best[state] if index != chosen[state]]
-        useful[state] = [chosen[state], *(index for index in later if _finishes(table, best, still, state, index))]
+        if len(best[state]) > 1:
+            useful[state] = sorted(finishing_ways(state), key=lambda index: index != chosen[state])
     return Optimum(
         dict(zip(states, values, strict=True)),
         {name: tuple(table[place][index].action for index in useful[place]) for place, name in enumerate(states)},
@@ -275,8 +276,9 @@ def _ways(table: _Table, kept: Callable[[int, _Choice], bool]) -> dict[int, list
 def _finishing(table: _Table, loops: Iterable[int]) -> dict[int, int]:
     """How far it is to an end, or where none can be reached to a loop that pays nothing; such a loop comes later."""
     every = {state: [(index, c.targets) for index, c in enumerate(choices)] for state, choices in enumerate(table)}
-    near = ranks(every, [state for state, choices in enumerate(table) if any(choice.ends for choice in choices)])
-    return {state: len(table) + rank for state, rank in ranks(every, loops).items()} | near
+    before = predecessors(every)
+    near = ranks(before, [state for state, choices in enumerate(table) if any(choice.ends for choice in choices)])
+    return {state: len(table) + rank for state, rank in ranks(before, loops).items()} | near
 
 
 def _nearer(choices: Sequence[_Choice], rank: Mapping[int, int], own: int | None) -> int:
@@ -336,35 +338,37 @@ def _loop(states: Sequence[str], table: _Table, chosen: Mapping[int, int]) -> Lo
     )
 
 
-def _finishes(
-    table: _Table,
-    best: Sequence[Sequence[int]],
-    still: Sequence[Mapping[int, Sequence[int]]],
-    state: int,
-    index: int,
-) -> bool:
-    """Whether an optimal policy can take this best action each time: it comes to an end, or rests, all the same.
+def _finishing_ways(
+    table: _Table, best: Sequence[Sequence[int]], still: Sequence[Mapping[int, Sequence[int]]]
+) -> Callable[[int], list[int]]:
+    """What tells of a state those best actions that an optimal policy can take each time: it still ends, or rests.
 
     Args:
         table: the actions.
         best: of every state the actions that are worth most.
         still: the loops that pay nothing where no more can be had than nothing.
-        state: a state.
-        index: one of its best actions.
     """
-    choice = table[state][index]
-    if choice.ends or any(index in component.get(state, ()) for component in still):
-        return True
-    ways = {s: [(i, table[s][i].targets) for i in row] for s, row in enumerate(best) if s != state}
-    ends = [s for s in ways if any(table[s][i].ends for i in best[s])]
-    rests = [component for component in still if state not in component]
-    for component in still:
-        if state in component:
-            rests += end_components(
-                {s: [(i, table[s][i].targets) for i in component[s]] for s in component if s != state}
-            )
-    reached = ranks(ways, [*ends, *chain.from_iterable(rests)])
-    return any(after in reached for after in choice.targets)
+    ways = {state: [(index, table[state][index].targets) for index in row] for state, row in enumerate(best)}
+    before = predecessors(ways)
+    ends = [state for state, row in enumerate(best) if any(table[state][index].ends for index in row)]
+
+    def finishing(state: int) -> list[int]:
+        rests = [component for component in still if state not in component]
+        here = next((component for component in still if state in component), {})
+        if here:
+            kept = {s: [(i, table[s][i].targets) for i in row] for s, row in here.items() if s != state}
+            rests += end_components(kept)
+        # The state itself leads nowhere here: nothing comes to the end by way of it.
+        reached = ranks({**before, state: []}, [*ends, *chain.from_iterable(rests)])
+        return [
+            index
+            for index in best[state]
+            if table[state][index].ends
+            or index in here.get(state, ())
+            or any(after in reached and after != state for after in table[state][index].targets)
+        ]
+
+    return finishing
 
 
 def _unlike_sweeps(states: Sequence[str], table: _Table, values: Sequence[fmpq]) -> tuple[str, str] | None:

@@ -74,13 +74,23 @@ def end_components(ways: Ways[State, Label]) -> list[dict[State, list[Label]]]:
         inside = kept
 
 
-def ranks(ways: Ways[State, Label], targets: Iterable[State]) -> dict[State, int]:
-    """How many steps it takes at least to come to one of the targets, for the states from which that is possible."""
-    before: dict[State, list[State]] = {}
+def predecessors(ways: Ways[State, Label]) -> dict[State, list[State]]:
+    """The states from which each state may be reached in one step."""
+    before: dict[State, dict[State, None]] = {}
     for state, row in ways.items():
         for _, ahead in row:
             for target in ahead:
-                before.setdefault(target, []).append(state)
+                before.setdefault(target, {})[state] = None
+    return {target: list(states) for target, states in before.items()}
+
+
+def ranks(before: Mapping[State, Sequence[State]], targets: Iterable[State]) -> dict[State, int]:
+    """How many steps it takes at least to come to one of the targets, for the states from which that is possible.
+
+    Args:
+        before: the predecessors of every state.
+        targets: the states to come to.
+    """
     rank = dict.fromkeys(targets, 0)
     queue = list(rank)
     for state in queue:
@@ -98,7 +108,7 @@ def loop_through(ways: Ways[State, Label], state: State) -> dict[State, Label]:
         ways: of every state those that stay inside; each state can be reached from each.
         state: where the loop begins.
     """
-    rank = ranks(ways, [state])
+    rank = ranks(predecessors(ways), [state])
     chosen: dict[State, Label] = {}
     queue = {state: None}
     while len(chosen) < len(queue):
