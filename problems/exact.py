@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
@@ -169,7 +169,10 @@ def _rate(value: Scalar) -> Scalar:
 
 
 _serialised = PlainSerializer(write, return_type=str)
-_schema = WithJsonSchema({"type": ["string", "number"], "description": "an exact number: 3, 0.75 or '3/4'"})
+
+
+def _schema(title: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": ["string", "number"], "title": title, "description": "exact: 3, 0.75 or '3/4'"})
 
 
 def _field(read: Any, *checks: Any) -> Any:
@@ -182,21 +185,33 @@ def _field(read: Any, *checks: Any) -> Any:
     return BeforeValidator(validate)
 
 
+_OR_OPEN = " or a parameter left open"
+
 #: An exact number in a problem's givens.
-Exact = Annotated[Fraction, _field(read_fraction), _serialised, _schema]
+Exact = Annotated[Fraction, _field(read_fraction), _serialised, _schema("a number")]
 #: An exact number, or a parameter left open.
-Open = Annotated[Fraction | Parameter, _field(read_scalar), _serialised, _schema]
+Open = Annotated[Fraction | Parameter, _field(read_scalar), _serialised, _schema(f"a number{_OR_OPEN}")]
 #: A probability, 0 to 1.
-Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialised, _schema]
-OpenProbability = Annotated[Fraction | Parameter, _field(read_scalar, _probability), _serialised, _schema]
+Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialised, _schema("a number from 0 to 1")]
+OpenProbability = Annotated[
+    Fraction | Parameter,
+    _field(read_scalar, _probability),
+    _serialised,
+    _schema(f"a number from 0 to 1{_OR_OPEN}"),
+]
 #: A discount γ, 0 to 1, or left open.
-Discount = OpenProbability
+Discount = Annotated[OpenProbability, Field(description="The discount.")]
 #: A weight of a policy, whose exponential may be a whole number: ``ln 2``.
 WeightField = Annotated[
     Fraction | Parameter | Logarithm,
     _field(read_weight),
     _serialised,
-    WithJsonSchema({"type": ["string", "number"], "description": "an exact number, or the logarithm of one: 'ln 2'"}),
+    _schema(f"a number, the logarithm of one such as 'ln 2'{_OR_OPEN.replace(' or', ', or')}"),
 ]
 #: A step size α, above 0 and at most 1, or left open.
-StepSize = Annotated[Fraction | Parameter, _field(read_scalar, _rate), _serialised, _schema]
+StepSize = Annotated[
+    Fraction | Parameter,
+    _field(read_scalar, _rate),
+    _serialised,
+    _schema(f"a number above 0 and at most 1{_OR_OPEN}"),
+]

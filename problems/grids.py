@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from rldrill.problems.complaints import nearest
 from rldrill.problems.exact import Exact, Probability
 
 WALL, FREE = "#", "."
@@ -17,25 +18,35 @@ Cell = tuple[int, int]
 
 
 class Grid(BaseModel):
-    """A grid world.
-
-    Args:
-        grid: the cells, a line for every row: ``.`` is free, ``#`` a wall, anything else a cell with a name.
-        rewards: what entering a cell of that name earns.
-        step: what every move earns besides.
-        slip: the probability to go at a right angle to the move, half of it to either side.
-        ends: the names of the cells in which an episode ends; those with rewards, if not given.
-        returns: for cells of that name, the name of the cell that entering them leads to.
-    """
+    """A grid world drawn as text; a cell is called by row and column, ``r1c3``."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    grid: str = Field(min_length=1, max_length=5000)
-    rewards: dict[str, Exact] = {}
-    step: Exact = Fraction(0)
-    slip: Probability = Fraction(0)
-    ends: tuple[str, ...] | None = None
-    returns: dict[str, str] = {}
+    grid: str = Field(
+        min_length=1,
+        max_length=5000,
+        description="The cells, a line a row: . is free, # a wall, any other sign a cell of that name.",
+        examples=["..G\n.#T\n..."],
+    )
+    rewards: dict[str, Exact] = Field(
+        default={}, description="What entering a cell of that name earns.", examples=[{"G": 10, "T": -5}]
+    )
+    step: Exact = Field(default=Fraction(0), description="What every move earns besides.", examples=[-1])
+    slip: Probability = Field(
+        default=Fraction(0),
+        description="The probability to go at a right angle to the move, half of it to either side.",
+        examples=["1/5"],
+    )
+    ends: tuple[str, ...] | None = Field(
+        default=None,
+        description="The names of the cells in which an episode ends; without it, those with rewards.",
+        examples=[["G", "T"]],
+    )
+    returns: dict[str, str] = Field(
+        default={},
+        description="For cells of that name, the name of the cell that entering them leads to.",
+        examples=[{"T": "G"}],
+    )
 
     def transitions(self) -> tuple[list[list[Any]], list[str]]:
         """The transitions of the world, and its terminal states; a cell is called by row and column, ``r1c3``.
@@ -116,5 +127,7 @@ def read_grid(data: Mapping[str, Any]) -> dict[str, Any]:
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
+        if first["type"] == "extra_forbidden":
+            raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
         raise ValueError(f"{where}: {str(first['msg']).removeprefix('Value error, ')}") from None
     return {"transitions": transitions, "terminal": terminal}

@@ -7,6 +7,29 @@ from typing import Any
 _FINEST = 1000
 
 
+#: What a file holds, as JSON Schema.
+SCHEMA = {
+    "type": "object",
+    "description": "A toy-text environment of gymnasium, where gymnasium is installed.",
+    "properties": {
+        "gymnasium": {
+            "type": "string",
+            "description": "The ID of the environment.",
+            "examples": ["FrozenLake-v1"],
+        },
+        "options": {
+            "type": "object",
+            "default": {},
+            "title": "a table",
+            "description": "What the environment is made with.",
+            "examples": [{"is_slippery": True}],
+        },
+    },
+    "required": ["gymnasium"],
+    "additionalProperties": False,
+}
+
+
 def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
     """The table ``P`` of an environment as the transitions of a model.
 

@@ -29,12 +29,20 @@ class LinearQuadratic(Givens):
     time: A and B for 0 to horizon − 1, Q and R for 0 to horizon.
     """
 
-    A: MatricesField
-    B: MatricesField
-    Q: MatricesField
-    R: OpenMatricesField
-    start: tuple[Exact, ...] = Field(min_length=1, max_length=6)
-    horizon: int = Field(ge=1, le=12)
+    A: MatricesField = Field(
+        description="How the state moves by itself, the same at all times or one for each from 0 to horizon − 1."
+    )
+    B: MatricesField = Field(
+        description="How the action moves the state, the same at all times or one for each from 0 to horizon − 1."
+    )
+    Q: MatricesField = Field(
+        description="The cost of states, the same at all times or one for each from 0 to the horizon."
+    )
+    R: OpenMatricesField = Field(
+        description="The cost of actions, the same at all times or one for each from 0 to the horizon."
+    )
+    start: tuple[Exact, ...] = Field(min_length=1, max_length=6, description="The first state.")
+    horizon: int = Field(ge=1, le=12, description="The last time.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -4,9 +4,10 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, NamedTuple, Self
+from typing import Annotated, Any, NamedTuple, Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, WithJsonSchema, model_validator
+from pydantic_core import CoreSchema
 
 from rldrill.problems.document import Beside, Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
@@ -18,8 +19,8 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
-from rldrill.problems.grids import read_grid
-from rldrill.problems.gymnasium import read_environment
+from rldrill.problems.grids import Grid, read_grid
+from rldrill.problems.gymnasium import SCHEMA, read_environment
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
 
@@ -32,7 +33,12 @@ def _name(value: object) -> object:
 
 
 #: The name of a state, an action or a hypothesis. Dollar signs and backslashes would be read as mathematics.
-Name = Annotated[str, BeforeValidator(_name), Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24)]
+Name = Annotated[
+    str,
+    BeforeValidator(_name),
+    Field(pattern=r"^[^\W_](?:[\w .'()+-]*[\w.'()+₀-₉-])?$", max_length=24),
+    WithJsonSchema({"type": ["string", "integer"], "title": "a name"}),
+]
 
 
 class Transition(NamedTuple):
@@ -48,7 +54,9 @@ class Transition(NamedTuple):
 class Dynamics(Givens):
     """Where actions lead from some states; nothing is said about the states that they lead to."""
 
-    transitions: tuple[Transition, ...] = Field(min_length=1)
+    transitions: tuple[Transition, ...] = Field(
+        min_length=1, description="The transitions; those of a state and action have probabilities that sum to 1."
+    )
 
     @model_validator(mode="after")
     def _distributions(self) -> Self:
@@ -95,8 +103,14 @@ class Model(Dynamics):
     Files may also give it as a ``grid`` drawn as text, or as the ID of a ``gymnasium`` environment.
     """
 
-    terminal: tuple[Name, ...] = ()
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"anyOf": [handler(core), handler(Grid.__pydantic_core_schema__), SCHEMA]}
 
     @model_validator(mode="before")
     @classmethod
@@ -158,6 +172,9 @@ def read_policy(value: object) -> object:
 PolicyField = Annotated[
     dict[Name, dict[Name, OpenProbability]],
     BeforeValidator(read_policy),
+    WithJsonSchema(
+        {"type": "object", "title": "a table: for every state its action, or the probabilities of its actions"}
+    ),
 ]
 
 
@@ -193,8 +210,10 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
 class ModelAndPolicy(Givens):
     """A model, a policy and the discount; without a policy every action is equally probable."""
 
-    mdp: Model
-    policy: PolicyField | None = None
+    mdp: Model = Field(description="The Markov decision process.")
+    policy: PolicyField | None = Field(
+        default=None, description="The policy; without it every action is equally probable (equiprobable)."
+    )
     gamma: Discount
 
     @model_validator(mode="after")
@@ -212,8 +231,8 @@ class ModelAndPolicy(Givens):
 class Lookahead(Givens):
     """What the actions of one state do, the values of the next states and the discount."""
 
-    dynamics: Dynamics
-    values: dict[Name, Open] = Field(min_length=1)
+    dynamics: Dynamics = Field(description="What the actions of the state do.")
+    values: dict[Name, Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
 
     @model_validator(mode="after")

@@ -23,10 +23,20 @@ _DRAWN = 12
 class Trajectory(Givens):
     """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
 
-    states: tuple[Name, ...] = Field(min_length=2)
-    actions: tuple[Name, ...] = ()
-    rewards: tuple[Exact, ...] = Field(min_length=1)
-    terminal: tuple[Name, ...] = ()
+    states: tuple[Name, ...] = Field(
+        min_length=2, description="The states in the order of the visits, the last one included."
+    )
+    actions: tuple[Name, ...] = Field(
+        default=(),
+        description="The actions taken in them; some methods need them, and the last state's too.",
+        examples=[["left", "right"]],
+    )
+    rewards: tuple[Exact, ...] = Field(min_length=1, description="The reward after every state but the last.")
+    terminal: tuple[Name, ...] = Field(
+        default=(),
+        description="The states in which an episode ends.",
+        examples=[["end"]],
+    )
 
     @model_validator(mode="after")
     def _consistent(self) -> "Trajectory":
@@ -45,7 +55,9 @@ class Trajectory(Givens):
 class Episode(Trajectory):
     """A run to its end: the last state is terminal."""
 
-    states: tuple[Name, ...] = Field(min_length=2, max_length=301)
+    states: tuple[Name, ...] = Field(
+        min_length=2, max_length=301, description="The states in the order of the visits, the terminal one included."
+    )
 
     @model_validator(mode="after")
     def _ends(self) -> Self:
@@ -63,9 +75,9 @@ def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Episode:
 class ValueRun(Givens):
     """A run, the state values before it, the step size and the discount."""
 
-    trajectory: Trajectory
-    values: dict[Name, Exact]
-    alpha: StepSize
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, Exact] = Field(description="The value of every state before the run.")
+    alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
     @model_validator(mode="after")
@@ -83,9 +95,11 @@ class ValueRun(Givens):
 class ActionRun(Givens):
     """A run with its actions, the action values before it, the step size and the discount."""
 
-    trajectory: Trajectory
-    values: dict[Name, dict[Name, Exact]]
-    alpha: StepSize
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, dict[Name, Exact]] = Field(
+        description="For every state the values of its actions before the run."
+    )
+    alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
     @model_validator(mode="after")

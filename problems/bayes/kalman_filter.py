@@ -24,8 +24,8 @@ _ONE = ((Fraction(1),),)
 class Event(Givens):
     """What happens in one step: a motion with the command u, then unless z is missing a measurement."""
 
-    u: MatrixField
-    z: MatrixField | None = None
+    u: MatrixField = Field(description="The command of the motion, a column.")
+    z: MatrixField | None = Field(default=None, description="The measurement after it, a column, if there is one.")
 
 
 class Given(Givens):
@@ -34,14 +34,16 @@ class Given(Givens):
     Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given.
     """
 
-    mean: MatrixField
-    covariance: MatrixField
-    A: MatrixField = Field(default=_ONE, validate_default=True)
-    B: MatrixField = Field(default=_ONE, validate_default=True)
-    C: MatrixField = Field(default=_ONE, validate_default=True)
-    process: MatrixField
-    sensor: MatrixField
-    steps: tuple[Event, ...] = Field(min_length=1, max_length=5)
+    mean: MatrixField = Field(description="The mean of the first belief, a column.")
+    covariance: MatrixField = Field(description="The covariance of the first belief.")
+    A: MatrixField = Field(default=_ONE, validate_default=True, description="How the state moves by itself.")
+    B: MatrixField = Field(default=_ONE, validate_default=True, description="How the command moves the state.")
+    C: MatrixField = Field(default=_ONE, validate_default=True, description="What the sensor sees of the state.")
+    process: MatrixField = Field(description="The covariance of the noise of the motion.")
+    sensor: MatrixField = Field(description="The covariance of the noise of the sensor.")
+    steps: tuple[Event, ...] = Field(
+        min_length=1, max_length=5, description="The steps, each a motion and, if there is one, a measurement."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

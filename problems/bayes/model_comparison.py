@@ -21,9 +21,11 @@ REVISION = 1
 class CoinModel(Givens):
     """What a model says of the probability of heads: that it is ``theta``, or that its prior is Beta(a, b)."""
 
-    theta: Probability | None = None
-    a: int = Field(default=1, ge=1, le=100)
-    b: int = Field(default=1, ge=1, le=100)
+    theta: Probability | None = Field(
+        default=None, description="The probability of heads, if the model knows it; otherwise its prior is Beta(a, b)."
+    )
+    a: int = Field(default=1, ge=1, le=100, description="The first parameter of the prior Beta(a, b).")
+    b: int = Field(default=1, ge=1, le=100, description="The second parameter of the prior Beta(a, b).")
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Self:
@@ -39,10 +41,10 @@ class CoinModel(Givens):
 class Given(Givens):
     """Some models of a coin with their priors, and how many heads and tails there were."""
 
-    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10)
-    prior: dict[Name, Probability]
-    heads: int = Field(ge=0, le=500)
-    tails: int = Field(ge=0, le=500)
+    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10, description="The models by their names.")
+    prior: dict[Name, Probability] = Field(description="The probability of every model beforehand.")
+    heads: int = Field(ge=0, le=500, description="How many heads there were.")
+    tails: int = Field(ge=0, le=500, description="How many tails there were.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -24,17 +24,19 @@ REVISION = 1
 class Link(Givens):
     """The parameters of one link: angle and offset along z, length and twist along the new x."""
 
-    theta: AngleField
-    d: Exact
-    a: Exact
-    alpha: AngleField
+    theta: AngleField = Field(description="The angle of the joint about z, in radians.")
+    d: Exact = Field(description="The offset along z.")
+    a: Exact = Field(description="The length of the link along the new x.")
+    alpha: AngleField = Field(description="The twist of the link about the new x, in radians.")
 
 
 class Given(Givens):
     """The links from the base outwards, and what the arm is called."""
 
-    links: tuple[Link, ...] = Field(min_length=1, max_length=7)
-    name: str = Field(default="an arm", max_length=60, pattern=r"^[^$\\]*$")
+    links: tuple[Link, ...] = Field(min_length=1, max_length=7, description="The links from the base outwards.")
+    name: str = Field(
+        default="an arm", max_length=60, pattern=r"^[^$\\]*$", description="What the arm is called in the question."
+    )
 
 
 @cache

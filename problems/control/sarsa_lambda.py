@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -22,8 +22,10 @@ REVISION = 1
 class Given(ActionRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
-    lam: OpenProbability
-    traces: dict[Name, dict[Name, Exact]] | None = None
+    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    traces: dict[Name, dict[Name, Exact]] | None = Field(
+        default=None, description="The traces before the run; all 0 without them."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -1,5 +1,7 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
+from pydantic import Field
+
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
@@ -18,7 +20,9 @@ REVISION = 1
 class Given(ModelAndPolicy, Sweeps):
     """A model, a policy (without one, every action is equally probable), the discount, and the kind of sweeps."""
 
-    in_place: bool = False
+    in_place: bool = Field(
+        default=False, description="Whether a sweep uses values as soon as they are new, state by state."
+    )
 
 
 def draw(level: int, rng: Draws) -> Given:

@@ -1,5 +1,7 @@
 """Values after some sweeps of value iteration, and the greedy policy for them."""
 
+from pydantic import Field
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
@@ -18,7 +20,7 @@ REVISION = 1
 class Given(Sweeps):
     """A model, the discount, how many sweeps, and the values to start from (0 where none are given)."""
 
-    gamma: Probability
+    gamma: Probability = Field(description="The discount.")
 
 
 def draw(level: int, rng: Draws) -> Given:

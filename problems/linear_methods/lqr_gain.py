@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
@@ -22,10 +22,10 @@ REVISION = 1
 class Given(Givens):
     """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows."""
 
-    A: MatrixField
-    B: MatrixField
-    R: MatrixField
-    P: MatrixField
+    A: MatrixField = Field(description="How the state moves by itself, n×n.")
+    B: MatrixField = Field(description="How the action moves the state, n×m.")
+    R: MatrixField = Field(description="The cost of actions, m×m.")
+    P: MatrixField = Field(description="The matrix of the value at the next time, n×n.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

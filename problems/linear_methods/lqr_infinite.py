@@ -6,7 +6,7 @@ from itertools import product
 from math import isqrt
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
@@ -29,10 +29,10 @@ class Given(Givens):
     solved in rational arithmetic to twelve decimals.
     """
 
-    A: MatrixField
-    B: MatrixField
-    Q: MatrixField
-    R: MatrixField
+    A: MatrixField = Field(description="How the state moves by itself, n×n, n at most 6.")
+    B: MatrixField = Field(description="How the action moves the state, n×m.")
+    Q: MatrixField = Field(description="The cost of states, n×n.")
+    R: MatrixField = Field(description="The cost of actions, m×m.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

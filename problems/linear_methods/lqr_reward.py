@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
@@ -28,7 +28,9 @@ _FAR = 6
 class Given(LinearQuadratic):
     """A system, and the gain L (or one for every time 0 to horizon) of the actions a = −L s."""
 
-    L: MatricesField
+    L: MatricesField = Field(
+        description="The gain of the actions a = −L s, the same at all times or one for each from 0 to the horizon."
+    )
 
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:

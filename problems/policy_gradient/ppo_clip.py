@@ -25,12 +25,16 @@ class Sample(Givens):
     The new probability is given as ``new``, or follows from the new policy's ``preferences`` in that state.
     """
 
-    state: Name
-    action: Name
-    old: Probability
-    new: Probability | None = None
-    preferences: dict[Name, WeightField] | None = None
-    advantage: Exact
+    state: Name = Field(description="The state.")
+    action: Name = Field(description="The action that was taken.")
+    old: Probability = Field(description="The probability with which the old policy took it.")
+    new: Probability | None = Field(
+        default=None, description="The probability with which the new policy takes it; instead of preferences."
+    )
+    preferences: dict[Name, WeightField] | None = Field(
+        default=None, description="The new policy's preferences for the actions of the state; instead of new."
+    )
+    advantage: Exact = Field(description="The advantage of the action.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -46,8 +50,8 @@ class Sample(Givens):
 class Given(Givens):
     """Samples of the old policy, and the clipping range ε."""
 
-    samples: tuple[Sample, ...] = Field(min_length=1, max_length=20)
-    epsilon: Exact = Field(gt=0, lt=1)
+    samples: tuple[Sample, ...] = Field(min_length=1, max_length=20, description="The actions that were taken.")
+    epsilon: Exact = Field(gt=0, lt=1, description="The clipping range, above 0 and below 1.")
 
     @model_validator(mode="after")
     def _alike(self) -> Self:

@@ -21,8 +21,8 @@ REVISION = 1
 class Given(Givens):
     """The weights θ, and in one state the features of every action."""
 
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=20)
-    features: dict[Name, FeatureVector] = Field(min_length=2)
+    theta: tuple[Exact, ...] = Field(min_length=1, max_length=20, description="The weights.")
+    features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

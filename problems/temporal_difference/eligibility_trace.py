@@ -21,10 +21,14 @@ REVISION = 1
 class Given(Givens):
     """The states visited at times 0, 1, …, γ and λ, and the times at which the traces are asked for."""
 
-    states: tuple[Name, ...] = Field(min_length=1, max_length=301)
+    states: tuple[Name, ...] = Field(
+        min_length=1, max_length=301, description="The states visited at the times 0, 1, and so on."
+    )
     gamma: Discount
-    lam: OpenProbability
-    asked: tuple[int, ...] = Field(min_length=1, max_length=26)
+    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    asked: tuple[int, ...] = Field(
+        min_length=1, max_length=26, description="The times at which the traces are asked for."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -22,11 +22,11 @@ REVISION = 1
 class Given(Givens):
     """An episode, the current values, γ and λ, and the time from which the λ-return is asked."""
 
-    trajectory: Episode
-    values: dict[Name, Exact]
+    trajectory: Episode = Field(description="The episode.")
+    values: dict[Name, Exact] = Field(description="The current value of every state.")
     gamma: Discount
-    lam: OpenProbability
-    time: int = Field(default=0, ge=0)
+    lam: OpenProbability = Field(description="How much later returns count.")
+    time: int = Field(default=0, ge=0, description="The time from which the return is asked for.", examples=[1])
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+from pydantic import Field
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
@@ -20,8 +22,10 @@ REVISION = 1
 class Given(ValueRun):
     """An episode, the values before it, the step size, the discount, and which visits count."""
 
-    trajectory: Episode
-    visits: Literal["first", "every"]
+    trajectory: Episode = Field(description="The episode.")
+    visits: Literal["first", "every"] = Field(
+        description="Whether only the first visit to a state counts, or every visit."
+    )
 
     @property
     def in_parts(self) -> bool:

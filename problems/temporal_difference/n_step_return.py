@@ -22,10 +22,12 @@ REVISION = 1
 class Given(Givens):
     """A trajectory, the current values, the discount, and which returns are asked: pairs of time and n."""
 
-    trajectory: Trajectory
-    values: dict[Name, Exact]
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, Exact] = Field(description="The current value of every state.")
     gamma: Discount
-    asked: tuple[tuple[int, int], ...] = Field(min_length=1, max_length=26)
+    asked: tuple[tuple[int, int], ...] = Field(
+        min_length=1, max_length=26, description="Which returns are asked for, each as [time, n]."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

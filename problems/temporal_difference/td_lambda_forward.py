@@ -22,9 +22,9 @@ REVISION = 1
 class Given(ValueRun):
     """An episode, the values before it, α, γ and λ, and the times whose states are updated."""
 
-    trajectory: Episode
-    lam: OpenProbability
-    asked: tuple[int, ...] = Field(min_length=1)
+    trajectory: Episode = Field(description="The episode.")
+    lam: OpenProbability = Field(description="How much later returns count.")
+    asked: tuple[int, ...] = Field(min_length=1, description="The times whose states are updated.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -58,15 +58,18 @@ class Spelling:
 
     def plain(self, text: str) -> str:
         """A text without mathematics between ``$`` signs."""
-        return text if shows_all(self.encoding) else _spelled(text, self._lacks)
+        return text if shows_all(self.encoding) else _spelled(_apart(text), self._lacks)
 
     def inline(self, text: str) -> str:
         """A text with its mathematics on the same line."""
-        return self.plain(inline(text))
+        return inline(text) if shows_all(self.encoding) else _spelled(_quoted(inline(text)), self._lacks)
 
     def stacked(self, math: Math) -> list[str]:
         """Mathematics on as many lines as its matrices need."""
-        return [self._drawn(line) for line in stacked(math, lambda part: self.plain(unicode(part)))]
+        return [self._drawn(line) for line in stacked(math, self._unicode)]
+
+    def _unicode(self, math: Math) -> str:
+        return unicode(math) if shows_all(self.encoding) else _spelled(_quoted(unicode(math)), self._lacks)
 
     def lines(self, picture: Picture, width: int = 100) -> list[str]:
         """A picture as lines of signs, its labels spelled before they are placed."""
@@ -101,8 +104,17 @@ def _relabelled(value: Any, write: Callable[[str], str]) -> Any:
     return value
 
 
+def _quoted(text: str) -> str:
+    """A text in which all that is spelled like something else stands in quotes."""
+    return _ALIKE.sub(r'"\g<0>"', text)
+
+
+def _apart(text: str) -> str:
+    """The same where something else may stand in the text."""
+    return _quoted(text) if _GREEK.search(text) or _RUNS["_"].search(text) else text
+
+
 def _spelled(text: str, lacks: Callable[[str], bool]) -> str:
-    text = _ALIKE.sub(r'"\g<0>"', text)
     text = re.sub(r" · ", lambda dot: "; " if lacks(dot[0]) else dot[0], text)
     text = re.sub(r"√(\d+|[^\W\d])", lambda root: f"sqrt({root[1]})" if lacks("√") else root[0], text)
     for mark, run in _RUNS.items():

@@ -41,9 +41,14 @@ def test_what_the_encoding_has_stays() -> None:
     ("one", "other"), [("α", "alpha"), ("s₁", "s_1"), ("zürich", "zurich"), ("Γ", "Gamma"), ("é", "è"), ("日", "月")]
 )
 def test_two_names_never_become_one(one: str, other: str) -> None:
-    assert ASCII.plain(one).isascii()
-    assert ASCII.plain(one) != ASCII.plain(other)
+    assert ASCII.inline(one).isascii()
+    assert ASCII.inline(one) != ASCII.inline(other)
     assert ASCII.inline(f'$V("{one}")$') != ASCII.inline(f'$V("{other}")$')
+
+
+def test_what_was_typed_keeps_its_names_where_nothing_is_like_them() -> None:
+    assert ASCII.plain("alpha = 1") == "alpha = 1"
+    assert ASCII.plain("α: 1, alpha: 2") == 'alpha: 1, "alpha": 2'
 
 
 def test_the_labels_of_a_picture_are_spelled_before_they_are_placed() -> None:
