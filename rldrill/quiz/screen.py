@@ -10,6 +10,7 @@ from rich.text import Text
 
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.identity import MAX_SEED
+from rldrill.problems.parts import Kind, Matrix, Numbers, Policy, Values
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.render.terminal import asked, render, renderable, table, words
@@ -60,6 +61,7 @@ class Screen:
     def __init__(self, console: Console, ask: Ask) -> None:
         self._console = console
         self._ask = ask
+        self._pasted: list[str] = []
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -118,9 +120,26 @@ class Screen:
                 return then
         return Then.NEXT
 
+    def _typed(self, prompt: str, kind: Kind) -> str:
+        """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
+        if not isinstance(kind, Matrix | Values | Numbers | Policy):
+            return self._line(prompt)
+        lines = [*self._pasted, *([] if self._pasted else [self._ask(prompt)])]
+        self._pasted = []
+        while sum(line.count("[") - line.count("]") for line in lines) > 0:
+            lines.append(self._ask("... "))
+            if not lines[-1].strip():
+                break
+        return "\n".join(lines)
+
+    def _line(self, prompt: str) -> str:
+        """One line, the next of those that were pasted together, if there are any left."""
+        self._pasted = self._pasted or self._ask(prompt).split("\n")
+        return self._pasted.pop(0)
+
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
         while part.state is State.OPEN:
-            text = self._ask(prompt).strip()
+            text = self._typed(prompt, part.part.kind).strip()
             match text.lower():
                 case "":
                     self._print(Text("  Type an answer, or ? for help.", style="dim"))
@@ -147,7 +166,7 @@ class Screen:
         return Then.NEXT
 
     def _after(self, record: Record) -> Then:
-        text = self._ask("Enter next · w working · v variant · r again · q quit > ").strip().lower()
+        text = self._line("Enter next · w working · v variant · r again · q quit > ").strip().lower()
         if text == "w":
             self._print(render(record.exercise.working()))
             return self._after(record)
