@@ -83,5 +83,5 @@ AngleField = Annotated[
     Angle,
     BeforeValidator(read_angle),
     PlainSerializer(str, return_type=str),
-    WithJsonSchema({"type": ["string", "number"], "description": "a number, or a multiple of pi: 'pi/6'"}),
+    WithJsonSchema({"type": ["string", "number"], "title": "an angle, a number or a multiple of pi such as 'pi/6'"}),
 ]

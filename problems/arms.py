@@ -20,8 +20,12 @@ _DIAGONAL = tuple(map(read_angle, ("pi/4", "pi/2", "3*pi/4", "-pi/4", "-pi/2")))
 class PlanarArm(Givens):
     """The lengths of an arm's links, and its joint angles, each relative to the link before."""
 
-    lengths: tuple[Exact, ...] = Field(min_length=1, max_length=6)
-    angles: tuple[AngleField, ...]
+    lengths: tuple[Exact, ...] = Field(
+        min_length=1, max_length=6, description="The lengths of the links, from the base outwards."
+    )
+    angles: tuple[AngleField, ...] = Field(
+        description="The angle of every joint in radians, counter-clockwise, each relative to the link before."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

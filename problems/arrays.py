@@ -7,6 +7,41 @@ from rldrill.problems.readings import is_zero
 
 _SHAPES = "one number for every state, (S,); for every state and action, (S, A); or shaped like P, (A, S, S)"
 
+#: What a file holds, as JSON Schema.
+SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "description": "The arrays of pymdptoolbox; states and actions are called 0, 1, 2, and so on.",
+    "properties": {
+        "P": {
+            "type": "array",
+            "title": "a list of a square of rows for every action, of shape (A, S, S)",
+            "description": "The probability of every next state, by action and state.",
+            "examples": [[[["1/2", "1/2"], [0, 1]]]],
+        },
+        "R": {
+            "type": "array",
+            "title": "a list of shape (S,), (S, A) or (A, S, S)",
+            "description": "The rewards of states, of their actions, or of all that these lead to.",
+            "examples": [[1, 0]],
+        },
+        "terminal": {
+            "type": "array",
+            "default": [],
+            "title": "a list, each a name",
+            "description": "The states in which an episode ends.",
+            "examples": [[1]],
+        },
+        "story": {
+            "type": "string",
+            "default": "",
+            "description": "A sentence that is printed first.",
+            "examples": ["A robot cleans a corridor."],
+        },
+    },
+    "required": ["P", "R"],
+    "additionalProperties": False,
+}
+
 
 def read_arrays(data: Mapping[str, Any]) -> dict[str, Any]:
     """Arrays P[a][s][s′] and R as the transitions of a model; states and actions are called 0, 1, 2, …

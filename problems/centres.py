@@ -22,8 +22,8 @@ _ROOTS = {2: ((1, 1),), 5: ((1, 2), (2, 1)), 8: ((2, 2),), 10: ((1, 3), (3, 1)),
 class Centred(Givens):
     """A state as its coordinates, and the centres of the features."""
 
-    position: Point = Field(min_length=1, max_length=10)
-    centres: tuple[Point, ...] = Field(min_length=1, max_length=20)
+    position: Point = Field(min_length=1, max_length=10, description="The coordinates of the state.")
+    centres: tuple[Point, ...] = Field(min_length=1, max_length=20, description="The coordinates of every centre.")
 
     @model_validator(mode="after")
     def _one_space(self) -> Self:

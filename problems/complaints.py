@@ -1,7 +1,8 @@
 """What is wrong with the givens of a problem file, as one plain sentence that names the field."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any
 
 from pydantic import ValidationError
@@ -17,7 +18,6 @@ _SAYS = {
     "missing": "is missing; add it",
     "missing_argument": "is missing; add it",
     "unexpected_positional_argument": "is one entry too many; take it out",
-    "extra_forbidden": "is not a field of this family; take it out, or correct its name",
     "model_type": _TABLE,
     "dict_type": _TABLE,
     "tuple_type": _LIST,
@@ -39,23 +39,55 @@ _SAYS = {
 }
 
 
-def sentence(error: ValidationError, *, tagged: bool) -> str:
-    """The first fault, and how many more there are.
+Schema = Mapping[str, Any]
+
+
+def sentence(error: ValidationError, schema: Schema, *, family: str, tagged: bool) -> str:
+    """The first fault, and how many more there are; of a field that does not exist, also the nearest that does.
 
     Args:
         error: what pydantic says.
+        schema: the JSON Schema of the givens.
+        family: the name of their family.
         tagged: whether the givens are a union; then its places begin with a tag, which nobody has written.
     """
-    first, *rest = error.errors()
+    # A field that does not exist explains why another is missing, so it comes first.
+    first, *rest = sorted(error.errors(), key=lambda fault: fault["type"] != "extra_forbidden")
     place = list(first["loc"][tagged:])
     if place[-1:] == ["[key]"]:  # the fault is the name itself
         del place[-2:]
     path = "".join(f"[{step + 1}]" if isinstance(step, int) else f".{_brief(step)}" for step in place)
+    more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
+    if first["type"] == "extra_forbidden":
+        near = nearest(str(place[-1]), _known(schema, schema, place[:-1]))
+        known = f"rldrill.fields('{family}') and 'rldrill fields {family}' list them all"
+        return f"given{path} is not a field{near}; {known}{more}."
     told = _told(first)
     if begun := _PLACE.match(told):  # what a whole model says of one of its fields
         path, told = f"{path}.{begun[1]}", told[begun.end() :]
-    more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
     return f"given{path}: {told}{more}."
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """The one of these that a name was probably meant to be, in brackets; nothing where none is near."""
+    close = get_close_matches(name.lower(), known, n=1, cutoff=0.5) or [each for each in known if each == name.lower()]
+    return f" (did you mean {close[0]}?)" if close else ""
+
+
+def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[str]:
+    """The fields of the table at a place, in any form that it may have."""
+    if "$ref" in schema:
+        return _known(whole, whole["$defs"][schema["$ref"].rpartition("/")[2]], place)
+    forms = [*schema.get("anyOf", ()), *schema.get("oneOf", ())]
+    found = [name for form in forms for name in _known(whole, form, place)]
+    if not place:
+        return [*schema.get("properties", ()), *found]
+    step, *rest = place
+    if isinstance(step, int):
+        inner = schema.get("items")
+    else:
+        inner = schema.get("properties", {}).get(step, schema.get("additionalProperties"))
+    return [*found, *(_known(whole, inner, rest) if isinstance(inner, dict) else ())]
 
 
 def _told(fault: Mapping[str, Any]) -> str:

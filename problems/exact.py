@@ -223,7 +223,10 @@ def _discounts(value: object) -> Scalar | tuple[Scalar, ...]:
 
 
 _serialised = PlainSerializer(write, return_type=str)
-_schema = WithJsonSchema({"type": ["string", "number"], "description": "an exact number: 3, 0.75 or '3/4'"})
+
+
+def _schema(title: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": ["string", "number"], "title": title, "description": "exact: 3, 0.75 or '3/4'"})
 
 
 def _field(read: Any, *checks: Any) -> Any:
@@ -238,36 +241,50 @@ def _field(read: Any, *checks: Any) -> Any:
     return BeforeValidator(validate)
 
 
+_OR_OPEN = " or a parameter left open"
+
 #: An exact number in a problem's givens.
-Exact = Annotated[Fraction, _field(read_fraction), _serialised, _schema]
+Exact = Annotated[Fraction, _field(read_fraction), _serialised, _schema("a number")]
 #: An exact number, or a parameter left open.
-Open = Annotated[Fraction | Parameter, _field(read_scalar), _serialised, _schema]
+Open = Annotated[Fraction | Parameter, _field(read_scalar), _serialised, _schema(f"a number{_OR_OPEN}")]
 #: A probability, 0 to 1.
-Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialised, _schema]
-OpenProbability = Annotated[Fraction | Parameter, _field(read_scalar, _probability), _serialised, _schema]
+Probability = Annotated[Fraction, _field(read_fraction, _probability), _serialised, _schema("a number from 0 to 1")]
+OpenProbability = Annotated[
+    Fraction | Parameter,
+    _field(read_scalar, _probability),
+    _serialised,
+    _schema(f"a number from 0 to 1{_OR_OPEN}"),
+]
 #: A discount γ, 0 to 1, or left open.
-Discount = OpenProbability
+Discount = Annotated[OpenProbability, Field(description="The discount.", examples=["9/10"])]
 #: A discount for the whole run, or a list with one for each of its steps.
 Discounts = Annotated[
     Fraction | Parameter | tuple[Fraction | Parameter, ...],
     BeforeValidator(_discounts),
     PlainSerializer(lambda value: [*map(write, value)] if isinstance(value, tuple) else write(value)),
-    WithJsonSchema({"type": ["string", "number", "array"]}),
-    Field(description="the discount; or a list with one for every step, the first for all after the first reward"),
+    WithJsonSchema(
+        {"type": ["string", "number", "array"], "title": f"a number from 0 to 1{_OR_OPEN}, or a list of these"}
+    ),
+    Field(description="The discount, or a list with one for every step; the first for all after the first reward."),
 ]
 #: A weight of a policy, whose exponential may be a whole number: ``ln 2``.
 WeightField = Annotated[
     Fraction | Parameter | Logarithm,
     _field(read_weight),
     _serialised,
-    WithJsonSchema({"type": ["string", "number"], "description": "an exact number, or the logarithm of one: 'ln 2'"}),
+    _schema(f"a number, the logarithm of one such as 'ln 2'{_OR_OPEN.replace(' or', ', or')}"),
 ]
 #: A step size α, above 0 and at most 1, or left open.
-StepSize = Annotated[Fraction | Parameter, _field(read_scalar, _rate), _serialised, _schema]
+StepSize = Annotated[
+    Fraction | Parameter,
+    _field(read_scalar, _rate),
+    _serialised,
+    _schema(f"a number above 0 and at most 1{_OR_OPEN}"),
+]
 #: A width σ, whose square is what counts: ``sqrt(3/2)``.
 WidthField = Annotated[
     Fraction | Parameter | Root,
     _field(read_width),
     _serialised,
-    WithJsonSchema({"type": ["string", "number"], "description": "an exact number, or a square root: 'sqrt(3/2)'"}),
+    _schema(f"a number, a square root such as 'sqrt(3/2)'{_OR_OPEN.replace(' or', ', or')}"),
 ]

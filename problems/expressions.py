@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, WithJsonSchema
 
 from rldrill.problems import mathematics as maths
 from rldrill.problems import notation
@@ -85,7 +85,9 @@ def _expression(text: str) -> str:
 
 
 #: The text of an expression, in a problem's givens.
-Expression = Annotated[str, AfterValidator(_expression)]
+Expression = Annotated[
+    str, AfterValidator(_expression), WithJsonSchema({"type": "string", "title": "an expression such as -g sin(θ)/l"})
+]
 
 
 @lru_cache(maxsize=1024)

@@ -8,6 +8,8 @@ from types import ModuleType
 from typing import Any, get_args
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+from pydantic.json_schema import GenerateJsonSchema
+from pydantic_core import to_jsonable_python
 
 from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
@@ -115,11 +117,39 @@ class Family:
         try:
             return self._reader.validate_python(given, context=note)
         except ValidationError as error:
-            raise FileError(sentence(error, tagged=len(self.kinds) > 1)) from None
+            tagged = len(self.kinds) > 1
+            raise FileError(sentence(error, self.schema(), family=self.name, tagged=tagged)) from None
+
+    def schema(self) -> dict[str, Any]:
+        """The JSON Schema of what a file gives."""
+        return self._reader.json_schema(schema_generator=_SchemaWriter)
 
     @cached_property
     def _reader(self) -> TypeAdapter[Givens]:
         return TypeAdapter(self.given)
+
+
+class _SchemaWriter(GenerateJsonSchema):
+    """Writes exact numbers as files have them; a title is what a value is called, an entry's description its name."""
+
+    def field_title_should_be_set(self, _schema: Any) -> bool:
+        """Nothing is called by the name of its field."""
+        return False
+
+    def encode_default(self, dft: Any) -> Any:
+        """A default as files have it."""
+        return to_jsonable_python(dft, fallback=str)
+
+    def named_tuple_schema(self, schema: Any) -> dict[str, Any]:
+        """The entries of a row, each with its name."""
+        row = super().named_tuple_schema(schema)
+        for entry, field in zip(row["prefixItems"], schema["fields"], strict=True):
+            entry["description"] = field["name"]
+        return row
+
+    def dict_schema(self, schema: Any) -> dict[str, Any]:
+        """A table of names, whose values keep what they are called."""
+        return super().dict_schema(schema) | {"additionalProperties": self.generate_inner(schema["values_schema"])}
 
 
 def _demanded(module: ModuleType, name: str) -> Any:

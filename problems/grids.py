@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from rldrill.problems.complaints import nearest
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.readings import Note
 
@@ -20,35 +21,55 @@ Cell = tuple[int, int]
 
 
 class Grid(BaseModel):
-    """A grid world.
-
-    Args:
-        grid: the cells, a line for every row: ``.`` is free, ``#`` a wall, anything else a cell with a name.
-        rewards: what a cell of that name earns.
-        rewards_on: whether a reward is earned on entering the cell or on leaving it, as the textbooks' R(s) is.
-        step: what every move earns besides.
-        bump: what a move against a wall or the edge earns besides.
-        slip: the probability to go at a right angle to the move, half of it to either side.
-        ends: the names of the cells in which an episode ends; those with rewards, if not given.
-        exit: whether an end is left by the one action there, ``exit``, which earns its reward (and no ``step``) and
-            ends the episode; it is where rewards are earned on leaving. Else entering an end ends the episode.
-        returns: for cells of that name, the name of the cell that entering them leads to; where rewards are earned
-            on leaving, that every move from them leads to.
-        story: what the question says first.
-    """
+    """A grid world drawn as text; a cell is called by row and column, ``r1c3``."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    grid: str = Field(min_length=1, max_length=5000)
-    rewards: dict[str, Exact] = {}
-    rewards_on: Literal["entering", "leaving"] = "entering"
-    step: Exact = Fraction(0)
-    bump: Exact = Fraction(0)
-    slip: Probability = Fraction(0)
-    ends: tuple[str, ...] | None = None
-    exit: bool | None = None
-    returns: dict[str, str] = {}
-    story: str = ""
+    grid: str = Field(
+        min_length=1,
+        max_length=5000,
+        description="The cells, a line a row: . is free, # a wall, any other sign a cell of that name.",
+        examples=["..G\n.#T\n..."],
+    )
+    rewards: dict[str, Exact] = Field(
+        default={}, description="What a cell of that name earns.", examples=[{"G": 10, "T": -5}]
+    )
+    rewards_on: Literal["entering", "leaving"] = Field(
+        default="entering",
+        description="Whether a reward is earned on entering the cell, or on leaving it as the textbooks' R(s) is.",
+    )
+    step: Exact = Field(default=Fraction(0), description="What every move earns besides.", examples=[-1])
+    bump: Exact = Field(
+        default=Fraction(0), description="What a move against a wall or the edge earns besides.", examples=[-1]
+    )
+    slip: Probability = Field(
+        default=Fraction(0),
+        description="The probability to go at a right angle to the move, half of it to either side.",
+        examples=["1/5"],
+    )
+    ends: tuple[str, ...] | None = Field(
+        default=None,
+        description="The names of the cells in which an episode ends; without it, those with rewards.",
+        examples=[["G", "T"]],
+    )
+    exit: bool | None = Field(
+        default=None,
+        description=(
+            "Whether an end is left by the one action there, exit, which earns its reward, without step, and ends the "
+            "episode; without it, where rewards are earned on leaving. Else entering an end ends the episode."
+        ),
+    )
+    returns: dict[str, str] = Field(
+        default={},
+        description=(
+            "For cells of that name, the name of the cell that entering them leads to; where rewards are earned on "
+            "leaving, that every move from them leads to."
+        ),
+        examples=[{"T": "G"}],
+    )
+    story: str = Field(
+        default="", description="A sentence that is printed first.", examples=["A robot cleans a corridor."]
+    )
 
     @property
     def exits(self) -> bool:
@@ -155,5 +176,7 @@ def read_grid(data: Mapping[str, Any], note: Note) -> dict[str, Any]:
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
+        if first["type"] == "extra_forbidden":
+            raise ValueError(f"{where} is not a field of a grid{nearest(where, tuple(Grid.model_fields))}") from None
         raise ValueError(f"{where}: {str(first['msg']).removeprefix('Value error, ')}") from None
     return {"transitions": transitions, "terminal": terminal, "story": grid.told()}

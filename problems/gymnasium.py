@@ -8,6 +8,45 @@ from rldrill.problems.readings import is_zero
 _ENTRY = "[probability, next state, reward, whether the episode ends]"
 
 
+#: What a file holds, as JSON Schema.
+SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "description": "A toy-text environment of gymnasium, where gymnasium is installed.",
+    "properties": {
+        "gymnasium": {
+            "type": "string",
+            "description": "The ID of the environment.",
+            "examples": ["FrozenLake-v1"],
+        },
+        "options": {
+            "type": "object",
+            "default": {},
+            "title": "a table",
+            "description": "What the environment is made with.",
+            "examples": [{"is_slippery": True}],
+        },
+    },
+    "required": ["gymnasium"],
+    "additionalProperties": False,
+}
+
+#: The same of a table that is written out.
+TABLE_SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "description": "Gymnasium's table P, written out.",
+    "properties": {
+        "P": {
+            "type": "object",
+            "title": f"a table, for every state a table, for every action a list, each {_ENTRY}",
+            "description": "What every action may lead to in every state.",
+            "examples": [{"0": {"0": [["1/2", 0, 0, False], ["1/2", 1, 1, True]]}}],
+        },
+    },
+    "required": ["P"],
+    "additionalProperties": False,
+}
+
+
 def read_environment(data: Mapping[str, Any]) -> dict[str, Any]:
     """The table ``P`` of an environment as the transitions of a model.
 

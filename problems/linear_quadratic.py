@@ -51,7 +51,11 @@ class Discounted(Givens):
     """What a quadratic cost may have beside Q and R."""
 
     gamma: Probability = Field(
-        default=Fraction(1), gt=0, exclude_if=lambda gamma: gamma == 1, description="the discount; 1 if left out"
+        default=Fraction(1),
+        gt=0,
+        exclude_if=lambda gamma: gamma == 1,
+        description="The discount, above 0.",
+        examples=["9/10"],
     )
 
 
@@ -61,8 +65,8 @@ class Conventional(Discounted):
     convention: Convention = Field(
         default="value",
         exclude_if=lambda convention: convention == "value",
-        description="value: rewards, V(s) = sᵀPs with P negative, a = −Ls; cost-to-go: costs, sᵀSs with S positive, "
-        "a = −Ls; xuKP: costs, xᵀPx with P positive, u = −Kx",
+        description="In whose letters; value: rewards, V(s) = sᵀPs with P negative, a = −Ls; cost-to-go: costs, sᵀSs "
+        "with S positive, a = −Ls; xuKP: costs, xᵀPx with P positive, u = −Kx.",
     )
 
     @property
@@ -78,16 +82,28 @@ class LinearQuadratic(Discounted):
     time: A, B and N for 0 to horizon − 1, Q and R for 0 to horizon.
     """
 
-    A: MatricesField
-    B: MatricesField
-    Q: MatricesField
-    R: OpenMatricesField
-    N: MatricesField | None = Field(
-        default=None, description="the cross term: the cost has 2 sᵀNa, too, before the horizon; none if left out"
+    A: MatricesField = Field(
+        description="How the state moves by itself, the same at all times or one for each from 0 to horizon − 1."
     )
-    Q_T: MatrixField | None = Field(default=None, description="Q at the horizon; as before it, if left out")
-    start: tuple[Exact, ...] = Field(min_length=1, max_length=6)
-    horizon: int = Field(ge=1, le=_EFFORT)
+    B: MatricesField = Field(
+        description="How the action moves the state, the same at all times or one for each from 0 to horizon − 1."
+    )
+    Q: MatricesField = Field(
+        description="The cost of states, the same at all times or one for each from 0 to the horizon."
+    )
+    R: OpenMatricesField = Field(
+        description="The cost of actions, the same at all times or one for each from 0 to the horizon."
+    )
+    N: MatricesField | None = Field(
+        default=None,
+        description="The cross term: the cost has 2 sᵀNa, too, before the horizon; none if left out.",
+        examples=[[["1/2"]]],
+    )
+    Q_T: MatrixField | None = Field(
+        default=None, description="The cost of states at the horizon; as before it, if left out.", examples=[[[2]]]
+    )
+    start: tuple[Exact, ...] = Field(min_length=1, max_length=6, description="The first state.")
+    horizon: int = Field(ge=1, le=_EFFORT, description="The last time.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

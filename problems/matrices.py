@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from rldrill.problems.exact import Exact, Open, Scalar, shown
 from rldrill.problems.mathematics import Math, Tabular, mathematics, number
@@ -50,10 +50,19 @@ def _all_even(series: tuple[Rows, ...]) -> tuple[Rows, ...]:
 
 _Exact = Annotated[tuple[tuple[Exact, ...], ...], BeforeValidator(_rows)]
 _Open = Annotated[tuple[tuple[Open, ...], ...], BeforeValidator(_rows)]
-MatrixField = Annotated[_Exact, AfterValidator(_even)]
+_MATRIX: dict[str, Any] = {
+    "title": "a matrix, as a list of rows (a number, if it is 1×1)",
+    "type": ["array", "number", "string"],
+}
+_BY_TIME = _MATRIX | {"title": "a matrix, as a list of rows, or a list of matrices"}
+MatrixField = Annotated[_Exact, AfterValidator(_even), WithJsonSchema(_MATRIX)]
 #: Matrices by time; a single one holds at all times.
-MatricesField = Annotated[tuple[_Exact, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]
-OpenMatricesField = Annotated[tuple[_Open, ...], BeforeValidator(_by_time), AfterValidator(_all_even)]
+MatricesField = Annotated[
+    tuple[_Exact, ...], BeforeValidator(_by_time), AfterValidator(_all_even), WithJsonSchema(_BY_TIME)
+]
+OpenMatricesField = Annotated[
+    tuple[_Open, ...], BeforeValidator(_by_time), AfterValidator(_all_even), WithJsonSchema(_BY_TIME)
+]
 
 
 def check_shape(name: str, matrix: Rows, rows: int, columns: int, where: str = "") -> None:

@@ -3,15 +3,44 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from rldrill.problems.arrays import read_arrays
+from rldrill.problems import arrays, gymnasium
 from rldrill.problems.exact import read_scalar
 from rldrill.problems.grids import read_grid
-from rldrill.problems.gymnasium import read_environment, read_table
 from rldrill.problems.readings import Note
 
 #: The one action of a process without actions.
 ALONE = "step"
 _ROW = "[state, action, next, probability, reward]"
+
+_REWARDS_SCHEMA = {
+    "type": "object",
+    "description": "Transitions without rewards, and beside them the rewards of states or of their actions.",
+    "properties": {
+        "transitions": {
+            "type": "array",
+            "title": "a list, each [state, action, next, probability], or [state, next, probability] without actions",
+            "description": "The transitions; those of a state and action have probabilities that sum to 1.",
+            "examples": [[["low", "wait", "low", 1]]],
+        },
+        "rewards": {
+            "type": "object",
+            "title": "a table, for every state a number, or a table of its actions with a number for each",
+            "description": "What is earned in every state, or by every action there.",
+            "examples": [{"low": 1}],
+        },
+        "rewards_on": {
+            "enum": ["leaving", "entering"],
+            "default": "leaving",
+            "description": "Whether the reward of a state is earned by what is done there, or by coming there.",
+        },
+        "terminal": arrays.SCHEMA["properties"]["terminal"],
+        "story": arrays.SCHEMA["properties"]["story"],
+    },
+    "required": ["transitions", "rewards"],
+    "additionalProperties": False,
+}
+#: The forms but for the list of transitions and the grid, as JSON Schema.
+SCHEMAS = (_REWARDS_SCHEMA, arrays.SCHEMA, gymnasium.TABLE_SCHEMA, gymnasium.SCHEMA)
 
 
 def read_form(data: object, note: Note) -> object:
@@ -37,7 +66,7 @@ def read_form(data: object, note: Note) -> object:
 
 
 def _read_P(data: Mapping[str, Any]) -> dict[str, Any]:
-    return read_table(data) if isinstance(data["P"], Mapping) else read_arrays(data)
+    return gymnasium.read_table(data) if isinstance(data["P"], Mapping) else arrays.read_arrays(data)
 
 
 def _read_transitions(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -129,7 +158,7 @@ def _earned(paid: Mapping[str, Any], state: str, action: str) -> Any:
 
 
 _FORMS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
-    "gymnasium": read_environment,
+    "gymnasium": gymnasium.read_environment,
     "P": _read_P,
     "rewards": _read_rewards,
     "transitions": _read_transitions,

@@ -4,16 +4,19 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, NamedTuple, Self, TypeVar
+from typing import Annotated, Any, NamedTuple, Self, TypeVar
 
 from pydantic import (
     AfterValidator,
     BeforeValidator,
     Field,
+    GetJsonSchemaHandler,
     ValidationInfo,
+    WithJsonSchema,
     field_validator,
     model_validator,
 )
+from pydantic_core import CoreSchema
 
 from rldrill.problems.document import Beside, Block, Paragraph, Table, joined
 from rldrill.problems.exact import (
@@ -26,7 +29,8 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
-from rldrill.problems.model_forms import ALONE, read_form
+from rldrill.problems.grids import Grid
+from rldrill.problems.model_forms import ALONE, SCHEMAS, read_form
 from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
@@ -41,7 +45,7 @@ _MOST_STATES = 1024
 
 
 #: The name of a state, an action or a hypothesis.
-Name = Annotated[str, BeforeValidator(read_name)]
+Name = Annotated[str, BeforeValidator(read_name), WithJsonSchema({"type": ["string", "integer"], "title": "a name"})]
 
 
 class Transition(NamedTuple):
@@ -57,7 +61,9 @@ class Transition(NamedTuple):
 class Dynamics(Givens):
     """Where actions lead from some states; nothing is said about the states that they lead to."""
 
-    transitions: tuple[Transition, ...] = Field(min_length=1)
+    transitions: tuple[Transition, ...] = Field(
+        min_length=1, description="The transitions; those of a state and action have probabilities that sum to 1."
+    )
 
     @field_validator("transitions")
     @classmethod
@@ -109,8 +115,18 @@ class Model(Dynamics):
     is called terminal, those are that are reached and have no action.
     """
 
-    terminal: tuple[Name, ...] = Field(default=(), validate_default=True)
-    story: str = Field(default="", max_length=400, pattern=r"^[^$\\]*$")
+    terminal: tuple[Name, ...] = Field(
+        default=(),
+        validate_default=True,
+        description="The states in which an episode ends; without it, those that are reached and have no action.",
+    )
+    story: str = Field(
+        default="", max_length=400, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"anyOf": [handler(core), handler(Grid.__pydantic_core_schema__), *SCHEMAS]}
 
     @model_validator(mode="before")
     @classmethod
@@ -173,7 +189,7 @@ def _both(first: Transition, second: Transition) -> Transition:
 #: A Markov decision process, or a Markov reward process, which has no actions.
 Process = Annotated[
     Model,
-    Field(description="the model; rows of state, next state, probability and reward are a process without actions"),
+    Field(description="The model; rows of state, next state, probability and reward are a process without actions."),
 ]
 
 
@@ -270,7 +286,13 @@ def _uniform(actions: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Scalar
     return {state: {action: Fraction(1, len(list(row))) for action in row} for state, row in actions.items()}
 
 
-PolicyField = Annotated[dict[Name, OpenDistributionField], BeforeValidator(read_policy)]
+PolicyField = Annotated[
+    dict[Name, OpenDistributionField],
+    BeforeValidator(read_policy),
+    WithJsonSchema(
+        {"type": "object", "title": "a table: for every state its action, or the probabilities of its actions"}
+    ),
+]
 
 
 def equiprobable(model: Dynamics) -> dict[str, dict[str, Scalar]]:
@@ -302,8 +324,10 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
 class ModelAndPolicy(Givens):
     """A model, a policy and the discount; without a policy every action is equally probable."""
 
-    mdp: Model
-    policy: PolicyField | None = None
+    mdp: Model = Field(description="The Markov decision process.")
+    policy: PolicyField | None = Field(
+        default=None, description="The policy; without it every action is equally probable (equiprobable)."
+    )
     gamma: Discount
 
     @model_validator(mode="after")
@@ -321,8 +345,8 @@ class ModelAndPolicy(Givens):
 class Lookahead(Givens):
     """What the actions of one state do, the values of the next states and the discount."""
 
-    dynamics: Dynamics
-    values: dict[Name, Open] = Field(min_length=1)
+    dynamics: Dynamics = Field(description="What the actions of the state do.")
+    values: dict[Name, Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
 
     @model_validator(mode="after")

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from rldrill.problems import mathematics as maths
 from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, shown
@@ -21,7 +21,9 @@ from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import Math, mathematics, row, variable
 from rldrill.problems.pictures import Arm, Pendulum, Picture
 
-Letter = Annotated[str, AfterValidator(letter)]
+Letter = Annotated[
+    str, AfterValidator(letter), WithJsonSchema({"type": "string", "title": "a letter such as θ or x_1"})
+]
 
 
 def _positive(step: Fraction) -> Fraction:
@@ -48,19 +50,34 @@ class System(Givens):
     angle θ from hanging down, an arm by the angles θ_1 and θ_2 of its links and their lengths l_1 and l_2.
     """
 
-    dynamics: dict[Letter, Expression] = Field(min_length=1, max_length=6)
-    where: dict[Letter, Expression] = Field(default_factory=dict, max_length=8)
-    constants: dict[Letter, Exact] = Field(default_factory=dict)
-    state: dict[Letter, AngleField]
-    action: dict[Letter, AngleField] = Field(min_length=1, max_length=4)
-    step: Annotated[Exact, AfterValidator(_positive)] | None = None
+    dynamics: dict[Letter, Expression] = Field(
+        min_length=1, max_length=6, description="For every letter of the state its rate of change."
+    )
+    where: dict[Letter, Expression] = Field(
+        default_factory=dict,
+        max_length=8,
+        description="Parts of these expressions by their letters, each in terms of those before it.",
+        examples=[{"D": "m_c + m_p sin(θ)^2"}],
+    )
+    constants: dict[Letter, Exact] = Field(default_factory=dict, description="The value of every constant.")
+    state: dict[Letter, AngleField] = Field(
+        description="The value of every letter of the state at the operating point."
+    )
+    action: dict[Letter, AngleField] = Field(
+        min_length=1, max_length=4, description="The value of every letter of the action at the operating point."
+    )
+    step: Annotated[Exact, AfterValidator(_positive)] | None = Field(
+        default=None,
+        description="The time step in seconds, above 0; without it the system stays continuous.",
+        examples=["1/10"],
+    )
     discretisation: Literal["euler", "zero-order hold"] = Field(
         default="euler",
         exclude_if=lambda discretisation: discretisation == "euler",
-        description="how a step is made: s + Δt f(s, a), or exactly by the linearised rates while the action is held",
+        description="How a step is made: s + Δt f(s, a), or exactly by the linearised rates while the action is held.",
     )
-    story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$")
-    picture: Look | None = None
+    story: str = Field(default="", max_length=500, pattern=r"^[^\\]*$", description="A sentence that is printed first.")
+    picture: Look | None = Field(default=None, description="What is drawn at the operating point.")
 
     @model_validator(mode="after")
     def _closed(self) -> Self:

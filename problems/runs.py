@@ -29,10 +29,20 @@ CUT_OFF = "take it out of terminal if the run was only cut off there"
 class Trajectory(Givens):
     """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
 
-    states: tuple[Name, ...] = Field(min_length=2)
-    actions: tuple[Name, ...] = ()
-    rewards: tuple[Exact, ...] = Field(min_length=1)
-    terminal: tuple[Name, ...] = ()
+    states: tuple[Name, ...] = Field(
+        min_length=2, description="The states in the order of the visits, the last one included."
+    )
+    actions: tuple[Name, ...] = Field(
+        default=(),
+        description="The actions taken in them; some methods need them, and the last state's too.",
+        examples=[["left", "right"]],
+    )
+    rewards: tuple[Exact, ...] = Field(min_length=1, description="The reward after every state but the last.")
+    terminal: tuple[Name, ...] = Field(
+        default=(),
+        description="The states in which an episode ends.",
+        examples=[["end"]],
+    )
 
     @model_validator(mode="after")
     def _consistent(self) -> "Trajectory":
@@ -98,7 +108,7 @@ Replacing = Annotated[
     bool,
     Field(
         exclude_if=lambda replacing: not replacing,
-        description="whether traces are replacing: a visit sets the trace to 1, instead of adding 1 to what is left",
+        description="Whether traces are replacing: a visit sets the trace to 1, instead of adding 1 to what is left.",
     ),
 ]
 
@@ -124,16 +134,18 @@ class ActionMove(NamedTuple):
 #: Whether the TD errors are asked for, too.
 AskErrors = Annotated[
     bool,
-    Field(exclude_if=lambda asked: not asked, description="whether the TD error of every transition is asked for, too"),
+    Field(
+        exclude_if=lambda asked: not asked, description="Whether the TD error of every transition is asked for, too."
+    ),
 ]
 
 
 class ValueRun(Givens):
     """A run, the state values before it, the step size and the discount."""
 
-    trajectory: Trajectory
-    values: dict[Name, Exact]
-    alpha: StepSize
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, Exact] = Field(description="The value of every state before the run.")
+    alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
     @model_validator(mode="after")
@@ -164,11 +176,16 @@ class ValueMoves(Givens):
     transitions: tuple[StateMove, ...] = Field(
         min_length=1,
         max_length=300,
-        description="transitions in the order of their updates: rows of state, next state and reward",
+        description="Transitions in the order of their updates: rows of state, next state and reward.",
+        examples=[[["A", "B", 1], ["B", "end", 2]]],
     )
-    terminal: tuple[Name, ...] = ()
-    values: dict[Name, Exact]
-    alpha: StepSize
+    terminal: tuple[Name, ...] = Field(
+        default=(), description="The states in which an episode ends.", examples=[["end"]]
+    )
+    values: dict[Name, Exact] = Field(
+        description="The value of every state before the transitions.", examples=[{"A": 0, "B": 1}]
+    )
+    alpha: StepSize = Field(description="The step size.", examples=["1/2"])
     gamma: Discount
 
     @model_validator(mode="after")
@@ -195,9 +212,12 @@ class ValueMoves(Givens):
 class ActionRun(Givens):
     """A run with its actions, the action values before it, the step size and the discount."""
 
-    trajectory: Trajectory
-    values: dict[Name, dict[Name, Exact]]
-    alpha: StepSize
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, dict[Name, Exact]] = Field(
+        description="For every state the values of its actions before the run.",
+        examples=[{"A": {"left": 0, "right": 1}}],
+    )
+    alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
     @model_validator(mode="after")
@@ -252,12 +272,18 @@ class ActionMoves(Givens):
     transitions: tuple[ActionMove, ...] = Field(
         min_length=1,
         max_length=300,
-        description="transitions in the order of their updates: rows of state, action, next state and reward, and for "
-        "Sarsa the next action",
+        description="Transitions in the order of their updates: rows of state, action, next state and reward, and for "
+        "Sarsa the next action.",
+        examples=[[["A", "left", "B", 1, "right"], ["B", "right", "end", 2]]],
     )
-    terminal: tuple[Name, ...] = ()
-    values: dict[Name, dict[Name, Exact]]
-    alpha: StepSize
+    terminal: tuple[Name, ...] = Field(
+        default=(), description="The states in which an episode ends.", examples=[["end"]]
+    )
+    values: dict[Name, dict[Name, Exact]] = Field(
+        description="For every state the values of its actions before the transitions.",
+        examples=[{"A": {"left": 0}, "B": {"right": 1}}],
+    )
+    alpha: StepSize = Field(description="The step size.", examples=["1/2"])
     gamma: Discount
 
     @model_validator(mode="after")

@@ -28,9 +28,9 @@ from rldrill.problems.settings import draw_setting
 class SoftmaxRun(Givens):
     """A run of an agent, its weights before it, and the features of the actions in every state that it leaves."""
 
-    trajectory: Trajectory
-    features: ActionFeatures
-    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20)
+    trajectory: Trajectory = Field(description="What the agent did.")
+    features: ActionFeatures = Field(description="For every state that is left the features of its actions.")
+    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights before the run.")
     gamma: Discount
 
     @model_validator(mode="after")

@@ -22,9 +22,9 @@ def in_place(states: tuple[str, ...]) -> str:
 class Sweeps(Givens):
     """A model, how many sweeps, and the values to start from (0 where none are given)."""
 
-    mdp: Model
-    sweeps: int = Field(ge=1, le=1000)
-    start: dict[Name, Exact] | None = None
+    mdp: Model = Field(description="The Markov decision process.")
+    sweeps: int = Field(ge=1, le=1000, description="How many sweeps.")
+    start: dict[Name, Exact] | None = Field(default=None, description="The values to start from; 0 without them.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -1,7 +1,8 @@
 """rldrill drills the formulas of Reinforcement Learning and Robot Learning.
 
-The library behind the commands: ``families`` names what there is; ``draw`` and ``load`` give an ``Exercise``,
-which can be shown, solved, checked and graded. Nothing heavy is imported before one of them is used.
+The library behind the commands: ``families`` names what there is, ``fields`` what a problem file holds; ``draw`` and
+``load`` give an ``Exercise``, which can be shown, solved, checked and graded. Nothing heavy is imported before one of
+them is used.
 """
 
 from importlib import import_module
@@ -12,11 +13,13 @@ if TYPE_CHECKING:
     from rldrill.graded import Graded, GradedPart
     from rldrill.problems.catalogue import families
     from rldrill.problems.errors import UserError
+    from rldrill.problems.fields import FileField, fields
     from rldrill.solutions.answers.judging import Outcome, Verdict
 
 __version__ = "0.1.0"
 __all__ = [
     "Exercise",
+    "FileField",
     "Graded",
     "GradedPart",
     "Outcome",
@@ -24,6 +27,7 @@ __all__ = [
     "Verdict",
     "draw",
     "families",
+    "fields",
     "load",
     "read",
 ]
@@ -33,6 +37,7 @@ _HOMES = {
     "graded": ("Graded", "GradedPart"),
     "problems.catalogue": ("families",),
     "problems.errors": ("UserError",),
+    "problems.fields": ("FileField", "fields"),
     "solutions.answers.judging": ("Outcome", "Verdict"),
 }
 

@@ -3,11 +3,13 @@
 import os
 import signal
 import sys
+from codecs import register_error
 from io import TextIOWrapper
+from typing import IO
 
 import typer
 
-from rldrill.commands import audit, generate, list_, quiz, sheet, show, solve, verify, worksheet
+from rldrill.commands import audit, fields, generate, list_, quiz, sheet, show, solve, verify, worksheet
 from rldrill.problems.errors import BrokenFamily, UserError
 
 INTERNAL_ERROR = 70
@@ -21,7 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
-for module in (quiz, worksheet, verify, solve, show, sheet, list_, generate, audit):
+for module in (quiz, worksheet, verify, solve, show, sheet, list_, fields, generate, audit):
     app.command(module.NAME)(module.command)
 
 
@@ -39,13 +41,14 @@ def version(
 
 def main() -> None:
     """Run a command; whatever goes wrong ends in one sentence and the exit code that belongs to it."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a terminal without Unicode gets question marks, not an error
+    _open_streams()
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # when nobody reads on, end quietly as every Unix tool does
     try:
-        app()
+        try:
+            app()
+        finally:
+            sys.stdout.flush()  # a full disk is told here, not by the interpreter when it ends
     except UserError as error:
         fail(str(error), error.exit_code)
     except BrokenFamily as error:
@@ -53,6 +56,7 @@ def main() -> None:
     except OSError as error:
         if error.filename is None and error.errno is None:
             raise
+        sys.stdout = _nowhere("w")  # what cannot be written is not tried again
         fail(f"{error.filename or 'The system'}: {(error.strerror or str(error)).lower()}.", 3)
     except Exception as error:
         if "RLDRILL_DEBUG" in os.environ:
@@ -62,6 +66,28 @@ def main() -> None:
             "ran; RLDRILL_DEBUG=1 shows where.",
             INTERNAL_ERROR,
         )
+
+
+def _open_streams() -> None:
+    """Stand in for streams that are closed, and let the others spell the signs that they lack."""
+    register_error("rldrill", _spelled)
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, _nowhere(mode))
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="rldrill")
+
+
+def _nowhere(mode: str) -> IO[str]:
+    """A stream that is always empty and takes everything."""
+    return os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8")
+
+
+def _spelled(error: UnicodeError) -> tuple[str, int]:
+    from rldrill.render.encodable import replaced
+
+    return replaced(error)
 
 
 def fail(sentence: str, code: int) -> None:

@@ -26,7 +26,7 @@ from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.exact import NoSolution, TooLong
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
@@ -279,6 +279,8 @@ def read(data: object, where: str = "the problem") -> Exercise:
         return Exercise(solve_problem(problem), tuple(dict.fromkeys(notes)))
     except FileError as error:
         raise FileError(f"{where}: {error}") from None
+    except TooLong as error:
+        raise FileError(f"{where}: {error}.") from None
     except NoSolution as error:
         raise FileError(f"{where}: this problem has no answer: {error}.") from None
 

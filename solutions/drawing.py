@@ -60,8 +60,9 @@ def _drawn(family: Family, level: int, rng: Draws) -> Givens:
     try:
         return family.draw(level, rng)
     except ValidationError as error:
+        said = sentence(error, family.schema(), family=family.name, tagged=False)
         raise BrokenFamily(
-            f"{family.name}: 'draw' makes givens of level {level} that 'Given' refuses: {sentence(error, tagged=False)}"
+            f"{family.name}: 'draw' makes givens of level {level} that 'Given' refuses: {said}"
         ) from None
 
 

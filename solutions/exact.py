@@ -17,11 +17,14 @@ from rldrill.solutions.rational import RationalFunction, generator
 from rldrill.solutions.value import NoSolution as NoSolution
 from rldrill.solutions.value import NotGiven as NotGiven
 from rldrill.solutions.value import NotReal as NotReal
+from rldrill.solutions.value import TooLong as TooLong
 from rldrill.solutions.value import Value as Value
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
 _HALF = arb(1) / 2
+#: A power of e with a larger exponent is as long as that exponent, not as what is written of it.
+_FARTHEST = 10**6
 _PRECISIONS = (64, 256, 1024)  # in bits
 
 
@@ -108,6 +111,23 @@ def enclosure(value: Value, at: fmpq | None = None) -> arb:
 
 enclosure.register(fmpq, lambda value, _=None: arb(value))
 enclosure.register(RationalFunction, lambda value, at=None: arb(value(at)))
+
+
+@singledispatch
+def length(_value: Any) -> int:
+    """How many binary digits the longest whole number has that stands in a value; 0 for what is no number."""
+    return 0
+
+
+length.register(fmpq, fmpq.height_bits)
+length.register(RationalFunction, lambda value: max(map(length, value.coefficients), default=0))
+
+
+@length.register(sympy.Expr)
+def _(value: sympy.Expr) -> int:
+    exponents = (abs(each.args[0]) for each in value.atoms(sympy.exp) if each.args[0].is_Rational)
+    far = (int(exponent) for exponent in exponents if exponent > _FARTHEST)
+    return max((*far, *(length(fraction(number)) for number in value.atoms(sympy.Rational))), default=0)
 
 
 @singledispatch

@@ -32,5 +32,9 @@ class NotGiven(LookupError):
     """A formula asks for something that the problem does not give."""
 
 
+class TooLong(NoSolution):
+    """A number of the working is longer than anybody writes, though the values given may well have an answer."""
+
+
 class NotReal(NoSolution):
     """It is no real number, or one too close to zero to tell from it."""

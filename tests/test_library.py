@@ -25,8 +25,8 @@ def exercise() -> Exercise:
 
 
 def test_dir_shows_exactly_what_there_is() -> None:
-    classes = ["Exercise", "Graded", "GradedPart", "Outcome", "UserError", "Verdict"]
-    offered = [*classes, "__version__", "draw", "families", "load", "read"]
+    classes = ["Exercise", "FileField", "Graded", "GradedPart", "Outcome", "UserError", "Verdict"]
+    offered = [*classes, "__version__", "draw", "families", "fields", "load", "read"]
     assert dir(rldrill) == offered
     assert all(hasattr(rldrill, name) for name in offered)
     with pytest.raises(AttributeError, match="no attribute 'solve'"):

@@ -18,10 +18,12 @@ REVISION = 1
 class Shown(Givens):
     """One diagram, what may be chosen, and how many branches and steps are drawn where there are several."""
 
-    shows: Backup
-    options: tuple[Backup, ...] = Field(min_length=2, max_length=10)
-    branches: int = Field(default=2, ge=2, le=3)
-    steps: int = Field(default=2, ge=2, le=4)
+    shows: Backup = Field(description="The equation or method that is drawn.")
+    options: tuple[Backup, ...] = Field(
+        min_length=2, max_length=10, description="What may be chosen; it holds what is shown."
+    )
+    branches: int = Field(default=2, ge=2, le=3, description="How many branches are drawn where there are several.")
+    steps: int = Field(default=2, ge=2, le=4, description="How many steps are drawn where there are several.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -40,7 +42,9 @@ class Shown(Givens):
 class Given(Givens):
     """The diagrams, each of which is a part."""
 
-    diagrams: tuple[Shown, ...] = Field(min_length=1, max_length=6)
+    diagrams: tuple[Shown, ...] = Field(
+        min_length=1, max_length=6, description="The diagrams, each of which is a part of the problem."
+    )
 
 
 #: For every diagram those that look most like it, the most similar first.

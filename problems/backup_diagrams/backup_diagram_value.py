@@ -30,10 +30,13 @@ class Given(Givens):
     state's one action, and its action value is asked for.
     """
 
-    dynamics: Dynamics
-    policy: PolicyField | None = None
-    values: dict[Name, Exact] = Field(default={})
-    action_values: dict[Name, dict[Name, Exact]] = Field(default={})
+    dynamics: Dynamics = Field(description="What the actions of the tree do; the root is the first state.")
+    policy: PolicyField | None = Field(default=None, description="The policy; without it the best action counts.")
+    values: dict[Name, Exact] = Field(default={}, description="The values of the states that are leaves.")
+    action_values: dict[Name, dict[Name, Exact]] = Field(
+        default={},
+        description="The values of the actions that are leaves; then the root is the first state's one action.",
+    )
     gamma: Discount
 
     @model_validator(mode="after")

@@ -32,8 +32,8 @@ REVISION = 2
 class Event(Givens):
     """What happens in one step: first an action, then a measurement; one of them may be missing."""
 
-    action: Name | None = None
-    measurement: Name | None = None
+    action: Name | None = Field(default=None, description="The action that is taken, if there is one.")
+    measurement: Name | None = Field(default=None, description="What is measured after it, if anything is.")
 
     @model_validator(mode="after")
     def _something(self) -> Self:
@@ -45,11 +45,21 @@ class Event(Givens):
 class Given(Givens):
     """A belief over states, where actions lead, what the sensor reads in every state, and the run."""
 
-    belief: DistributionField = Field(min_length=2)
-    motion: MotionField = Field(default_factory=dict)
-    likelihood: LikelihoodField = Field(default_factory=dict)
-    run: tuple[Event, ...] = Field(min_length=1, max_length=26)
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    belief: DistributionField = Field(min_length=2, description="The probability of every state beforehand.")
+    motion: MotionField = Field(
+        default_factory=dict,
+        description="For every action and state the probabilities of the next states; needed if the run has actions.",
+    )
+    likelihood: LikelihoodField = Field(
+        default_factory=dict,
+        description="For every reading its probability in every state; needed if the run has measurements.",
+    )
+    run: tuple[Event, ...] = Field(
+        min_length=1, max_length=26, description="The steps, each with an action, a measurement or both."
+    )
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -29,10 +29,14 @@ REVISION = 1
 class Given(Givens):
     """A belief over states, where every action leads from every state, and the actions taken."""
 
-    belief: DistributionField = Field(min_length=2)
-    motion: MotionField
-    actions: tuple[Name, ...] = Field(min_length=1, max_length=26)
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    belief: DistributionField = Field(min_length=2, description="The probability of every state beforehand.")
+    motion: MotionField = Field(description="For every action and state the probabilities of the next states.")
+    actions: tuple[Name, ...] = Field(
+        min_length=1, max_length=26, description="The actions in the order in which they are taken."
+    )
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

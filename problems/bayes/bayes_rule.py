@@ -28,10 +28,14 @@ REVISION = 2
 class Given(Givens):
     """A prior over hypotheses, the likelihood of every reading under each, and the readings made."""
 
-    prior: DistributionField = Field(min_length=2)
-    likelihood: LikelihoodField
-    measurements: tuple[Name, ...] = Field(min_length=1, max_length=26)
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    prior: DistributionField = Field(min_length=2, description="The probability of every hypothesis beforehand.")
+    likelihood: LikelihoodField = Field(description="For every reading its probability under every hypothesis.")
+    measurements: tuple[Name, ...] = Field(
+        min_length=1, max_length=26, description="The readings in the order in which they are made."
+    )
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

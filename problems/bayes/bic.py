@@ -33,9 +33,11 @@ ONE_COIN = {"fair": "$θ = 1/2$", "shared": "$θ$ is unknown", "own": "$θ$ is u
 class Fitted(Givens):
     """A model that was fitted: its likelihood at the best parameters, or the logarithm of it, and their number k."""
 
-    likelihood: Exact | None = Field(default=None, description="p(D|M, θ) at the best parameters")
-    log_likelihood: Exact | None = Field(default=None, description="its natural logarithm, in place of it")
-    k: int = Field(ge=0, le=1000)
+    likelihood: Exact | None = Field(default=None, description="The likelihood at the best parameters, above 0.")
+    log_likelihood: Exact | None = Field(
+        default=None, description="Its natural logarithm, in place of the likelihood.", examples=[-40]
+    )
+    k: int = Field(ge=0, le=1000, description="The number of parameters.")
 
     @model_validator(mode="after")
     def _possible(self) -> Self:
@@ -49,8 +51,12 @@ class Fitted(Givens):
 class Data(Givens):
     """How often each coin fell on its sides, heads and tails, and which two models are compared."""
 
-    tosses: dict[Name, tuple[int, int]] = Field(min_length=1, max_length=20)
-    models: tuple[Literal["fair", "shared", "own"], Literal["fair", "shared", "own"]]
+    tosses: dict[Name, tuple[int, int]] = Field(
+        min_length=1, max_length=20, description="For every coin how often it fell heads and tails."
+    )
+    models: tuple[Literal["fair", "shared", "own"], Literal["fair", "shared", "own"]] = Field(
+        description="The two models that are compared: all coins fair, one shared probability, or each its own."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -68,11 +74,15 @@ class Given(Givens):
     criterion: Literal["BIC", "AIC"] = Field(
         default="BIC",
         exclude_if=lambda criterion: criterion == "BIC",
-        description="Bayes' or Akaike's; the latter does not need n",
+        description="Which criterion is asked for, Bayes' or Akaike's; the latter does not need n.",
     )
-    fitted: dict[Name, Fitted] | None = Field(default=None, min_length=2, max_length=10)
-    n: int | None = Field(default=None, ge=2, le=10**6)
-    data: Data | None = None
+    fitted: dict[Name, Fitted] | None = Field(
+        default=None, min_length=2, max_length=10, description="The fitted models; with them goes n."
+    )
+    n: int | None = Field(default=None, ge=2, le=10**6, description="The number of data; only with fitted.")
+    data: Data | None = Field(
+        default=None, description="The tosses of coins, from which the models are fitted; instead of fitted and n."
+    )
 
     @model_validator(mode="after")
     def _one(self) -> Self:

@@ -28,8 +28,8 @@ _EFFORT = 100
 class Event(Givens):
     """What happens in one step: a motion with the command u, then unless z is missing a measurement."""
 
-    u: MatrixField | None = Field(default=None, description="the command of the motion, a column; 0 if left out")
-    z: MatrixField | None = Field(default=None, description="what is measured, a column; nothing if left out")
+    u: MatrixField | None = Field(default=None, description="The command of the motion, a column; 0 if left out.")
+    z: MatrixField | None = Field(default=None, description="The measurement after it, a column, if there is one.")
 
 
 class Given(Givens):
@@ -39,14 +39,16 @@ class Given(Givens):
     has a command, there is no B, and the state moves by A and the noise alone.
     """
 
-    mean: MatrixField
-    covariance: MatrixField
-    A: MatrixField = Field(default=_ONE, validate_default=True)
-    B: MatrixField = Field(default=_ONE, validate_default=True)
-    C: MatrixField = Field(default=_ONE, validate_default=True)
-    process: MatrixField
-    sensor: MatrixField
-    steps: tuple[Event, ...] = Field(min_length=1, max_length=_EFFORT)
+    mean: MatrixField = Field(description="The mean of the first belief, a column.")
+    covariance: MatrixField = Field(description="The covariance of the first belief.")
+    A: MatrixField = Field(default=_ONE, validate_default=True, description="How the state moves by itself.")
+    B: MatrixField = Field(default=_ONE, validate_default=True, description="How the command moves the state.")
+    C: MatrixField = Field(default=_ONE, validate_default=True, description="What the sensor sees of the state.")
+    process: MatrixField = Field(description="The covariance of the noise of the motion.")
+    sensor: MatrixField = Field(description="The covariance of the noise of the sensor.")
+    steps: tuple[Event, ...] = Field(
+        min_length=1, max_length=_EFFORT, description="The steps, each a motion and, if there is one, a measurement."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

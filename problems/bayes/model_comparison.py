@@ -21,12 +21,18 @@ REVISION = 1
 class CoinModel(Givens):
     """What a model says of the probability of heads: ``theta``, or its prior: some ``thetas``, or Beta(a, b)."""
 
-    theta: Probability | None = None
-    thetas: tuple[tuple[Probability, Probability], ...] | None = Field(
-        default=None, min_length=1, max_length=100, description="the possible θ, each with its prior: [θ, p(θ)]"
+    theta: Probability | None = Field(
+        default=None, description="The probability of heads, if the model knows it; otherwise its prior is Beta(a, b)."
     )
-    a: int = Field(default=1, ge=1, le=100)
-    b: int = Field(default=1, ge=1, le=100)
+    thetas: tuple[tuple[Probability, Probability], ...] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=100,
+        description="The possible θ, each with its prior: [θ, p(θ)]; instead of theta, a and b.",
+        examples=[[["1/4", "1/2"], ["3/4", "1/2"]]],
+    )
+    a: int = Field(default=1, ge=1, le=100, description="The first parameter of the prior Beta(a, b).")
+    b: int = Field(default=1, ge=1, le=100, description="The second parameter of the prior Beta(a, b).")
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Self:
@@ -56,10 +62,10 @@ class CoinModel(Givens):
 class Given(Givens):
     """Some models of a coin with their priors, and how many heads and tails there were."""
 
-    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10)
-    prior: DistributionField
-    heads: int = Field(ge=0, le=500)
-    tails: int = Field(ge=0, le=500)
+    models: dict[Name, CoinModel] = Field(min_length=2, max_length=10, description="The models by their names.")
+    prior: DistributionField = Field(description="The probability of every model beforehand.")
+    heads: int = Field(ge=0, le=500, description="How many heads there were.")
+    tails: int = Field(ge=0, le=500, description="How many tails there were.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -19,10 +19,10 @@ REVISION = 2
 class Coin(Givens):
     """Tosses of a coin, heads and tails, and the prior Beta(a, b) of the probability of heads."""
 
-    heads: int = Field(ge=0, le=1000)
-    tails: int = Field(ge=0, le=1000)
-    a: Exact
-    b: Exact
+    heads: int = Field(ge=0, le=1000, description="How many heads there were.")
+    tails: int = Field(ge=0, le=1000, description="How many tails there were.")
+    a: Exact = Field(description="The first parameter of the prior Beta(a, b), above 0.")
+    b: Exact = Field(description="The second parameter of the prior Beta(a, b), above 0.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -36,9 +36,9 @@ class Coin(Givens):
 class Prior(Givens):
     """A normal prior of one parameter, and the variance of the noise, which is then known."""
 
-    mean: Exact = Fraction(0)
-    variance: Exact
-    noise: Exact
+    mean: Exact = Field(default=Fraction(0), description="The mean of the prior.", examples=["1/2"])
+    variance: Exact = Field(description="The variance of the prior, above 0.")
+    noise: Exact = Field(description="The variance of the noise of a measurement, above 0.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -50,15 +50,21 @@ class Prior(Givens):
 class Sample(Givens):
     """Measurements of one quantity, and if wanted a prior of its mean."""
 
-    values: tuple[Exact, ...] = Field(min_length=2, max_length=100)
-    prior: Prior | None = None
+    values: tuple[Exact, ...] = Field(min_length=2, max_length=100, description="The measurements.")
+    prior: Prior | None = Field(
+        default=None, description="A prior of the mean, for the posterior; without it the best fit is asked for."
+    )
 
 
 class Line(Givens):
     """Points (x, y) for a line, and if wanted a prior of its slope, with mean 0."""
 
-    points: tuple[tuple[Exact, Exact], ...] = Field(min_length=2, max_length=100)
-    prior: Prior | None = None
+    points: tuple[tuple[Exact, Exact], ...] = Field(
+        min_length=2, max_length=100, description="The points, each as [x, y]."
+    )
+    prior: Prior | None = Field(
+        default=None, description="A prior of the slope, with mean 0; without it the best fit is asked for."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -72,9 +78,9 @@ class Line(Givens):
 class Given(Givens):
     """One of the three: tosses of a coin, a sample, or points for a line."""
 
-    coin: Coin | None = None
-    sample: Sample | None = None
-    line: Line | None = None
+    coin: Coin | None = Field(default=None, description="Tosses of a coin.")
+    sample: Sample | None = Field(default=None, description="Measurements of one quantity; instead of coin.")
+    line: Line | None = Field(default=None, description="Points for a line; instead of coin.")
 
     @model_validator(mode="after")
     def _one(self) -> Self:

@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -29,7 +29,7 @@ REVISION = 1
 class Given(Lookahead):
     """What the actions of one state do, the policy there, the values of the next states and the discount."""
 
-    policy: PolicyField
+    policy: PolicyField = Field(description="The policy in that state.")
 
     @model_validator(mode="after")
     def _policy_fits(self) -> Self:

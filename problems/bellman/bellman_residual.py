@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
@@ -31,8 +31,10 @@ REVISION = 1
 class Given(ModelAndPolicy):
     """A model, a policy and the discount, and values that are claimed for it: the policy's, or the optimal ones."""
 
-    values: dict[Name, Exact]
-    optimal: bool = False
+    values: dict[Name, Exact] = Field(description="The value that is claimed for every state.")
+    optimal: bool = Field(
+        default=False, description="Whether they are claimed to be the optimal values, not the policy's."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

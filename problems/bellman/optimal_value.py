@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -22,8 +22,8 @@ REVISION = 1
 class Given(Givens):
     """A model and the discount."""
 
-    mdp: Model
-    gamma: Probability
+    mdp: Model = Field(description="The Markov decision process.")
+    gamma: Probability = Field(description="The discount.")
 
     @model_validator(mode="after")
     def _closed(self) -> Self:

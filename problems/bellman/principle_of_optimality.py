@@ -31,11 +31,15 @@ class Edge(NamedTuple):
 class Given(Givens):
     """A graph without cycles, where its paths start and end, and a state that some path is to go through."""
 
-    edges: tuple[Edge, ...] = Field(min_length=1, max_length=2000)
-    start: Name
-    goal: Name
-    through: Name | None = None
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    edges: tuple[Edge, ...] = Field(
+        min_length=1, max_length=2000, description="The ways of the graph, which has no cycle."
+    )
+    start: Name = Field(description="Where the paths start.")
+    goal: Name = Field(description="Where the paths end.")
+    through: Name | None = Field(default=None, description="A state that one more path is to go through.")
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -22,8 +22,10 @@ REVISION = 1
 class Given(Givens):
     """The action values of some states, and a policy for them."""
 
-    values: dict[Name, dict[Name, Exact]] = Field(min_length=1)
-    policy: PolicyField
+    values: dict[Name, dict[Name, Exact]] = Field(
+        min_length=1, description="For every state the values of its actions."
+    )
+    policy: PolicyField = Field(description="The policy in these states.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -26,10 +26,10 @@ REVISION = 1
 class Link(Givens):
     """The parameters of one link: angle and offset along z, length and twist along the new x."""
 
-    theta: AngleField
-    d: Exact
-    a: Exact
-    alpha: AngleField
+    theta: AngleField = Field(description="The angle of the joint about z, in radians.")
+    d: Exact = Field(description="The offset along z.")
+    a: Exact = Field(description="The length of the link along the new x.")
+    alpha: AngleField = Field(description="The twist of the link about the new x, in radians.")
 
 
 class Given(Givens):
@@ -38,15 +38,19 @@ class Given(Givens):
     With ``frames`` the pose of every link's frame is asked for, not of the last one alone.
     """
 
-    links: tuple[Link, ...] = Field(min_length=1, max_length=7)
-    name: str = Field(default="an arm", max_length=60, pattern=r"^[^$\\]*$")
+    links: tuple[Link, ...] = Field(min_length=1, max_length=7, description="The links from the base outwards.")
+    name: str = Field(
+        default="an arm", max_length=60, pattern=r"^[^$\\]*$", description="What the arm is called in the question."
+    )
     base: MatrixField | None = Field(
-        default=None, description="the 4×4 transform of the base's frame to the world's; none if left out"
+        default=None,
+        description="The 4×4 transform of the base's frame to the world's; none if left out.",
+        examples=[[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]],
     )
     frames: bool = Field(
         default=False,
         exclude_if=lambda frames: not frames,
-        description="whether the pose of every link's frame is asked for, not of the last one alone",
+        description="Whether the pose of every link's frame is asked for, not of the last one alone.",
     )
 
     @model_validator(mode="after")

@@ -20,19 +20,25 @@ REVISION = 1
 class Base(Givens):
     """Where the base of an arm is, and how its x axis is turned."""
 
-    x: Exact = Fraction(0)
-    y: Exact = Fraction(0)
-    phi: AngleField = Field(default=read_angle(0), description="the angle of the base's x axis, in radians")
+    x: Exact = Field(default=Fraction(0), description="Where the base is along the x axis.", examples=[1])
+    y: Exact = Field(default=Fraction(0), description="Where the base is along the y axis.", examples=[2])
+    phi: AngleField = Field(
+        default=read_angle(0), description="The angle of the base's x axis, in radians.", examples=["pi/6"]
+    )
 
 
 class Given(PlanarArm):
     """An arm; what is asked for is where its end is, and how it points; with ``frames`` those of every link."""
 
-    base: Base | None = Field(default=None, description="the pose of the base; the origin, if left out")
+    base: Base | None = Field(
+        default=None,
+        description="The pose of the base; the origin, if left out.",
+        examples=[{"x": 1, "y": 2, "phi": "pi/6"}],
+    )
     frames: bool = Field(
         default=False,
         exclude_if=lambda frames: not frames,
-        description="whether the pose of every link's end is asked for, not of the last one alone",
+        description="Whether the pose of every link's end is asked for, not of the last one alone.",
     )
 
     @property

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.angles import read_angle
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
@@ -23,8 +23,10 @@ _STRAIGHT = (read_angle("0"), read_angle("pi"))
 class Given(PlanarArm):
     """An arm and its joint velocities; with ``orientation`` the last link's angle is the third row of J."""
 
-    rates: tuple[Exact, ...]
-    orientation: bool = False
+    rates: tuple[Exact, ...] = Field(description="The angular velocity of every joint, in radians a second.")
+    orientation: bool = Field(
+        default=False, description="Whether the angle of the last link is the third row of the Jacobian."
+    )
 
     @model_validator(mode="after")
     def _rates_fit(self) -> Self:

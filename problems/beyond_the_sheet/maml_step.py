@@ -26,10 +26,12 @@ class Task(NamedTuple):
 class Given(Givens):
     """The shared parameter θ, the tasks, and the step sizes α of the adaptation and β of the outer step."""
 
-    theta: Exact
-    tasks: tuple[Task, ...] = Field(min_length=1, max_length=12)
-    alpha: StepSize
-    beta: Exact
+    theta: Exact = Field(description="The shared parameter.")
+    tasks: tuple[Task, ...] = Field(
+        min_length=1, max_length=12, description="The tasks, each by the curvature and the optimum of its loss."
+    )
+    alpha: StepSize = Field(description="The step size of the adaptation to a task.")
+    beta: Exact = Field(description="The step size of the outer step, above 0.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -34,7 +34,7 @@ Story = Annotated[str, Field(max_length=200, pattern=r"^[^$\\]*$")]
 class Bandit(Givens):
     """The pulls so far."""
 
-    pulls: tuple[Pull, ...] = Field(min_length=1, max_length=100)
+    pulls: tuple[Pull, ...] = Field(min_length=1, max_length=100, description="The pulls so far, in their order.")
 
     @model_validator(mode="after")
     def _choice(self) -> Self:
@@ -61,7 +61,8 @@ class Averaged(Bandit):
         default=(),
         max_length=100,
         exclude_if=lambda arms: not arms,
-        description="all arms, those that were never pulled too; left out, they are the arms of the pulls",
+        description="All arms, those that were never pulled too; left out, they are the arms of the pulls.",
+        examples=[["a", "b", "c"]],
     )
 
     @property
@@ -83,23 +84,23 @@ class Averaged(Bandit):
 class Estimates(Averaged):
     """The pulls so far, which are averaged."""
 
-    story: Story = ""
+    story: Story = Field(default="", description="A sentence that is printed first.")
 
 
 class Bounds(Averaged):
     """The pulls so far, and the weight of the exploration in upper confidence bounds."""
 
-    c: Exact = Field(gt=0)
-    story: Story = ""
+    c: Exact = Field(gt=0, description="The weight of the exploration, above 0.")
+    story: Story = Field(default="", description="A sentence that is printed first.")
 
 
 class Preferences(Bandit):
     """The pulls so far, the preferences after them, and one more pull, from which they learn with step size α."""
 
-    preferences: dict[Name, Exact] = Field(min_length=2)
-    alpha: Exact = Field(gt=0)
-    pulled: Pull
-    story: Story = ""
+    preferences: dict[Name, Exact] = Field(min_length=2, description="The preference of every arm after these pulls.")
+    alpha: Exact = Field(gt=0, description="The step size, above 0.")
+    pulled: Pull = Field(description="The pull after them, from which the preferences learn.")
+    story: Story = Field(default="", description="A sentence that is printed first.")
 
     @property
     def every_arm(self) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -22,8 +22,8 @@ REVISION = 1
 class Given(ActionRun):
     """A run, two tables of action values before it, α and γ, and which table every transition updates."""
 
-    second: dict[Name, dict[Name, Exact]]
-    updates: tuple[Literal[1, 2], ...]
+    second: dict[Name, dict[Name, Exact]] = Field(description="The second table of action values before the run.")
+    updates: tuple[Literal[1, 2], ...] = Field(description="For every transition the table that it updates, 1 or 2.")
 
     @model_validator(mode="after")
     def _two_tables(self) -> Self:

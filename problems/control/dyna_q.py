@@ -43,9 +43,17 @@ class Given(ActionRun):
     ``changed`` is what the environment does now where nobody has tried it yet, so that the model does not know.
     """
 
-    model: tuple[Entry, ...] = ()
-    planned: tuple[Pair, ...] = Field(min_length=1)
-    changed: tuple[Entry, ...] = ()
+    model: tuple[Entry, ...] = Field(
+        default=(), description="What the model holds before the run.", examples=[[["A", "left", 1, "B"]]]
+    )
+    planned: tuple[Pair, ...] = Field(
+        min_length=1, description="The states and actions that are drawn for planning, in their order."
+    )
+    changed: tuple[Entry, ...] = Field(
+        default=(),
+        description="What the environment does now where nobody has tried it yet, so that the model does not know.",
+        examples=[[["A", "right", 0, "B"]]],
+    )
 
     @model_validator(mode="after")
     def _plannable(self) -> Self:

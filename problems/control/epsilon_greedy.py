@@ -22,10 +22,12 @@ _MOVES = ("up", "right", "down", "left")
 class Given(Givens):
     """The action values of one state, ε, and whether the state's value under the policy is asked for too."""
 
-    state: Name = "s"
-    values: dict[Name, Exact] = Field(min_length=2, max_length=50)
-    epsilon: OpenProbability
-    valued: bool = False
+    state: Name = Field(default="s", description="The name of the state.")
+    values: dict[Name, Exact] = Field(min_length=2, max_length=50, description="The value of every action.")
+    epsilon: OpenProbability = Field(description="The probability to explore.")
+    valued: bool = Field(
+        default=False, description="Whether the value of the state under the policy is asked for, too."
+    )
 
     @property
     def best(self) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Annotated, Self
 
-from pydantic import Discriminator, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
@@ -22,7 +22,7 @@ REVISION = 1
 class FixedPolicy(ActionRun):
     """A run, the action values before it, α and γ; and the policy, which stays as it is."""
 
-    policy: PolicyField
+    policy: PolicyField = Field(description="The policy, which stays as it is; instead of epsilon.")
 
     @model_validator(mode="after")
     def _chances(self) -> Self:
@@ -41,7 +41,9 @@ class FixedPolicy(ActionRun):
 class EpsilonGreedy(ActionRun):
     """A run, the action values before it, α and γ; and the ε with which the policy chooses ε-greedily."""
 
-    epsilon: OpenProbability
+    epsilon: OpenProbability = Field(
+        description="The probability with which the ε-greedy policy explores; instead of policy."
+    )
 
 
 def _kind(given: object) -> str | None:

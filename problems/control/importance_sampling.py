@@ -31,9 +31,13 @@ REVISION = 1
 class Given(Givens):
     """Episodes from one state, the policy b that acted, the policy π that is evaluated, and the discount."""
 
-    episodes: tuple[Trajectory, ...] = Field(min_length=1, max_length=26)
-    target: PolicyField
-    behaviour: Annotated[dict[Name, DistributionField], BeforeValidator(read_policy)]
+    episodes: tuple[Trajectory, ...] = Field(
+        min_length=1, max_length=26, description="The episodes, all from the same state."
+    )
+    target: PolicyField = Field(description="The policy that is evaluated.")
+    behaviour: Annotated[dict[Name, DistributionField], BeforeValidator(read_policy)] = Field(
+        description="The policy that acted."
+    )
     gamma: Discount
 
     @model_validator(mode="after")

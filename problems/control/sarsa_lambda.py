@@ -28,13 +28,15 @@ _CUT = (
 class Given(ActionRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
-    lam: OpenProbability
-    traces: dict[Name, dict[Name, Exact]] | None = None
+    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    traces: dict[Name, dict[Name, Exact]] | None = Field(
+        default=None, description="The traces before the run; all 0 without them."
+    )
     replacing: Replacing = False
     watkins: bool = Field(
         default=False,
         exclude_if=lambda watkins: not watkins,
-        description="whether Watkins's Q(λ) learns instead of Sarsa(λ)",
+        description="Whether Watkins's Q(λ) learns instead of Sarsa(λ).",
     )
 
     @model_validator(mode="after")

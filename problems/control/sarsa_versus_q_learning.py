@@ -2,7 +2,7 @@
 
 from typing import Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -26,7 +26,9 @@ _MEANING = {
 class Given(ActionRun):
     """A run with all its actions, the action values before it, α and γ; and which word the last part asks about."""
 
-    word: Literal["on-policy", "off-policy"] = "on-policy"
+    word: Literal["on-policy", "off-policy"] = Field(
+        default="on-policy", description="The word that the last part asks about."
+    )
 
     @model_validator(mode="after")
     def _bootstraps(self) -> Self:

@@ -35,12 +35,15 @@ def _below_one(value: Fraction) -> Fraction:
 class Given(Givens):
     """The values to start from with V*, or with the values after one sweep; the discount; sweeps and accuracy."""
 
-    start: dict[Name, Exact] = Field(min_length=1)
-    optimum: dict[Name, Exact] | None = None
-    first: dict[Name, Exact] | None = None
-    gamma: Annotated[Probability, AfterValidator(_below_one)]
-    sweeps: int = Field(ge=1, le=1000)
-    accuracy: Annotated[Exact, AfterValidator(_positive)] | None = None
+    start: dict[Name, Exact] = Field(min_length=1, description="The values to start from.")
+    optimum: dict[Name, Exact] | None = Field(default=None, description="The optimal values; instead of first.")
+    first: dict[Name, Exact] | None = Field(default=None, description="The values after one sweep; instead of optimum.")
+    gamma: Annotated[Probability, AfterValidator(_below_one)] = Field(description="The discount, below 1.")
+    sweeps: int = Field(ge=1, le=1000, description="How many sweeps the bound is asked for.")
+    accuracy: Annotated[Exact, AfterValidator(_positive)] | None = Field(
+        default=None,
+        description="How near to the optimal values is near enough, above 0; asks for the sweeps that it takes.",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

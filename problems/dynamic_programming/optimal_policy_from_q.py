@@ -21,10 +21,12 @@ REVISION = 1
 class Given(Givens):
     """The optimal action values, what the actions do whose values are missing, the discount, and where it ends."""
 
-    values: dict[Name, dict[Name, Exact]] = Field(min_length=1)
-    missing: Dynamics | None = None
-    gamma: Probability | None = None
-    terminal: tuple[Name, ...] = ()
+    values: dict[Name, dict[Name, Exact]] = Field(
+        min_length=1, description="For every state the optimal values of its actions."
+    )
+    missing: Dynamics | None = Field(default=None, description="What the actions do whose values are missing.")
+    gamma: Probability | None = Field(default=None, description="The discount; needed if values are missing.")
+    terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -22,9 +22,9 @@ REVISION = 1
 class Given(Givens):
     """A model, its optimal values (they may be rounded, as books print them), and the discount."""
 
-    mdp: Model
-    values: dict[Name, Exact]
-    gamma: Probability
+    mdp: Model = Field(description="The Markov decision process.")
+    values: dict[Name, Exact] = Field(description="The optimal value of every state; it may be rounded.")
+    gamma: Probability = Field(description="The discount.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -25,8 +25,7 @@ class Given(ModelAndPolicy, Sweeps):
 
     mdp: Process
     in_place: bool = Field(
-        default=False,
-        description="whether a sweep uses each new value at once, instead of the values of the sweep before alone",
+        default=False, description="Whether a sweep uses values as soon as they are new, state by state."
     )
 
 

@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -29,10 +29,12 @@ REVISION = 1
 class Given(Givens):
     """A model, a policy, the discount, and the policy's values; without them, they are asked for first."""
 
-    mdp: Model
-    policy: PolicyField
-    values: dict[Name, Exact] | None = None
-    gamma: Probability
+    mdp: Model = Field(description="The Markov decision process.")
+    policy: PolicyField = Field(description="The policy that is improved.")
+    values: dict[Name, Exact] | None = Field(
+        default=None, description="The policy's values; without them they are asked for first."
+    )
+    gamma: Probability = Field(description="The discount.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

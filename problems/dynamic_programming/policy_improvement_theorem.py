@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -30,11 +30,13 @@ REVISION = 1
 class Given(Givens):
     """A model, two deterministic policies, the discount, and the first one's values, or None to ask for them."""
 
-    mdp: Model
-    policy: dict[Name, Name]
-    other: dict[Name, Name]
-    values: dict[Name, Exact] | None = None
-    gamma: Probability
+    mdp: Model = Field(description="The Markov decision process.")
+    policy: dict[Name, Name] = Field(description="The action of the first policy in every state.")
+    other: dict[Name, Name] = Field(description="The action of the other policy in every state.")
+    values: dict[Name, Exact] | None = Field(
+        default=None, description="The first policy's values; without them they are asked for first."
+    )
+    gamma: Probability = Field(description="The discount.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -22,10 +22,10 @@ REVISION = 1
 class Given(Givens):
     """A model, the policy to start from, the discount, and how many rounds of evaluation and improvement."""
 
-    mdp: Model
-    start: dict[Name, Name]
-    gamma: Probability
-    rounds: int = Field(ge=1, le=12)
+    mdp: Model = Field(description="The Markov decision process.")
+    start: dict[Name, Name] = Field(description="The action of the policy to start from in every state.")
+    gamma: Probability = Field(description="The discount.")
+    rounds: int = Field(ge=1, le=12, description="How many rounds of evaluation and improvement.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

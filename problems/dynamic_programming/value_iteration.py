@@ -22,16 +22,16 @@ REVISION = 1
 class Given(Sweeps):
     """A model, the discount, how many sweeps, and the values to start from (0 where none are given)."""
 
-    gamma: Probability
+    gamma: Probability = Field(description="The discount.")
     in_place: bool = Field(
         default=False,
         exclude_if=lambda in_place: not in_place,
-        description="whether a sweep uses each new value at once, instead of the values of the sweep before alone",
+        description="Whether a sweep uses values as soon as they are new, state by state.",
     )
     action_values: bool = Field(
         default=False,
         exclude_if=lambda action_values: not action_values,
-        description="whether the sweeps go over action values, Q-value iteration: then Q_k is asked for instead of V_k",
+        description="Whether the sweeps go over action values: then Q_k is asked for instead of V_k.",
     )
 
     @model_validator(mode="after")

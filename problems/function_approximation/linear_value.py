@@ -22,7 +22,7 @@ REVISION = 1
 class Bumps(Centred):
     """Piecewise linear basis functions, and the state whose features they give."""
 
-    width: Exact = Field(gt=0)
+    width: Exact = Field(gt=0, description="The distance from its centre at which a feature reaches 0, above 0.")
 
 
 class Given(Givens):
@@ -31,11 +31,13 @@ class Given(Givens):
     The features are given as they are, or as those of a state by piecewise linear basis functions.
     """
 
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=40)
-    actions: tuple[Name, ...] = Field(min_length=2)
-    features: FeatureVector | None = None
-    bumps: Bumps | None = None
-    action: Name
+    theta: tuple[Exact, ...] = Field(min_length=1, max_length=40, description="The weights, a block for every action.")
+    actions: tuple[Name, ...] = Field(min_length=2, description="The actions in the order of the blocks.")
+    features: FeatureVector | None = Field(default=None, description="The features of the state; instead of bumps.")
+    bumps: Bumps | None = Field(
+        default=None, description="The state with basis functions that give its features; instead of features."
+    )
+    action: Name = Field(description="The action whose value is asked for.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
 from rldrill.problems.document import Paragraph
@@ -19,7 +19,7 @@ REVISION = 1
 class Given(Centred):
     """The state, the centres, and the width b at which the features reach 0."""
 
-    width: Exact
+    width: Exact = Field(description="The distance from its centre at which a feature reaches 0, above 0.")
 
     @model_validator(mode="after")
     def _wide(self) -> Self:

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
 from rldrill.problems.document import Paragraph
@@ -21,7 +21,7 @@ REVISION = 2
 class Given(Centred):
     """The state, the centres, and the width σ of all features, which may be left open."""
 
-    sigma: WidthField
+    sigma: WidthField = Field(description="The width of all features, above 0.")
 
     @model_validator(mode="after")
     def _wide(self) -> Self:

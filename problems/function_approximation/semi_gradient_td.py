@@ -26,11 +26,17 @@ class Given(Givens):
     With ``actions`` named, their weights are stacked in this order and Sarsa is asked for; without, TD(0).
     """
 
-    trajectory: Trajectory
-    features: dict[Name, FeatureVector]
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=40)
-    actions: tuple[Name, ...] = ()
-    alpha: StepSize
+    trajectory: Trajectory = Field(description="What the agent did.")
+    features: dict[Name, FeatureVector] = Field(description="The features of every state.")
+    theta: tuple[Exact, ...] = Field(
+        min_length=1,
+        max_length=40,
+        description="The weights before the run; with actions a block for each, in their order.",
+    )
+    actions: tuple[Name, ...] = Field(
+        default=(), description="The actions in the order of their weights, for Sarsa; without them it is TD(0)."
+    )
+    alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
     @model_validator(mode="after")

@@ -45,7 +45,7 @@ class Given(ModelAndPolicy):
     Without a policy every action is equally probable.
     """
 
-    start: OpenDistributionField = Field(min_length=1)
+    start: OpenDistributionField = Field(min_length=1, description="The probability of every state to start in.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

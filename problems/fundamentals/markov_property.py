@@ -36,9 +36,15 @@ class Given(Givens):
     The weights are counts, or joint probabilities if they sum to 1; what is not in the table was never seen.
     """
 
-    table: tuple[Seen, ...] = Field(min_length=1, max_length=500)
-    asked: Name
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    table: tuple[Seen, ...] = Field(
+        min_length=1,
+        max_length=500,
+        description="How often, or with what probability, three states came one after the other.",
+    )
+    asked: Name = Field(description="The next state whose probabilities are asked for.")
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @field_validator("table")
     @classmethod

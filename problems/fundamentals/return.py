@@ -22,9 +22,13 @@ class Given(Givens):
     every step: the first multiplies all that comes after the first reward.
     """
 
-    rewards: tuple[Exact, ...] = Field(min_length=1, max_length=500)
+    rewards: tuple[Exact, ...] = Field(
+        min_length=1, max_length=500, description="The rewards of the episode from the first, r_1, to the last."
+    )
     gamma: Discounts
-    time: int | None = Field(default=None, ge=0)
+    time: int | None = Field(
+        default=None, ge=0, description="The time from which the return is asked for; without it, from all times."
+    )
 
     @model_validator(mode="after")
     def _inside(self) -> "Given":

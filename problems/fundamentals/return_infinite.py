@@ -19,8 +19,12 @@ REVISION = 1
 class Given(Givens):
     """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount."""
 
-    first: tuple[Exact, ...] = Field(default=(), max_length=200)
-    repeated: tuple[Exact, ...] = Field(min_length=1, max_length=60)
+    first: tuple[Exact, ...] = Field(
+        default=(), max_length=200, description="The rewards that come once, before the others."
+    )
+    repeated: tuple[Exact, ...] = Field(
+        min_length=1, max_length=60, description="The rewards that come round and round after them."
+    )
     gamma: Discount
 
     @field_validator("gamma")

@@ -22,9 +22,11 @@ Mu = tuple[Fraction, ...]
 class Given(Givens):
     """The expert's feature expectations, those of the first policy, and those of the policies after it."""
 
-    expert: tuple[Exact, ...]
-    first: tuple[Exact, ...]
-    policies: tuple[tuple[Exact, ...], ...] = Field(min_length=1, max_length=8)
+    expert: tuple[Exact, ...] = Field(description="The expert's feature expectations.")
+    first: tuple[Exact, ...] = Field(description="The feature expectations of the first policy.")
+    policies: tuple[tuple[Exact, ...], ...] = Field(
+        min_length=1, max_length=8, description="The feature expectations of the policies after it, in their order."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

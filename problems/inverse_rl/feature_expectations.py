@@ -23,8 +23,10 @@ REVISION = 2
 class Given(Givens):
     """The features of every state that was visited, the trajectories as their states, and the discount."""
 
-    features: FeaturesField
-    trajectories: tuple[tuple[Name, ...], ...] = Field(min_length=1, max_length=50)
+    features: FeaturesField = Field(description="The features of every state.")
+    trajectories: tuple[tuple[Name, ...], ...] = Field(
+        min_length=1, max_length=50, description="The trajectories, each as the list of its states."
+    )
     gamma: Discount
 
     @model_validator(mode="after")

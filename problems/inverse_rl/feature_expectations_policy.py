@@ -24,13 +24,17 @@ REVISION = 2
 class Given(Givens):
     """Where actions lead, the policy, the features, the start distribution and the discount."""
 
-    motion: MotionField = Field(min_length=1)
-    policy: PolicyField
-    features: FeaturesField
-    start: DistributionField
-    terminal: tuple[Name, ...] = ()
+    motion: MotionField = Field(
+        min_length=1, description="For every action and state the probabilities of the next states."
+    )
+    policy: PolicyField = Field(description="The policy.")
+    features: FeaturesField = Field(description="The features of every state.")
+    start: DistributionField = Field(description="The probability of every state to start in.")
+    terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount
-    story: str = Field(default="", max_length=200, pattern=r"^[^$\\]*$")
+    story: str = Field(
+        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -24,8 +24,8 @@ _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
 class Rival(Givens):
     """Another policy: its feature expectations, and by how much the expert must be better."""
 
-    mu: tuple[Exact, ...]
-    margin: Exact
+    mu: tuple[Exact, ...] = Field(description="Its feature expectations.")
+    margin: Exact = Field(description="By how much the expert must be better.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -37,9 +37,9 @@ class Rival(Givens):
 class Given(Givens):
     """The weights of the reward, the expert's feature expectations, and the other policies."""
 
-    w: tuple[Exact, ...]
-    expert: tuple[Exact, ...]
-    policies: dict[Name, Rival] = Field(min_length=1, max_length=20)
+    w: tuple[Exact, ...] = Field(description="The weights of the reward.")
+    expert: tuple[Exact, ...] = Field(description="The expert's feature expectations.")
+    policies: dict[Name, Rival] = Field(min_length=1, max_length=20, description="The other policies by their names.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

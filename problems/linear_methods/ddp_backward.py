@@ -27,10 +27,12 @@ class Given(System):
     derivatives of the dynamics count (DDP), without they do not (iLQR).
     """
 
-    reward: Expression
-    gradient: tuple[Exact, ...] = Field(min_length=1)
-    hessian: MatrixField
-    second_order: bool = True
+    reward: Expression = Field(description="The reward, in the letters of the state and the action.")
+    gradient: tuple[Exact, ...] = Field(min_length=1, description="The gradient of the next value at the next state.")
+    hessian: MatrixField = Field(description="The Hessian of the next value at the next state.")
+    second_order: bool = Field(
+        default=True, description="Whether the second derivatives of the dynamics count (DDP) or not (iLQR)."
+    )
 
     @model_validator(mode="after")
     def _next(self) -> Self:

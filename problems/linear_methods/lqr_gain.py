@@ -26,11 +26,13 @@ class Given(Conventional):
     P is the value's matrix, negative; or in a convention of costs the cost-to-go's, positive.
     """
 
-    A: MatrixField
-    B: MatrixField
-    R: MatrixField
-    P: MatrixField
-    N: MatrixField | None = Field(default=None, description="the cross term: the cost has 2 sᵀNa, too; else none")
+    A: MatrixField = Field(description="How the state moves by itself, n×n.")
+    B: MatrixField = Field(description="How the action moves the state, n×m.")
+    R: MatrixField = Field(description="The cost of actions, m×m.")
+    P: MatrixField = Field(description="The matrix of the value at the next time, n×n.")
+    N: MatrixField | None = Field(
+        default=None, description="The cross term: the cost has 2 sᵀNa, too; none if left out.", examples=[[["1/2"]]]
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -31,12 +31,12 @@ class Given(Conventional):
     solved in rational arithmetic to twelve decimals.
     """
 
-    A: MatrixField
-    B: MatrixField
-    Q: MatrixField
-    R: MatrixField
+    A: MatrixField = Field(description="How the state moves by itself, n×n, n at most 6.")
+    B: MatrixField = Field(description="How the action moves the state, n×m.")
+    Q: MatrixField = Field(description="The cost of states, n×n.")
+    R: MatrixField = Field(description="The cost of actions, m×m.")
     N: MatrixField | None = Field(
-        default=None, description="the cross term: the cost has 2 sᵀNa, too; none if left out"
+        default=None, description="The cross term: the cost has 2 sᵀNa, too; none if left out.", examples=[[["1/2"]]]
     )
 
     @model_validator(mode="after")

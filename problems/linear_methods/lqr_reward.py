@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
@@ -31,7 +31,9 @@ class Given(LinearQuadratic):
     With a discount, a cross term or a final cost of its own there is no action at the horizon any more.
     """
 
-    L: MatricesField
+    L: MatricesField = Field(
+        description="The gain of the actions a = −L s, the same at all times or one for each from 0 to the horizon."
+    )
 
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:

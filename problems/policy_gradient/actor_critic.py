@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -25,9 +25,9 @@ REVISION = 1
 class Given(SoftmaxRun):
     """A run, the critic's values before it with its step size α, the actor's features and weights with β, and γ."""
 
-    values: dict[Name, Exact]
-    alpha: StepSize
-    beta: StepSize
+    values: dict[Name, Exact] = Field(description="The critic's value of every state before the run.")
+    alpha: StepSize = Field(description="The step size of the critic.")
+    beta: StepSize = Field(description="The step size of the actor.")
 
     @model_validator(mode="after")
     def _valued(self) -> Self:

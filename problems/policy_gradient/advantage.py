@@ -32,8 +32,10 @@ REVISION = 2
 class Lookahead(Givens):
     """What the actions of one state do, and the values of states."""
 
-    dynamics: Dynamics
-    values: dict[Name, Exact] = Field(min_length=1)
+    dynamics: Dynamics = Field(description="What the actions of the state do.")
+    values: dict[Name, Exact] = Field(
+        min_length=1, description="The values of the next states; without a policy also the state's own."
+    )
 
     @model_validator(mode="after")
     def _one_state(self) -> Self:
@@ -65,7 +67,7 @@ class ValueLookahead(Lookahead):
 class PolicyLookahead(Lookahead):
     """What the actions of one state do, the values of the next states, and the policy, which says what it is worth."""
 
-    policy: PolicyField
+    policy: PolicyField = Field(description="The policy in the state, which says what the state is worth.")
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
@@ -79,9 +81,9 @@ class PolicyLookahead(Lookahead):
 class Run(Givens):
     """A run, the values of its states, and λ."""
 
-    trajectory: Trajectory
-    values: dict[Name, Exact]
-    lam: OpenProbability
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, Exact] = Field(description="The value of every state.")
+    lam: OpenProbability = Field(description="How much later TD errors count (GAE).")
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
@@ -92,22 +94,22 @@ class Run(Givens):
 class OfValue(Givens):
     """One state of known value to look ahead from, and the discount."""
 
-    lookahead: ValueLookahead
-    gamma: Probability
+    lookahead: ValueLookahead = Field(description="The state to look ahead from, its own value given; instead of run.")
+    gamma: Probability = Field(description="The discount.")
 
 
 class OfPolicy(Givens):
     """One state with a policy to look ahead from, and the discount."""
 
-    lookahead: PolicyLookahead
-    gamma: Probability
+    lookahead: PolicyLookahead = Field(description="The state to look ahead from, its policy given; instead of run.")
+    gamma: Probability = Field(description="The discount.")
 
 
 class AlongRun(Givens):
     """A run to estimate along, and the discount."""
 
-    run: Run
-    gamma: Probability
+    run: Run = Field(description="The run along which the advantages are estimated; instead of lookahead.")
+    gamma: Probability = Field(description="The discount.")
 
 
 def _kind(given: object) -> str | None:

@@ -20,8 +20,8 @@ REVISION = 1
 class Given(Givens):
     """The weights θ, and the features of every action in some states."""
 
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=20)
-    features: ActionFeatures = Field(min_length=1)
+    theta: tuple[Exact, ...] = Field(min_length=1, max_length=20, description="The weights.")
+    features: ActionFeatures = Field(min_length=1, description="For every state the features of its actions.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -26,15 +26,23 @@ class Sample(Givens):
     old one from ``old`` or ``old_preferences``.
     """
 
-    state: Name
-    action: Name
-    old: Probability | None = None
-    old_preferences: dict[Name, WeightField] | None = Field(
-        default=None, description="the old policy's preferences in that state, in place of old"
+    state: Name = Field(description="The state.")
+    action: Name = Field(description="The action that was taken.")
+    old: Probability | None = Field(
+        default=None, description="The probability with which the old policy took it; instead of old_preferences."
     )
-    new: Probability | None = None
-    preferences: dict[Name, WeightField] | None = None
-    advantage: Exact
+    old_preferences: dict[Name, WeightField] | None = Field(
+        default=None,
+        description="The old policy's preferences for the actions of the state; instead of old.",
+        examples=[{"left": 0, "right": "ln 2"}],
+    )
+    new: Probability | None = Field(
+        default=None, description="The probability with which the new policy takes it; instead of preferences."
+    )
+    preferences: dict[Name, WeightField] | None = Field(
+        default=None, description="The new policy's preferences for the actions of the state; instead of new."
+    )
+    advantage: Exact = Field(description="The advantage of the action.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -53,8 +61,8 @@ class Sample(Givens):
 class Given(Givens):
     """Samples of the old policy, and the clipping range ε."""
 
-    samples: tuple[Sample, ...] = Field(min_length=1, max_length=20)
-    epsilon: Exact = Field(gt=0, lt=1)
+    samples: tuple[Sample, ...] = Field(min_length=1, max_length=20, description="The actions that were taken.")
+    epsilon: Exact = Field(gt=0, lt=1, description="The clipping range, above 0 and below 1.")
 
     @model_validator(mode="after")
     def _alike(self) -> Self:

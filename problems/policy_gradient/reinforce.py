@@ -1,5 +1,7 @@
 """REINFORCE: the gradient estimated from one episode, and the weights after a step along it."""
 
+from pydantic import Field
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
@@ -15,7 +17,7 @@ REVISION = 2
 class Given(Episode):
     """An episode, the features and weights of the policy that was followed, α and γ."""
 
-    alpha: StepSize
+    alpha: StepSize = Field(description="The step size.")
 
 
 def draw(level: int, rng: Draws) -> Given:

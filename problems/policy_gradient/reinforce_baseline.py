@@ -3,7 +3,7 @@
 from fractions import Fraction
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -21,8 +21,8 @@ REVISION = 2
 class Given(Episode):
     """An episode, the features and weights of the policy that was followed, the baseline b(s), α and γ."""
 
-    baseline: dict[Name, Exact]
-    alpha: StepSize
+    baseline: dict[Name, Exact] = Field(description="The baseline of every state.")
+    alpha: StepSize = Field(description="The step size.")
 
     @model_validator(mode="after")
     def _based(self) -> Self:

@@ -26,10 +26,12 @@ class Given(Givens):
     Without ``action`` the scores of all actions are asked for.
     """
 
-    features: dict[Name, FeatureVector] = Field(min_length=2)
-    theta: tuple[WeightField, ...] | None = None
-    policy: OpenDistributionField | None = None
-    action: Name | None = None
+    features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
+    theta: tuple[WeightField, ...] | None = Field(default=None, description="The weights; instead of policy.")
+    policy: OpenDistributionField | None = Field(
+        default=None, description="The probability of every action; instead of theta."
+    )
+    action: Name | None = Field(default=None, description="The action whose score is asked for; without it, all.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

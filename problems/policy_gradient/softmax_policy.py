@@ -22,10 +22,10 @@ REVISION = 1
 class Given(Givens):
     """The weights θ, and in one state the features of every action."""
 
-    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20)
-    features: dict[Name, FeatureVector] = Field(min_length=2)
+    theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights.")
+    features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
     entropy: bool = Field(
-        default=False, exclude_if=lambda entropy: not entropy, description="whether the policy's entropy is asked for"
+        default=False, exclude_if=lambda entropy: not entropy, description="Whether the policy's entropy is asked for."
     )
 
     @model_validator(mode="after")

@@ -22,9 +22,13 @@ REVISION = 1
 class Observed(Givens):
     """An episode as it was seen: state, reward, state, reward, …, end; and how many times it was seen."""
 
-    states: tuple[Name, ...] = Field(min_length=1, max_length=100)
-    rewards: tuple[Exact, ...]
-    times: int = Field(default=1, ge=1, le=100)
+    states: tuple[Name, ...] = Field(
+        min_length=1,
+        max_length=100,
+        description="The states that were left, in their order; the terminal one is not named.",
+    )
+    rewards: tuple[Exact, ...] = Field(description="The reward after each of them.")
+    times: int = Field(default=1, ge=1, le=100, description="How many times this episode was seen.")
 
     @model_validator(mode="after")
     def _consistent(self) -> "Observed":
@@ -39,12 +43,12 @@ class Observed(Givens):
 class Given(Givens):
     """The episodes, and the discount."""
 
-    episodes: tuple[Observed, ...] = Field(min_length=1, max_length=50)
+    episodes: tuple[Observed, ...] = Field(min_length=1, max_length=50, description="The episodes.")
     gamma: Discount
     visits: Literal["every", "first"] = Field(
         default="every",
         exclude_if=lambda visits: visits == "every",
-        description="which visits of an episode count for Monte Carlo; for TD(0) all do",
+        description="Which visits of an episode count for Monte Carlo; for TD(0) all do.",
     )
 
     @property

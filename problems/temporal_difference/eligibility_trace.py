@@ -22,10 +22,14 @@ REVISION = 1
 class Given(Givens):
     """The states visited at times 0, 1, …, γ and λ, and the times at which the traces are asked for."""
 
-    states: tuple[Name, ...] = Field(min_length=1, max_length=301)
+    states: tuple[Name, ...] = Field(
+        min_length=1, max_length=301, description="The states visited at the times 0, 1, and so on."
+    )
     gamma: Discount
-    lam: OpenProbability
-    asked: tuple[int, ...] = Field(min_length=1, max_length=26)
+    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
+    asked: tuple[int, ...] = Field(
+        min_length=1, max_length=26, description="The times at which the traces are asked for."
+    )
     replacing: Replacing = False
 
     @model_validator(mode="after")

@@ -26,11 +26,11 @@ class Given(Givens):
     terminal, goes on with the value of that state.
     """
 
-    trajectory: ShortRun
-    values: dict[Name, Exact]
+    trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
+    values: dict[Name, Exact] = Field(description="The current value of every state.")
     gamma: Discounts
-    lam: OpenProbability
-    time: int = Field(default=0, ge=0)
+    lam: OpenProbability = Field(description="How much later returns count.")
+    time: int = Field(default=0, ge=0, description="The time from which the return is asked for.", examples=[1])
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

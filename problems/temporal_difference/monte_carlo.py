@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Discriminator, Tag
+from pydantic import Discriminator, Field, Tag
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -33,9 +33,11 @@ Visited: TypeAlias = str | tuple[str, str]
 class Visits(Givens):
     """An episode, and which visits in it count."""
 
-    trajectory: Episode
-    alpha: StepSize
-    visits: Literal["first", "every"]
+    trajectory: Episode = Field(description="The episode.")
+    alpha: StepSize = Field(description="The step size.")
+    visits: Literal["first", "every"] = Field(
+        description="Whether only the first visit to a state counts, or every visit."
+    )
 
     @property
     def occasions(self) -> tuple[Visited, ...]:

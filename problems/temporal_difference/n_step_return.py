@@ -28,10 +28,12 @@ class Given(Givens):
     Instead of one discount there may be a list with one for every step.
     """
 
-    trajectory: Trajectory
-    values: dict[Name, Exact]
+    trajectory: Trajectory = Field(description="What the agent did.")
+    values: dict[Name, Exact] = Field(description="The current value of every state.")
     gamma: Discounts
-    asked: tuple[tuple[int, int], ...] = Field(min_length=1, max_length=26)
+    asked: tuple[tuple[int, int], ...] = Field(
+        min_length=1, max_length=26, description="Which returns are asked for, each as [time, n]."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

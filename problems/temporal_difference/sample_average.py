@@ -24,10 +24,14 @@ class Given(Givens):
     With a step size ``alpha`` all visits are to one state, and the counts play no part.
     """
 
-    values: dict[Name, Exact] = Field(min_length=1)
-    counts: dict[Name, int] = Field(default_factory=dict)
-    visits: tuple[tuple[Name, Exact], ...] = Field(min_length=1, max_length=300)
-    alpha: StepSize | None = None
+    values: dict[Name, Exact] = Field(min_length=1, description="The value of every state so far.")
+    counts: dict[Name, int] = Field(
+        default_factory=dict, description="How often each state was visited so far; without a step size it is needed."
+    )
+    visits: tuple[tuple[Name, Exact], ...] = Field(
+        min_length=1, max_length=300, description="The visits after that, each as [state, return]."
+    )
+    alpha: StepSize | None = Field(default=None, description="The step size; without it the values stay averages.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

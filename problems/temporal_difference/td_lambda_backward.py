@@ -1,5 +1,7 @@
 """The values of all states after TD(λ) updates in the backward view, along a run of transitions."""
 
+from pydantic import Field
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
@@ -18,7 +20,7 @@ REVISION = 1
 class Given(ValueRun):
     """A run, the values before it, α, γ and λ."""
 
-    lam: OpenProbability
+    lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
     replacing: Replacing = False
 
 

@@ -25,9 +25,9 @@ class Given(ValueRun):
     A run that is cut off, in a state that is not terminal, goes on with the value of that state.
     """
 
-    trajectory: ShortRun
-    lam: OpenProbability
-    asked: tuple[int, ...] = Field(min_length=1)
+    trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
+    lam: OpenProbability = Field(description="How much later returns count.")
+    asked: tuple[int, ...] = Field(min_length=1, description="The times whose states are updated.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

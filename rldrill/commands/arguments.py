@@ -25,6 +25,13 @@ def complete_names(incomplete: str) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
 
 
+def complete_families(incomplete: str) -> list[str]:
+    """Families that begin so."""
+    from rldrill.problems.catalogue import families
+
+    return [name for name in families() if name.startswith(incomplete)]
+
+
 def complete_ids(incomplete: str) -> list[str]:
     """Families, and IDs of a family once it stands."""
     from rldrill.problems.catalogue import families

@@ -24,15 +24,14 @@ def command(
 
     Examples: rldrill audit -n 20 · rldrill audit bellman --json
     """
-    import json as json_
     import sys
 
     from rich.progress import Progress
-    from rich.table import Table
 
     from rldrill.audit import audit
+    from rldrill.commands.output import print_json
     from rldrill.problems.catalogue import selection
-    from rldrill.render.terminal import console
+    from rldrill.render.terminal import console, table
 
     print(f"seed {seed}", file=sys.stderr)
     total = number * sum(len(family.levels) for family in selection(tuple(names or ())))
@@ -40,18 +39,17 @@ def command(
         task = bar.add_task("audit", total=total)
         findings = list(audit(tuple(names or ()), number, seed, lambda: bar.advance(task)))
     if json:
-        typer.echo(json_.dumps([finding.data() for finding in findings], ensure_ascii=False, indent=2))
+        print_json([finding.data() for finding in findings])
     else:
-        table = Table(box=None, pad_edge=False)
-        for title in ("Family", "Level", "Drawn", "Disagreements", "Refused", "Ties", "Mistakes recognised"):
-            table.add_column(title, justify="left" if title == "Family" else "right")
+        header = ("Family", "Level", "Drawn", "Disagreements", "Refused", "Ties", "Mistakes recognised")
+        rows = []
         for finding in findings:
             share = f"{100 * finding.recognised / finding.made:.0f} % of {finding.made}" if finding.made else "–"
-            table.add_row(
+            rows.append((
                 finding.family.name, str(finding.level), str(finding.drawn), str(len(finding.disagreements)),
                 str(len(finding.refused)), str(finding.ties), share,
-            )  # fmt: skip
-        console().print(table)
+            ))  # fmt: skip
+        console().print(table(header, rows, right=header[1:]))
     for finding in findings:
         for line in (*finding.disagreements, *finding.refused, *finding.unrecognised):
             print(line, file=sys.stderr)

@@ -20,12 +20,12 @@ def command(
 
     Examples: rldrill generate -n 100 --answers > problems.jsonl · rldrill generate td-zero --level 2 -n 5
     """
-    import json
     from itertools import islice
 
     import rldrill
+    from rldrill.commands.output import print_json
     from rldrill.exam.selection import announced_seed, sequence
 
     for family, wanted, own_seed in islice(sequence(names or (), level, announced_seed(seed)), number):
         exercise = rldrill.draw(family.name, wanted, own_seed)
-        typer.echo(json.dumps(exercise.data(answers=answers), ensure_ascii=False))
+        print_json(exercise.data(answers=answers), indent=None)

@@ -20,8 +20,8 @@ def command(
 
     Examples: rldrill list · rldrill list bellman · rldrill list --json
     """
-    import json as json_
 
+    from rldrill.commands.output import print_json
     from rldrill.exam.expected import minutes
     from rldrill.problems.catalogue import selection
 
@@ -32,23 +32,19 @@ def command(
              "minutes": minutes().get(family.name), "revision": family.revision, "source": family.source}
             for family in families
         ]  # fmt: skip
-        typer.echo(json_.dumps(rows, ensure_ascii=False, indent=2))
+        print_json(rows)
         return
-    from rich.table import Table
-    from rich.text import Text
+    from itertools import pairwise
 
-    from rldrill.render.terminal import console
+    from rldrill.render.terminal import console, table
 
-    table = Table(box=None, pad_edge=False)
-    for title in ("Topic", "Family", "Asks", "Minutes"):
-        table.add_column(title, style="bold" if title == "Family" else None, no_wrap=title != "Asks")
-    topic = ""
-    for family in families:
-        table.add_row(
-            Text(family.topic.replace("_", "-") if family.topic != topic else ""),
-            Text(family.name),
-            Text(family.summary),
-            Text(" · ".join(map(str, minutes().get(family.name, ())))),
-        )
-        topic = family.topic
-    console().print(table)
+    topics = ["", *(family.topic.replace("_", "-") for family in families)]
+    lines = [
+        ("" if topic == before else topic, (family.name, "bold"), family.summary, _joined(minutes().get(family.name)))
+        for family, (before, topic) in zip(families, pairwise(topics), strict=True)
+    ]
+    console().print(table(("Topic", "Family", "Asks", "Minutes"), lines, whole=("Family", "Minutes")))
+
+
+def _joined(minutes: list[int] | None) -> str:
+    return " · ".join(map(str, minutes or ()))

@@ -70,10 +70,10 @@ def command(
 
 
 def _print(names: list[str], *, as_latex: bool, workings: bool) -> None:
-    from rich.console import Console
-
     from rldrill.print.formula_sheet import terminal
+    from rldrill.render.encodable import Spelling
+    from rldrill.render.terminal import console
 
-    console = Console(highlight=False, soft_wrap=True)
-    for line in terminal(names, as_latex=as_latex, workings=workings):
-        console.print(line)
+    out = console()
+    for line in terminal(names, as_latex=as_latex, workings=workings, spelling=Spelling(out.encoding)):
+        out.print(line, soft_wrap=True)

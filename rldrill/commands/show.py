@@ -20,15 +20,15 @@ def command(
 
     Examples: rldrill show td-zero/2/7 · rldrill show td-zero/2/7 --json > mine.json
     """
-    import json as json_
 
     import rldrill
+    from rldrill.commands.output import print_json
     from rldrill.render.terminal import asked, console, render
 
     exercise = rldrill.load(problem)
     tell(exercise.notes)
     if json:
-        typer.echo(json_.dumps(exercise.data(), ensure_ascii=False, indent=2))
+        print_json(exercise.data())
         return
     out = console()
     out.print(render(exercise.question()))

@@ -20,16 +20,16 @@ def command(
 
     Examples: rldrill solve examples/racing-car.toml · rldrill solve td-zero/2/7 --json
     """
-    import json as json_
 
     import rldrill
+    from rldrill.commands.output import print_json
     from rldrill.problems.document import Heading
     from rldrill.render.terminal import asked, console, render
 
     exercise = rldrill.load(problem)
     tell(exercise.notes)
     if json:
-        typer.echo(json_.dumps(exercise.data(), ensure_ascii=False, indent=2))
+        print_json(exercise.data())
         return
     out = console()
     for part in exercise.parts:

@@ -8,7 +8,7 @@ import typer
 from rldrill.commands.arguments import Json
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from rich.console import RenderableType
 
     from rldrill.grading.verification import Report, Score, StudentReport
 
@@ -44,15 +44,15 @@ def command(
 
     Examples: rldrill verify answers.toml · rldrill verify handed-in/*.csv --json
     """
-    import json as json_
 
+    from rldrill.commands.output import print_json
     from rldrill.grading.verification import verify
 
     report = verify(files)
     for failure in report.failures:
         typer.echo(f"rldrill: {failure.says}", err=True)
     if json:
-        typer.echo(json_.dumps(report.to_json(show_key=show_key), ensure_ascii=False, indent=2))
+        print_json(report.to_json(show_key=show_key))
     else:
         _print(report, show_key=show_key)
     raise typer.Exit(report.exit_code)
@@ -61,35 +61,30 @@ def command(
 def _print(report: "Report", *, show_key: bool) -> None:
     from rich.text import Text
 
-    from rldrill.render.terminal import console
+    from rldrill.render.terminal import console, words
 
     out = console()
     students = [(file, student) for file in report.files for student in file.students]
     for file, student in students:
         whose = student.student or ("no name" if len(file.students) > 1 else "")
-        out.print(Text(f"{file.path}: {whose}" if whose else file.path, "bold"))
+        out.print(words((f"{file.path}: {whose}" if whose else file.path, "bold")))
         out.print(_table(student, show_key=show_key))
         out.print(Text(f"\nScore: {_points(student.score)}\n"))
     if len(students) > 1:
         out.print(Text(f"All together: {_points(report.score)}"))
 
 
-def _table(student: "StudentReport", *, show_key: bool) -> "Table":
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
+def _table(student: "StudentReport", *, show_key: bool) -> "RenderableType":
+    from rldrill.render.terminal import table
 
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
-    for title in ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else [])):
-        table.add_column(title, overflow="fold", no_wrap=title in ("Part", "Points"))
+    header = ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else []))
+    rows = []
     for row in student.parts:
         why = "" if row.verdict == "right" else row.reason
         points = f"{row.score.points} of {row.score.of}"
-        texts = [row.problem, row.part, row.read or "–", row.verdict, why, points, row.key]
-        cells = [Text(text) for text in texts[: len(table.columns)]]
-        cells[3].stylize(_COLOURS.get(row.verdict, "red"))
-        table.add_row(*cells)
-    return table
+        verdict = (row.verdict, _COLOURS.get(row.verdict, "red"))
+        rows.append((row.problem, row.part, row.read or "–", verdict, why, points, row.key)[: len(header)])
+    return table(header, rows, whole=("Part", "Points"), ruled=True)
 
 
 def _points(score: "Score") -> str:

@@ -54,21 +54,20 @@ def command(
 
 @contextmanager
 def _progress(steps: int) -> Iterator[Callable[[], None]]:
-    from rich.console import Console
     from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True), transient=True, disable=not _is_shown()) as progress:
+    from rldrill.render.terminal import console
+
+    screen = console(stderr=True)
+    with Progress(console=screen, transient=True, disable=not screen.is_terminal) as progress:
         task = progress.add_task("Typesetting", total=steps)
         yield lambda: progress.advance(task)
 
 
-def _is_shown() -> bool:
-    from rich.console import Console
-
-    return Console(stderr=True).is_terminal
-
-
 def _print(paths: list[str], *, as_json: bool) -> None:
-    import json
+    from rldrill.commands.output import print_json
 
-    typer.echo(json.dumps(paths, ensure_ascii=False, indent=2) if as_json else "\n".join(paths))
+    if as_json:
+        print_json(paths)
+    else:
+        typer.echo("\n".join(paths))

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from rldrill.print.paper import Paper, page_setup
 from rldrill.problems.document import Equation
 from rldrill.problems.errors import UsageError
+from rldrill.render.encodable import UNICODE, Spelling
 from rldrill.render.markdown import latex_equation, markdown_block, markdown_text
 from rldrill.render.mathematics.typst import text
-from rldrill.render.mathematics.unicode import inline
 from rldrill.render.typst import block, line
 from rldrill.render.typst_files import typst_file
 from rldrill.render.unicode import unicode_text
@@ -120,7 +120,9 @@ def markdown(names: Sequence[str], *, workings: bool = False) -> str:
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = False) -> "list[Text]":
+def terminal(
+    names: Sequence[str], *, workings: bool = False, as_latex: bool = False, spelling: Spelling = UNICODE
+) -> "list[Text]":
     """The formula sheet as lines for a terminal, mathematics in Unicode or in LaTeX.
 
     Raises:
@@ -133,24 +135,26 @@ def terminal(names: Sequence[str], *, workings: bool = False, as_latex: bool = F
         lines += [*([Text()] if lines else []), Text(title, style="bold")]
         for formula in found:
             printed = _equation(formula, workings=workings)
-            equation = latex_equation(printed) if as_latex else unicode_text(printed)
-            head = Text.assemble("\n  ", (_title(formula), "cyan"), "  ", (formula.source, "dim"))
+            equation = latex_equation(printed) if as_latex else spelling.plain(unicode_text(printed))
+            head = Text.assemble(
+                "\n  ", (spelling.plain(_title(formula)), "cyan"), "  ", (spelling.plain(formula.source), "dim")
+            )
             lines += [head, Text(f"    {equation}")]
             if formula.note:
-                note = markdown_text(formula.note) if as_latex else inline(formula.note)
+                note = markdown_text(formula.note) if as_latex else spelling.inline(formula.note)
                 lines.append(Text(f"    {note}", style="italic"))
-        lines += _drawn(gallery(name))
+        lines += _drawn(gallery(name), spelling)
     return lines
 
 
-def _drawn(found: Gallery) -> "list[Text]":
+def _drawn(found: Gallery, spelling: Spelling) -> "list[Text]":
     """Pictures side by side as lines for a terminal."""
     from rich.text import Text
 
-    blocks = [unicode_text(picture).splitlines() for picture in found.pictures]
+    blocks = [spelling.lines(picture) for picture in found.pictures]
     widths = [max(map(len, block)) for block in blocks]
     rows = zip_longest(*blocks, fillvalue="")
     lines = ["   ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
     texts = [Text(f"    {line}", no_wrap=True) for line in lines]
-    note = [Text(), Text(f"    {inline(found.note)}", style="italic")] if found.note else []
+    note = [Text(), Text(f"    {spelling.inline(found.note)}", style="italic")] if found.note else []
     return [Text(), *texts, *note] if texts else []

@@ -1,18 +1,45 @@
-"""Typing at the prompt: line editing and the history of what was typed, where the system has them."""
+"""Typing at the prompt: line editing, the history of what was typed, and pasted lines, where the system has them."""
 
 import contextlib
 import sys
 from collections.abc import Callable
 
-#: The end of input, or a way to ask for one line.
+#: Asks for what is typed: a line, or the lines that are pasted together. EOFError is the end of input.
 Ask = Callable[[str], str]
+
+#: So long after a line, in seconds, the next one of a paste has come; nobody types so fast.
+_PASTED = 0.03
 
 
 def line_editor() -> Ask:
     """``input`` with line editing; importing readline is what makes it edit."""
     with contextlib.suppress(ImportError):  # Windows' own console edits lines by itself
-        import readline  # noqa: F401
-    return input
+        import readline
+
+        # A paste is then put into the line as a whole, and Enter ends it.
+        readline.parse_and_bind("set enable-bracketed-paste on")
+    return _ask
+
+
+def _ask(prompt: str) -> str:
+    lines = [input(prompt)]
+    while _is_waiting():
+        try:
+            lines.append(input())
+        except EOFError:
+            break
+    return "\n".join(lines)
+
+
+def _is_waiting() -> bool:
+    """Whether more has been typed already, as when lines are pasted on a terminal that does not say so."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        return msvcrt.kbhit()
+    import select
+
+    return bool(select.select([sys.stdin], [], [], _PASTED)[0])
 
 
 def is_interactive() -> bool:

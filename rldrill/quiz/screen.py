@@ -10,9 +10,10 @@ from rich.text import Text
 
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.identity import MAX_SEED
+from rldrill.problems.parts import Kind, Matrix, Numbers, Policy, Values
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.render.terminal import asked, render, renderable
+from rldrill.render.terminal import asked, render, renderable, table, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import RULE
@@ -60,6 +61,7 @@ class Screen:
     def __init__(self, console: Console, ask: Ask) -> None:
         self._console = console
         self._ask = ask
+        self._pasted: list[str] = []
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -111,16 +113,33 @@ class Screen:
         only = len(record.parts) == 1
         for part in record.parts:
             self._print(asked(part.part, only=only))
-            self._print(Text(f"  {answer_kind(part.part.kind).how_to_type()}", style="dim"))
-            self._print(Text(f"  {KEYS}", style="dim"))
+            self._print(words((f"  {answer_kind(part.part.kind).how_to_type()}", "dim")))
+            self._print(words((f"  {KEYS}", "dim")))
             then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
             if then is not Then.NEXT:
                 return then
         return Then.NEXT
 
+    def _typed(self, prompt: str, kind: Kind) -> str:
+        """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
+        if not isinstance(kind, Matrix | Values | Numbers | Policy):
+            return self._line(prompt)
+        lines = [*self._pasted, *([] if self._pasted else [self._ask(prompt)])]
+        self._pasted = []
+        while sum(line.count("[") - line.count("]") for line in lines) > 0:
+            lines.append(self._ask("... "))
+            if not lines[-1].strip():
+                break
+        return "\n".join(lines)
+
+    def _line(self, prompt: str) -> str:
+        """One line, the next of those that were pasted together, if there are any left."""
+        self._pasted = self._pasted or self._ask(prompt).split("\n")
+        return self._pasted.pop(0)
+
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
         while part.state is State.OPEN:
-            text = self._ask(prompt).strip()
+            text = self._typed(prompt, part.part.kind).strip()
             match text.lower():
                 case "":
                     self._print(Text("  Type an answer, or ? for help.", style="dim"))
@@ -147,7 +166,7 @@ class Screen:
         return Then.NEXT
 
     def _after(self, record: Record) -> Then:
-        text = self._ask("Enter next · w working · v variant · r again · q quit > ").strip().lower()
+        text = self._line("Enter next · w working · v variant · r again · q quit > ").strip().lower()
         if text == "w":
             self._print(render(record.exercise.working()))
             return self._after(record)
@@ -155,10 +174,8 @@ class Screen:
 
     def _verdict(self, verdict: Verdict, exercise: Exercise, part: PartRecord) -> None:
         style = _STYLES[verdict.outcome]
-        line = Text("  ").append(_WORDS[verdict.outcome], style=f"bold {style}").append(f" {verdict.says}")
-        if verdict.read:
-            line.append(f"  (read as {verdict.read})", style="dim")
-        self._print(line)
+        read = f"  (read as {verdict.read})" if verdict.read else ""
+        self._print(words("  ", (_WORDS[verdict.outcome], f"bold {style}"), f" {verdict.says}", (read, "dim")))
         for misconception in verdict.told:
             for formula in exercise.formulas(part.part.label):
                 if misconception in formula.misread:
@@ -194,20 +211,19 @@ class Screen:
         if not parts:
             self._print("Nothing was answered. Come back soon.")
             return
-        table = Table(box=None, pad_edge=False)
-        for title in ("Problem", "Part", "Tries", "Result", "Points"):
-            table.add_column(title, justify="right" if title in ("Tries", "Points") else "left")
-        for record in session.records:
-            if record.begun:
-                for part in record.parts:
-                    table.add_row(
-                        Text(record.exercise.id or record.exercise.problem.family.name),
-                        Text(part.part.label),
-                        Text(str(part.tries)),
-                        Text(_result(part)),
-                        Text(f"{float(part.points):g} of {part.part.points}"),
-                    )
-        self._print(table)
+        rows = [
+            (
+                record.exercise.id or record.exercise.problem.family.name,
+                part.part.label,
+                str(part.tries),
+                _result(part),
+                f"{float(part.points):g} of {part.part.points}",
+            )
+            for record in session.records
+            if record.begun
+            for part in record.parts
+        ]
+        self._print(table(("Problem", "Part", "Tries", "Result", "Points"), rows, right=("Tries", "Points")))
         right = sum(part.state is State.DONE for part in parts)
         first = sum(part.first_time for part in parts)
         self._print(Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold"))

@@ -2,9 +2,10 @@
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Container, Iterable, Sequence
 from dataclasses import dataclass
 from io import StringIO
+from typing import TypeAlias
 
 from rich import box
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
@@ -16,9 +17,7 @@ from rich.text import Text
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
-from rldrill.render.mathematics.stacked import stacked
-from rldrill.render.mathematics.unicode import inline
-from rldrill.render.pictures.text import lines
+from rldrill.render.encodable import Spelling
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
 PIPED = 140
@@ -26,6 +25,11 @@ PIPED = 140
 _PAGE = 100
 #: The room between blocks that stand side by side.
 _BETWEEN = 4
+#: The room between the columns of a table.
+_BETWEEN_COLUMNS = 2
+
+#: A text with its style, or without.
+Span: TypeAlias = tuple[str, str] | str
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -48,95 +52,196 @@ def plain(blocks: Iterable[Block]) -> str:
     return "\n".join(line.rstrip() for line in captured.get().splitlines()).rstrip("\n")
 
 
+@dataclass(frozen=True)
+class _Spelled:
+    """What is written as the console's encoding and width demand, which are known only when it is printed."""
+
+    write: Callable[[Spelling, int], RenderableType]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        yield self._written(options)
+
+    def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
+        return Measurement.get(console, options, self._written(options))
+
+    def _written(self, options: ConsoleOptions) -> RenderableType:
+        return self.write(Spelling(options.encoding), options.max_width)
+
+
 def renderable(block: Block) -> RenderableType:
     """One block."""
     match block:
         case Paragraph(text):
-            return Text(inline(text))
+            return _Spelled(lambda spelling, _: Text(spelling.inline(text)))
         case Heading(text):
-            return Text(inline(text), style="bold")
-        case Table(header, rows):
-            return _table(header, rows)
+            return _Spelled(lambda spelling, _: Text(spelling.inline(text), style="bold"))
+        case Table():
+            return _indented(_Spelled(lambda spelling, width: _table(block, spelling, width)))
         case Equation():
-            return _equation(block)
+            return _indented(_Spelled(lambda spelling, _: _equation(block, spelling)))
         case Beside(blocks):
-            return _Beside(tuple(map(renderable, blocks)))
+            return _Beside(blocks)
         case Picture():
-            return _indented(_Drawn(block))
+            return _indented(_Spelled(lambda spelling, width: _drawn(block, spelling, width)))
         case _:
             raise TypeError(f"{type(block).__name__} cannot be shown in a terminal")
 
 
+def words(*spans: Span) -> RenderableType:
+    """A line of texts, each with its style or without, that hold no mathematics between ``$`` signs."""
+    return _Spelled(lambda spelling, _: _text(spelling, spans))
+
+
+def _text(spelling: Spelling, spans: Iterable[Span]) -> Text:
+    styled = ((span, "") if isinstance(span, str) else span for span in spans)
+    return Text.assemble(*((spelling.plain(text), style) for text, style in styled))
+
+
 @dataclass(frozen=True)
 class _Beside:
-    """Blocks side by side where the terminal is wide enough, else one under the other."""
+    """Blocks side by side where the terminal is wide enough, else one under the other.
 
-    items: tuple[RenderableType, ...]
+    A picture that is wider than the terminal gives way to what it stands beside.
+    """
+
+    blocks: tuple[Block, ...]
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        widths = [Measurement.get(console, options, item).maximum for item in self.items]
+        items = [renderable(block) for block in self.blocks]
+        widths = [Measurement.get(console, options.update(max_width=_ENDLESS), item).maximum for item in items]
         if sum(widths) + _BETWEEN * (len(widths) - 1) > options.max_width:
-            stacked_items = [line for item in self.items for line in (item, Text(""))]
+            fitting = [
+                item
+                for item, block, width in zip(items, self.blocks, widths, strict=True)
+                if not isinstance(block, Picture) or width <= options.max_width
+            ]
+            stacked_items = [line for item in fitting for line in (item, Text(""))]
             yield Group(*stacked_items[:-1])
             return
         grid = RichTable.grid(padding=(0, _BETWEEN, 0, 0))
         for width in widths:
             grid.add_column(no_wrap=True, width=width)
-        grid.add_row(*self.items)
+        grid.add_row(*items)
         yield grid
 
 
-@dataclass(frozen=True)
-class _Drawn:
-    """A picture drawn with signs, folded where it can be."""
-
-    picture: Picture
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        yield self._text(options.max_width)
-
-    def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
-        return Measurement.get(console, options, self._text(options.max_width))
-
-    def _text(self, width: int) -> Text:
-        return Text("\n".join(lines(self.picture, width)), no_wrap=True, overflow="ignore")
+#: Wider than any terminal.
+_ENDLESS = 10_000
 
 
-def _table(header: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> RenderableType:
-    table = RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=True)
-    for title, column in zip(header, zip(*rows, strict=True), strict=True):
-        numbers = all(cell.startswith("$") or cell == "–" for cell in column)
-        table.add_column(Text(inline(title)), justify="right" if numbers else "left", overflow="fold")
+def _drawn(picture: Picture, spelling: Spelling, width: int) -> Text:
+    """A picture drawn with signs, folded where it can be; what is wider than the terminal is folded, not cut."""
+    drawn = spelling.lines(picture, width)
+    fits = all(len(line) <= width for line in drawn)
+    return Text("\n".join(drawn), no_wrap=fits, overflow="ignore" if fits else "fold")
+
+
+def _table(table: Table, spelling: Spelling, width: int) -> RenderableType:
+    header = [Text(spelling.inline(title)) for title in table.header]
+    rows = [[Text(spelling.inline(cell)) for cell in line] for line in table.rows]
+    numbers = [
+        title.plain
+        for title, column in zip(header, zip(*table.rows, strict=True), strict=True)
+        if all(cell.startswith("$") or cell == "–" for cell in column)
+    ]
+    drawn = RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=True)
+    return _filled(drawn, header, rows, width, right=numbers)
+
+
+def table(
+    header: Sequence[str],
+    rows: Iterable[Sequence[Span]],
+    *,
+    right: Container[str] = (),
+    whole: Container[str] = (),
+    ruled: bool = False,
+) -> RenderableType:
+    """A table of texts, each with its style or without; a paragraph a line where the terminal is too narrow.
+
+    Args:
+        header: the titles of the columns.
+        rows: the cells.
+        right: the columns that stand to the right.
+        whole: the columns that are not folded.
+        ruled: whether there is a line under the titles.
+    """
+    lines = [list(line) for line in rows]
+
+    def write(spelling: Spelling, width: int) -> RenderableType:
+        drawn = RichTable(box=box.SIMPLE_HEAD if ruled else None, show_edge=False, pad_edge=False)
+        drawn.collapse_padding = ruled
+        titles = [Text(title, style="bold") for title in header]
+        return _filled(
+            drawn, titles, [[_text(spelling, [cell]) for cell in line] for line in lines], width, right, whole
+        )
+
+    return _Spelled(write)
+
+
+def _filled(
+    drawn: RichTable,
+    header: list[Text],
+    rows: list[list[Text]],
+    width: int,
+    right: Container[str],
+    whole: Container[str] = (),
+) -> RenderableType:
+    """The rows in a table; as paragraphs where words would have to be broken to fit them in."""
+    needed = 0
+    for title, *cells in zip(header, *rows, strict=True):
+        longest = len if title.plain in whole else _longest
+        needed += _BETWEEN_COLUMNS + max(map(longest, (title, *cells)))
+    if needed - _BETWEEN_COLUMNS + 2 * drawn.pad_edge > width:
+        return Group(*(_paragraph(header, line) for line in rows))
+    for title in header:
+        drawn.add_column(
+            title, justify="right" if title.plain in right else "left", overflow="fold", no_wrap=title.plain in whole
+        )
     for line in rows:
-        table.add_row(*(Text(inline(cell)) for cell in line))
-    return _indented(table)
+        drawn.add_row(*line)
+    return drawn
 
 
-def _equation(equation: Equation) -> RenderableType:
+def _longest(cell: Text) -> int:
+    return max(map(len, cell.plain.split()), default=0)
+
+
+def _paragraph(header: list[Text], line: list[Text]) -> Text:
+    told = [Text(f"{title.plain}: ").append_text(cell) for title, cell in zip(header, line, strict=True) if cell]
+    return Text(", ").join(told)
+
+
+def _equation(equation: Equation, spelling: Spelling) -> RenderableType:
     grid = RichTable.grid(padding=(0, 1, 0, 0))
     grid.add_column(no_wrap=True)
     grid.add_column(no_wrap=True)
     grid.add_column(overflow="fold")
-    left = "\n".join(stacked(equation.left))
+    left = "\n".join(spelling.stacked(equation.left))
     for index, (sign, right) in enumerate(zip(equation.signs, equation.rights, strict=True)):
-        lines = stacked(right)
+        lines = spelling.stacked(right)
         middle = len(lines) // 2
         shift = "\n" * middle
-        grid.add_row(Text(shift + left if index == 0 else ""), Text(shift + sign), Text("\n".join(lines)))
-    return _indented(grid)
+        grid.add_row(
+            Text(shift + left if index == 0 else ""), Text(shift + spelling.plain(sign)), Text("\n".join(lines))
+        )
+    return grid
 
 
 def _indented(content: RenderableType) -> RenderableType:
     return Padding(content, (0, 0, 0, 2), expand=False)
 
 
-def asked(part: Part, *, only: bool = False) -> Text:
+def asked(part: Part, *, only: bool = False) -> RenderableType:
     """The sentence that asks for a part, with its letter unless it is the only one."""
+    return _Spelled(lambda spelling, _: _asked(part, spelling, only=only))
+
+
+def _asked(part: Part, spelling: Spelling, *, only: bool) -> Text:
     text = Text() if only else Text(f"({part.label}) ", style="bold")
-    text.append(inline(part.ask))
+    text.append(spelling.inline(part.ask))
     if isinstance(part.kind, Choice):
         for letter, option in part.kind.options.items():
-            text.append(f"\n    ({letter}) {inline(option)}")
+            text.append(f"\n    ({letter}) {spelling.inline(option)}")
     if part.points != 1:
         text.append(f"  [{part.points} points]", style="dim")
     return text

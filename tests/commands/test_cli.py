@@ -12,7 +12,7 @@ import pytest
 import rldrill
 
 ROOT = Path(__file__).parent.parent.parent
-COMMANDS = ("quiz", "worksheet", "verify", "solve", "show", "sheet", "list", "generate", "audit")
+COMMANDS = ("quiz", "worksheet", "verify", "solve", "show", "sheet", "list", "fields", "generate", "audit")
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:

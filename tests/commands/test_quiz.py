@@ -156,3 +156,77 @@ def test_ctrl_d_in_a_real_terminal(terminal: pexpect.spawn) -> None:
     terminal.expect(pexpect.EOF)
     terminal.close()
     assert terminal.exitstatus == 0
+
+
+GAIN = "lqr-gain/3/1"  # L = [1/18 1/6; −5/9 1/3]
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ("1/18 1/6\n-5/9 1/3",),
+        ("[1/18 1/6\n-5/9 1/3]",),
+        ("[[1/18, 1/6],", "[-5/9, 1/3]]"),
+        ("[", "1/18 1/6", "-5/9 1/3", "]"),
+    ],
+)
+def test_the_lines_of_a_matrix_are_one_answer(lines: tuple[str, ...]) -> None:
+    _, session, _ = quiz(*lines, names=(GAIN,))
+    assert [part.state for part in session.parts][:1] == [State.DONE]
+    assert session.parts[0].tries == 1
+
+
+def test_a_bracket_that_stays_open_ends_with_an_empty_line() -> None:
+    typist, session, _ = quiz("[1 2", "", "s", names=(GAIN,))
+    assert "> [1 2" in typist.seen
+    assert session.parts[0].state is State.SKIPPED
+
+
+def test_the_lines_of_a_table_are_one_answer() -> None:
+    _, session, _ = quiz("cool: 7/2\nwarm: 2.5", "cool: fast\nwarm: slow", "")
+    assert [part.state for part in session.parts] == [State.DONE, State.DONE]
+    assert [part.tries for part in session.parts] == [1, 1]
+
+
+def test_pasted_numbers_answer_one_part_after_the_other() -> None:
+    # r = 3, −2, 4, 1 and γ = 1/2: R_1 = −2 + 4/2 + 1/4 = 1/4, R_0 = 3 + 1/8 = 25/8.
+    _, session, _ = quiz("1/4\n25/8", "", names=("return/1/7",))
+    assert [part.state for part in session.parts] == [State.DONE, State.DONE]
+
+
+def spawned(*arguments: str, **environment: str) -> pexpect.spawn:
+    return pexpect.spawn(
+        sys.executable, ["-m", "rldrill", "quiz", *arguments], encoding="utf-8", timeout=30, echo=False,
+        env={**os.environ, "TERM": "xterm", "NO_COLOR": "1", "COLUMNS": "100", **environment},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("terminal_name", ["xterm", "dumb"])
+def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) -> None:
+    child = spawned(GAIN, TERM=terminal_name)
+    child.expect("> $")
+    rows = "1/18 1/6\n-5/9 1/3"
+    # A terminal that can do so tells where a paste begins and ends; another one types it.
+    child.send(f"\x1b[200~{rows}\x1b[201~\r" if terminal_name == "xterm" else rows.replace("\n", "\r") + "\r")
+    child.expect(r"✓\S* Right")
+    child.close(force=True)
+
+
+def test_an_open_bracket_goes_on_in_a_real_terminal() -> None:
+    child = spawned(GAIN)
+    child.expect("> $")
+    child.sendline("[[1/18, 1/6],")
+    child.expect(r"\.\.\. ")
+    child.sendline("[-5/9, 1/3]]")
+    child.expect(r"✓\S* Right")
+    child.close(force=True)
+
+
+def test_history_and_a_new_size_of_the_window_do_no_harm(terminal: pexpect.spawn) -> None:
+    terminal.expect(r"\(a\) > ")
+    terminal.sendline("1, 2")
+    terminal.expect("✗")
+    terminal.setwinsize(30, 70)
+    terminal.expect(r"\(a\) > ")
+    terminal.send("\x1b[A\x15cool: 3.5, warm: 5/2\r")  # up to the answer before, and all of it deleted
+    terminal.expect(r"✓\S* Right")

@@ -32,7 +32,7 @@ def mdp(*transitions: list[object], terminal: tuple[str, ...] = ("end",)) -> dic
         (changed(gamma=float("nan")), "given.gamma"),
         (changed(sweeps=0), "given.sweeps"),
         (changed(sweeps=10**9), "given.sweeps"),
-        (changed(extra=1), "given.extra: is not a field"),
+        (changed(extra=1), "given.extra is not a field"),
         ({"mdp": MDP, "gamma": 1}, "given.sweeps: is missing"),
         (changed(start={"a": 1}), "value of 'b' is missing"),
         (changed(start={"a": 1, "b": 2, "c": 3}), "given for 'c'"),
@@ -136,7 +136,7 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         # what belongs to one of several kinds of problems
         ("bandit", "nothing", "given: must be a table, in which every name has its value."),
         ("bandit", {"pulls": [["x", 1]], "c": "x"}, "given.c: 'x' is not a number"),
-        ("bandit", {"pulls": [["x", 1], ["y", 1]], "C": 1}, "given.C: is not a field of this family"),
+        ("bandit", {"pulls": [["x", 1], ["y", 1]], "C": 1}, "given.C is not a field (did you mean c?)"),
         ("bandit", {"pulls": [["x", 1], ["y", 1]], "pulled": ["x", 1], "alpha": 1}, "given.preferences: is missing"),
         ("expected-sarsa", [], "given: must be a table, in which every name has its value."),
         ("expected-sarsa", {}, "given: give either policy or epsilon."),

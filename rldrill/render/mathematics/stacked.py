@@ -1,9 +1,10 @@
 """Mathematics on several lines of text: matrices as matrices, everything else on the middle line."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from rldrill.problems.mathematics import Fence, Math, Row, Script, Tabular
-from rldrill.render.mathematics.unicode import scripts, unicode
+from rldrill.problems.mathematics import Fence, Math, Row, Script, Tabular, word
+from rldrill.render.mathematics.unicode import unicode
 
 _BRACKETS = {
     "[": ("⎡", "⎢", "⎣"),
@@ -27,9 +28,13 @@ class Stack:
         return len(self.lines[0])
 
 
-def stacked(math: Math) -> tuple[str, ...]:
-    """Mathematics as lines of text, one line where there is no matrix in it."""
-    return tuple(line.rstrip() for line in _box(math).lines) if _has_grid(math) else (unicode(math),)
+#: Writes mathematics on one line.
+Write = Callable[[Math], str]
+
+
+def stacked(math: Math, write: Write = unicode) -> tuple[str, ...]:
+    """Mathematics as lines of text, one line where there is no matrix in it; ``write`` writes what stands on one."""
+    return tuple(line.rstrip() for line in _box(math, write).lines) if _has_grid(math) else (write(math),)
 
 
 def _has_grid(math: Math) -> bool:
@@ -44,25 +49,25 @@ def _has_grid(math: Math) -> bool:
             return False
 
 
-def _box(math: Math) -> Stack:
+def _box(math: Math, write: Write) -> Stack:
     match math:
         case Tabular(rows, left, right):
-            return _fenced(_cells(rows), left, right)
+            return _fenced(_cells(rows, write), left, right)
         case Row(items) if _has_grid(math):
-            return _beside(items)
+            return _beside(items, write)
         case Fence(body, left, right) if _has_grid(math):
-            return _fenced(_box(body), left, right)
+            return _fenced(_box(body, write), left, right)
         case Script(body, below, above) if _has_grid(math):
-            box = _box(body)
-            raised = scripts(below, above)
+            box = _box(body, write)
+            raised = write(Script(word(""), below, above))
             top = [line + (raised if index == 0 else " " * len(raised)) for index, line in enumerate(box.lines)]
             return Stack(tuple(top), box.base)
         case _:
-            return Stack((unicode(math),))
+            return Stack((write(math),))
 
 
-def _cells(rows: tuple[tuple[Math, ...], ...]) -> Stack:
-    texts = [[unicode(cell) for cell in line] for line in rows]
+def _cells(rows: tuple[tuple[Math, ...], ...], write: Write) -> Stack:
+    texts = [[write(cell) for cell in line] for line in rows]
     widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
     lines = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in texts]
     return Stack(tuple(lines), len(lines) // 2)
@@ -83,7 +88,7 @@ def _bracket(sign: str, index: int, height: int) -> str:
     return top if index == 0 else bottom if index == height - 1 else middle
 
 
-def _beside(items: tuple[Math, ...]) -> Stack:
+def _beside(items: tuple[Math, ...], write: Write) -> Stack:
     # What stands between two matrices is written as one piece, so that its signs get their spaces.
     boxes: list[Stack] = []
     plain: list[Math] = []
@@ -92,13 +97,13 @@ def _beside(items: tuple[Math, ...]) -> Stack:
             plain.append(item)
             continue
         if plain:
-            text = unicode(Row(tuple(plain)))
-            sign = text[0] in "+−" and bool(boxes)
-            tail = item is not None and text[-1] in "+−"
+            text = write(Row(tuple(plain)))
+            sign = text[0] in "+−-" and bool(boxes)
+            tail = item is not None and text[-1] in "+−-"
             boxes.append(Stack((f" {text[0]} {text[1:].lstrip()}" if sign else text + " " * tail,)))
             plain = []
         if item is not None:
-            boxes.append(_box(item))
+            boxes.append(_box(item, write))
     above = max(box.base for box in boxes)
     below = max(len(box.lines) - box.base for box in boxes)
     lines = [""] * (above + below)

@@ -14,8 +14,9 @@ from rldrill.problems.mathematics import (
     Tabular,
 )
 
-_BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
-_ABOVE = dict(
+#: Signs and their small forms below and above the line.
+BELOW = dict(zip("0123456789+−=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
+ABOVE = dict(
     zip(
         "0123456789+−=()abcdefghijklmnoprstuvwxyzTABβγδφ",
         "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ᵃᵇᶜᵈᵉᶠᵍʰⁱʲᵏˡᵐⁿᵒᵖʳˢᵗᵘᵛʷˣʸᶻᵀᴬᴮᵝᵞᵟᵠ",
@@ -136,25 +137,25 @@ def _is_readable_above(math: Math) -> bool:
     words = any(
         isinstance(item, Glyph) and item.style == "word" for item in (math.items if isinstance(math, Row) else ())
     )
-    return _all_shift(math, _ABOVE) and not words
+    return _all_shift(math, ABOVE) and not words
 
 
 def _lowered(math: Math | None) -> str:
-    return "" if math is None else _shifted(math, _BELOW, "_")
+    return "" if math is None else _shifted(math, BELOW, "_")
 
 
 def _raised(math: Math | None) -> str:
     if math == Glyph("*", "operator"):
         return "*"
-    return "" if math is None else _shifted(math, _ABOVE, "^")
+    return "" if math is None else _shifted(math, ABOVE, "^")
 
 
 def _shifted(math: Math, table: dict[str, str], mark: str) -> str:
     text = unicode(math).replace(" ", "")
     primes = len(text) - len(text.rstrip("′"))
-    stem = text.rstrip("′") if table is _BELOW else text
-    if stem and all(sign in table or (sign == "′" and table is _BELOW) for sign in stem):
-        return "".join(table.get(sign, sign) for sign in stem) + "′" * (primes if table is _BELOW else 0)
+    stem = text.rstrip("′") if table is BELOW else text
+    if stem and all(sign in table or (sign == "′" and table is BELOW) for sign in stem):
+        return "".join(table.get(sign, sign) for sign in stem) + "′" * (primes if table is BELOW else 0)
     return f"{mark}{text}" if len(text) == 1 or _bracketed(text) else f"{mark}({text})"
 
 

@@ -1,0 +1,116 @@
+"""The fields of problem files: each is described, and its example can be given."""
+
+import json
+import typing
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+import pytest
+from pydantic import BaseModel, TypeAdapter
+
+import rldrill
+from rldrill.problems.catalogue import families, family
+from rldrill.problems.errors import FileError
+from rldrill.problems.grids import Grid
+
+
+def models(annotation: Any, seen: set[type[BaseModel]]) -> Iterator[type[BaseModel]]:
+    """A model and the models within it, each once."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel) and annotation not in seen:
+        seen.add(annotation)
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from models(field.annotation, seen)
+    for part in typing.get_args(annotation):
+        yield from models(part, seen)
+
+
+ALL = [*families()]
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_field_is_described_with_an_example_that_says_more_than_the_default(name: str) -> None:
+    found = rldrill.fields(name)
+    assert found
+    for field in found:
+        assert field.means.endswith("."), f"{name}: {field.path} needs Field(description=…), one plain sentence"
+        assert field.takes != "a value", f"{name}: {field.path} needs words for its type"
+        assert field.example not in ('""', field.default), f"{name}: {field.path} needs Field(examples=…)"
+        json.loads(field.example)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_field_of_every_model_is_listed(name: str) -> None:
+    listed = {field.path.rpartition(".")[2] for field in rldrill.fields(name)}
+    for kind in family(name).kinds:
+        for model in models(kind, set()):
+            assert set(model.model_fields) <= listed
+
+
+def test_the_examples_that_are_written_down_can_be_given() -> None:
+    seen: set[type[BaseModel]] = {Grid}
+    every = [Grid, *(model for name in ALL for kind in family(name).kinds for model in models(kind, seen))]
+    for model in every:
+        for field in model.model_fields.values():
+            for example in field.examples or ():
+                TypeAdapter(Annotated[field.annotation, *(field.metadata or [None])]).validate_python(example)
+
+
+def test_the_examples_that_were_drawn_can_be_given() -> None:
+    # Top fields with an example each are, in a family without alternatives, a problem.
+    for name in ("return", "lqr-gain", "rbf"):
+        given = {field.path: json.loads(field.example) for field in rldrill.fields(name) if field.default is None}
+        assert family(name).read(given)
+
+
+def paths(name: str) -> dict[str, rldrill.FileField]:
+    return {field.path: field for field in rldrill.fields(name)}
+
+
+def test_optional_fields_are_found_with_their_defaults() -> None:
+    found = paths("policy-evaluation")
+    assert (found["in_place"].takes, found["in_place"].default) == ("true or false", "false")
+    assert (found["mdp.slip"].takes, found["mdp.slip"].default) == ("a number from 0 to 1", '"0"')
+    assert {"mdp.ends", "mdp.returns", "mdp.gymnasium"} <= set(found)
+    assert "equiprobable" in found["policy"].means
+    assert found["policy"].default == "nothing"
+    assert found["gamma"].default is None
+    assert paths("sarsa-lambda")["traces"].default == "nothing"
+
+
+def test_rows_name_their_entries_and_choices_their_words() -> None:
+    assert paths("value-iteration")["mdp.transitions"].takes.endswith("[state, action, next, probability, reward]")
+    assert paths("monte-carlo")["visits"].takes == '"first" or "every"'
+    assert paths("value-iteration")["sweeps"].takes == "a whole number from 1 to 1000"
+
+
+@pytest.mark.parametrize(("name", "forms"), [("bandit", 3), ("advantage", 3), ("expected-sarsa", 2), ("td-zero", 1)])
+def test_every_form_of_a_union_is_listed(name: str, forms: int) -> None:
+    assert len({field.form for field in rldrill.fields(name)}) == forms
+
+
+def test_the_forms_of_a_model_are_told_apart() -> None:
+    forms = {field.path: field.form for field in rldrill.fields("value-iteration")}
+    assert len({forms["mdp.transitions"], forms["mdp.grid"], forms["mdp.gymnasium"], forms["gamma"]}) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "says"),
+    [
+        ("td-zero", {"gama": 1}, "given.gama is not a field (did you mean gamma?); rldrill.fields('td-zero')"),
+        ("td-zero", {"xyz": 1}, "given.xyz is not a field; rldrill.fields('td-zero') and 'rldrill fields td-zero'"),
+        ("value-iteration", {"mdp": {"gird": "..G"}}, "given.mdp.gird is not a field (did you mean grid?)"),
+        (
+            "value-iteration",
+            {"mdp": {"grid": "..G", "slipp": 1}},
+            "slipp is not a field of a grid (did you mean slip?)",
+        ),
+        ("bandit", {"pulls": [["x", 1], ["y", 1]], "C": 1}, "given.C is not a field (did you mean c?)"),
+        ("kalman-filter", {"steps": [{"u": 1, "zz": 1}]}, "given.steps[1].zz is not a field (did you mean z?)"),
+    ],
+)
+def test_an_unknown_field_is_told_with_the_nearest_known_one(name: str, change: dict[str, Any], says: str) -> None:
+    given = rldrill.draw(name, 1, 1).data()["given"] | change
+    with pytest.raises(FileError) as error:
+        rldrill.read({"family": name, "given": given})
+    assert says in str(error.value)
