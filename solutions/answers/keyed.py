@@ -7,7 +7,7 @@ from typing import Generic
 
 from rldrill.problems.spelling import Source, Unreadable, quoted
 from rldrill.solutions.answers.lists import filled
-from rldrill.solutions.answers.names import Key, is_end, keys_named, listed, matches, shown, the_key
+from rldrill.solutions.answers.names import Key, is_end, is_known, keys_named, listed, matches, shown, the_key
 
 _ARROW = re.compile(r"->|→|↦|:=|[:=]")
 _CELL = re.compile(r"r(\d+)c(\d+)")
@@ -16,6 +16,7 @@ _ZERO = re.compile(r"[-+]?(?:0+\.?0*|\.0+)")
 _NOTHING = re.compile(r"[-–—.·*_#xX/]*|none|null|nan|n/?a|end|terminal|exit|goal", re.IGNORECASE)
 _NUMERIC = re.compile(r"[-+]?[\d.]")
 _MOST = 200
+_FORMS = 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +95,7 @@ def _marks(piece: Source) -> int:
 
 def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
     """The items of a piece; a second key in it must be known: ``cool=3.5 warm=2.5``."""
-    start, name, begun = 0, "", 0
+    start, name, begun, forms = 0, "", 0, 0
     for index, _ in piece.outside():
         mark = _ARROW.match(piece.text, index)
         if mark is None or index < begun:
@@ -106,6 +107,9 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
             start, name, begun = 0, before.strip(), mark.end()
             continue
         split = _last_key(before, asked)
+        forms = forms + 1 if split is None else 0
+        if forms > _FORMS:
+            raise piece.unreadable("It holds too many equal signs; write each value alone, once.")
         if split is not None:
             stop = begun + split
             yield _Item(name, piece.part(begun, stop), piece.part(start, stop))
@@ -125,7 +129,7 @@ def _last_key(text: str, asked: Asked[Key]) -> int | None:
         if matches(text[start:], [(name, name) for name in (*names, *asked.ends)]):
             return start  # very cool, of which cool may be a key too
     for start in reversed(starts):
-        if _known(text[start:], asked):
+        if is_known(text[start:], asked.keys, asked.ends):
             return min(early for early in (start, *starts) if text[early:start].strip() in ("", "ln", "log"))
     return None
 
@@ -204,28 +208,47 @@ def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
 
 def _tabled(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     """A table: a line for each key; or the keys in the first line; or states by actions."""
-    lines = filled(body.split("\n"))
-    if len(lines) < 2 or len(lines) > _MOST or body.has(",;"):
+    lines = _lines(body)
+    if not 2 <= len(lines) <= _MOST:
         return None
-    bars = body.has("|")
-    rows = [line.split("|") if bars else _words(line) for line in lines]
-    by_line = [(_key(cells[:-1], asked), cells[-1]) for cells in rows if len(cells) > 1]
-    by_column: list[tuple[Key | None, Source]] = []
-    crossed: list[tuple[Key | None, Source]] = []
-    for heads, cells in ((rows[0], row) for row in rows[1:]):
-        if len(rows) == 2 and len(heads) == len(cells):
-            by_column = [(_key([head], asked), cell) for head, cell in zip(heads, cells, strict=True)]
-        columns = heads[1:] if len(heads) == len(cells) else heads
-        if not isinstance(asked.keys[0], str) and len(columns) == len(cells) - 1:
-            crossed += [
-                (_key([cells[0], head], asked) or _key([head, cells[0]], asked), cell)
-                for head, cell in zip(columns, cells[1:], strict=True)
-            ]
-    for reading in (by_line, by_column, crossed):
-        found = {key: cell for key, cell in reading if key is not None}
-        if len(found) == len(asked.keys) == sum(key is not None for key, _ in reading):
-            return found
+    parting = next((mark for mark in "|;," if lines[0].has(mark)), None)
+    rows = [line.split(parting) if parting else _words(line) for line in lines]
+    for reading in _readings(rows, pairs=not isinstance(asked.keys[0], str)):
+        found = [(_key(names, asked), names, cell) for names, cell in reading]
+        placed = {key: cell for key, _, cell in found if key is not None}
+        idle = all(_is_idle(names, cell, asked) for key, names, cell in found if key is None)
+        if idle and len(placed) == len(asked.keys) == sum(key is not None for key, *_ in found):
+            return placed
     return None
+
+
+def _readings(rows: list[list[Source]], *, pairs: bool) -> Iterator[list[tuple[list[Source], Source]]]:
+    """The cells of a table with what may name them; its first line or column may be a heading."""
+    by_line = [(cells[:-1], cells[-1]) for cells in rows]
+    yield from (by_line[1:], by_line)
+    if len(rows) == 2 and len(rows[0]) == len(rows[1]):
+        by_column = [([head], cell) for head, cell in zip(*rows, strict=True)]
+        yield from (by_column[1:], by_column)
+    width = len(rows[1])
+    if pairs and all(len(row) == width for row in rows[1:]) and len(rows[0]) in (width - 1, width):
+        heads = rows[0][len(rows[0]) - width + 1 :]
+        crossed = [(row[0], head, cell) for row in rows[1:] for head, cell in zip(heads, row[1:], strict=True)]
+        yield [([state, action], cell) for state, action, cell in crossed]
+        yield [([state, action], cell) for action, state, cell in crossed]
+
+
+def _is_idle(names: Sequence[Source], cell: Source, asked: Asked[Key]) -> bool:
+    """Whether a cell that has no key says nothing, as that of a terminal state does."""
+    ended = is_end(" ".join(name.text for name in names), asked.keys, asked.ends)
+    return bool(asked.means_nothing(cell) if ended else _NOTHING.fullmatch(cell.text))
+
+
+def _lines(body: Source) -> list[Source]:
+    """The lines of a table, or what stands in brackets of its own: ``('cool', 3.5), ('warm', 2.5)``."""
+    if body.has("\n"):
+        return filled(body.split("\n"))
+    lines = [piece.unwrapped() for piece in body.split(",;") if piece.text]
+    return [line for line in lines if line] if all(lines) else []
 
 
 def _key(cells: Sequence[Source], asked: Asked[Key]) -> Key | None:
@@ -252,6 +275,9 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
                 return None
             key = _key(words[:length], asked)
             value = Source(" ".join(word.text for word in words[length:stop]), words[length].start)
+            if words[length].text == "-" and stop > length + 1 and asked.numbers:
+                shown_ = quoted(" ".join(word.text for word in words[:stop]))
+                raise value.unreadable(f"The dash in {shown_} may be a minus sign; write a colon behind the name.")
             if key in found or (key is None and not asked.means_nothing(value)):
                 return None
             if key is not None:

@@ -43,7 +43,7 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
     for marks in (";", "|"):
         if source.has(marks):
             entries = source.split(marks if marks == ";" else "|\n")
-            _refuse_commas(entries)
+            _refuse_commas(entries, "semicolons" if marks == ";" else "bars")
             break
     else:
         if not source.has(","):
@@ -63,13 +63,13 @@ def filled(pieces: list[Source]) -> list[Source]:
     return [piece for piece in pieces if piece.text] or pieces[:1]
 
 
-def _refuse_commas(entries: list[Source]) -> None:
+def _refuse_commas(entries: list[Source], others: str) -> None:
     """Complain about commas inside entries that something else parts."""
     for entry in entries:
         for index, character in entry.outside():
             if character == ",":
                 refuse_comma(entry, index)
-                raise entry.unreadable("Commas and semicolons are mixed; use one of them.", index)
+                raise entry.unreadable(f"Commas and {others} are mixed; use one of them.", index)
 
 
 def _refuse_doubtful(source: Source, entries: list[Source]) -> None:

@@ -19,11 +19,12 @@ _LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
 _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
 _SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
 _LISTED = 60
+_LONGEST = 120  # longer names are none
 _WAYS = {
     "up": "↑ ⬆ ⇧ ▲ ^ up north n u upwards hoch oben",
-    "down": "↓ ⬇ ⇩ ▼ v down south d downwards runter unten",
+    "down": "↓ ⬇ ⇩ ▼ v down south s d downwards runter unten",
     "left": "← ⬅ ⇦ ◀ < <- left west w l links",
-    "right": "→ ➡ ⇨ ▶ > -> right east r rechts",
+    "right": "→ ➡ ⇨ ▶ > -> right east e r rechts",
 }
 _WAY = {sign: way for way, signs in _WAYS.items() for sign in signs.split()}
 _ALTERNATIVES = re.compile(r"\s+(?:or|and|oder|und)\s+|\s*(?:[/|&,;]|\bor\b|∨)\s*")
@@ -47,9 +48,9 @@ def the_key(name: str, keys: Sequence[Key], ends: Sequence[str], whole: Source) 
         Unreadable: it means none, or may mean several.
     """
     hits = keys_named(name, keys)
+    if not hits and is_end(name, keys, ends):
+        return None
     if not hits:
-        if is_end(name, keys, ends):
-            return None
         hits = _by_initials(name, keys, ends)
         if not hits and len(_by_initials(name, ends, ())) == 1:
             return None
@@ -82,12 +83,20 @@ def is_end(name: str, keys: Sequence[Key], ends: Sequence[str]) -> bool:
     return False
 
 
+def is_known(name: str, keys: Sequence[Key], ends: Sequence[str]) -> bool:
+    """Whether a name means one key, or a terminal state; its first letter is enough."""
+    hits = keys_named(name, keys) or ([] if is_end(name, keys, ends) else _by_initials(name, keys, ends))
+    return len(hits) == 1 or is_end(name, keys, ends) or len(_by_initials(name, ends, ())) == 1
+
+
 def _single(keys: Sequence[Key]) -> bool:
     return not keys or isinstance(keys[0], str)
 
 
 def _candidates(name: str) -> list[str]:
     """A name, and what stands in it where it is a function of that."""
+    if len(name) > _LONGEST:
+        return [""]
     found = [match for pattern in (_OF, _BELOW) if (match := pattern.fullmatch(name))]
     return [name, *(next(filter(None, match.groups()), "") for match in found)]
 
@@ -189,10 +198,12 @@ def unquoted(text: str) -> str:
     return text[1:-1].strip() if len(text) > 2 and text[0] == text[-1] and text[0] in "'\"`" else text
 
 
+@lru_cache(maxsize=4096)
 def _small(text: str) -> str:
     return unquoted(text).casefold()
 
 
+@lru_cache(maxsize=4096)
 def _bare(text: str) -> str:
     """A name without ``_``, spaces, and braces around an index or all of it."""
     text = _INDEX.sub(lambda match: match[1] or match[2] or "", _small(text))

@@ -90,15 +90,18 @@ def _stacked_matrices(text: str) -> str:
 
 def _one_line(lines: list[str]) -> str:
     """Some matrices side by side, and what stands between them in any of the lines."""
-    rows = [_PIECES.findall(line) for line in lines]
-    if len({len(row) for row in rows}) != 1:
+    pieces = [list(_PIECES.finditer(line)) for line in lines]
+    if len({len(row) for row in pieces}) != 1:
         return "\n".join(lines)
-    between = zip(*(_PIECES.sub("⎡", line).split("⎡") for line in lines), strict=True)
-    plain = [" ".join(" ".join(pieces).split()) for pieces in between]
-    whole = plain[0]
-    for matrix, after in zip(zip(*rows, strict=True), plain[1:], strict=True):
-        entries = (re.sub(" {2,}", ",", row.strip()) for row in matrix if row.strip())
-        whole += f"[{';'.join(entries)}]{after}"
+    ends = [[0, *(piece.end() for piece in row)] for row in pieces]
+    starts = [[*(piece.start() for piece in row), len(line)] for row, line in zip(pieces, lines, strict=True)]
+    whole = ""
+    for place in range(len(pieces[0]) + 1):
+        between = (line[ends[row][place] : starts[row][place]] for row, line in enumerate(lines))
+        whole += " ".join(" ".join(between).split())
+        if place < len(pieces[0]):
+            rows = (row[place][1].strip() for row in pieces)
+            whole += f"[{';'.join(re.sub(' {2,}', ',', row) for row in rows if row)}]"
     return whole
 
 

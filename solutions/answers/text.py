@@ -1,7 +1,7 @@
 """Reads what a person typed as an answer: a number, a vector, a matrix, a table, a policy or a choice."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
 
@@ -56,7 +56,9 @@ _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
-_ARROWS = frozenset("↑↓←→")
+_DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
+_SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
+_BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _ENTRIES = 200
 _FORMS = 30
 
@@ -196,7 +198,7 @@ def read_table(
     asked = Asked(keys, ends)
     found = by_name(source, asked)
     if found is None:
-        body = untransposed(_right_side(source))
+        body = untransposed(_unnamed(source))
         rows = _number_rows(body, spaced=len(keys) > 1)
         flat = [entry for row in rows for entry in row]
         found = in_order(rows, source, asked) if len(flat) <= _ENTRIES else None
@@ -242,7 +244,7 @@ def read_words(
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
     found = by_name(source, asked)
     if found is None:
-        body = _right_side(source)
+        body = _unnamed(source)
         rows = _word_rows(body, options)
         words = [word for row in rows for word in row]
         tied = len(keys) == 1 and len(words) > 1
@@ -259,21 +261,22 @@ def _is_option(word: str, allowed: Sequence[str]) -> bool:
 
 def _word_rows(source: Source, options: Mapping[str, Sequence[str]]) -> list[list[Source]]:
     """The words line by line, or by the brackets around each row; of a line without commas, those between spaces."""
+    allowed = {tuple(actions) for actions in options.values()} if len(options) > 1 else set()
     body, _ = unwrapped(source)
     pieces = [piece for piece in body.split(",;\n ") if piece.text]
     rows = [piece.unwrapped("[(") for piece in pieces]
     if len(pieces) != len(options) and len(pieces) > 1 and all(rows):  # [[up, up], [left, up]]
-        return [_line_words(row, options) for row in rows if row]
-    return [_line_words(line, options) for line in filled(body.split("\n;" if body.has("\n") else "\n"))]
+        return [_line_words(row, allowed) for row in rows if row]
+    return [_line_words(line, allowed) for line in filled(body.split("\n;" if body.has("\n") else "\n"))]
 
 
-def _line_words(line: Source, options: Mapping[str, Sequence[str]]) -> list[Source]:
+def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source]:
     if line.has(",;|"):
         return [word for word in line.split(",;|") if word.text]
-    if len(options) == 1 or any(_is_option(line.text, allowed) for allowed in options.values()):
+    if not allowed or any(_is_option(line.text, actions) for actions in allowed):
         return [line]
     words = [word for word in line.split(lambda _, sign: sign.isspace()) if word.text]
-    if len(words) == 1 and _ARROWS & set(line.text) and len(line.text) > 1:
+    if len(words) == 1 and _DRAWN.fullmatch(line.text):
         return [line.part(index, index + 1) for index in range(len(line.text))]
     return words
 
@@ -299,7 +302,8 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     source = clean(laid_out(text))
     typed = _flattened(unquoted(source.text))
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
-    both = re.fullmatch(r"\(?([A-Za-z])[).:]\s*(\S.*)", typed, re.DOTALL)
+    typed = _SAID.sub("", typed)
+    both = _BOTH.fullmatch(typed)
     if both and (lettered := _lettered(both[1], options)):
         told = _told(both[2], spellings)
         if told == lettered:
@@ -358,6 +362,13 @@ def _right_side(source: Source) -> Source:
     """What is typed after ``x =`` or ``V(s) =``."""
     left = _LEFT_SIDE.match(source.text)
     return source.part(left.end(), len(source.text)) if left else source
+
+
+def _unnamed(source: Source) -> Source:
+    """What is typed after ``V =`` or ``V:``, perhaps in braces with it: ``{"V": [3.5, 2.5]}``."""
+    inside = source.unwrapped("{") or source
+    label = _LABEL.match(inside.text)
+    return inside.part(label.end(), len(inside.text)) if label else source
 
 
 def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
