@@ -8,8 +8,9 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
 from rldrill.problems.grammar import DIGITS, read
+from rldrill.problems.latex import typed
 from rldrill.problems.notation import Name, Node, Operation, whole, worked_out
-from rldrill.problems.spelling import Unreadable, respelled
+from rldrill.problems.spelling import Unreadable
 
 _LONGEST = 200
 _BITS = 4000  # of a power
@@ -87,7 +88,7 @@ def read_fraction(value: object) -> Fraction:
 @lru_cache(maxsize=1024)
 def _parsed(text: str) -> Node:
     try:
-        return read(respelled(text, _LONGEST))
+        return read(typed(text, _LONGEST))
     except Unreadable as fault:
         raise ValueError(f"{text[:40]!r} is not a number: {fault.message}") from None
 

@@ -11,9 +11,10 @@ from pydantic import AfterValidator
 from rldrill.problems import mathematics as maths
 from rldrill.problems import notation
 from rldrill.problems.grammar import read
+from rldrill.problems.latex import typed
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word
 from rldrill.problems.notation import ATOM, PRODUCT, Name, Node, Numeral, Operation, nodes, rank, whole
-from rldrill.problems.spelling import Unreadable, quoted, respelled
+from rldrill.problems.spelling import Unreadable, quoted
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp")
 #: Greek letters by their names.
@@ -53,7 +54,7 @@ def parsed(text: str) -> Node:
         ValueError: it is not one, or is too long.
     """
     try:
-        tree = read(respelled(text, _LONGEST))
+        tree = read(typed(text, _LONGEST))
         for count, node in enumerate(nodes(tree), 1):
             _check(node)
             if count > _MOST:

@@ -1,16 +1,28 @@
 """What a person typed, in answers or in problem files, in one spelling: signs, digits and spaces made alike."""
 
+import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 _QUOTED = 40
 #: One sign for a quotient of two numbers: ½ is a number of its own, and ½γ half of γ.
 VULGAR = "¼½¾⅐⅑⅒⅓⅔⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
 _KEPT = frozenset("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀ" + VULGAR)  # NFKC would lose that they stand above the line
-_ALIKE = dict.fromkeys("−–—‐‑‒﹣", "-") | dict.fromkeys("×·⋅∙∗", "*") | dict.fromkeys("÷∕⁄", "/")
-_ALIKE |= {"\t": " ", "\u1680": " ", "\r": "\n", "’": "'", "′": "'", "“": '"', "”": '"', "„": '"'}
+_ALIKE = {
+    sign: alike
+    for alike, signs in {
+        "-": "−–—‐‑‒﹣", "*": "×·⋅∙∗•‧・⋆✕✖⨯⁎", "/": "÷∕⁄", "≈": "≃≅≐≒∼", "%": "٪﹪", "'": "’‘′٬", '"': "“”„«»",
+        ".": "٫", ",": "،、", ";": "؛", " ": "\t\u1680", "\n": "\r",
+    }.items()
+    for sign in signs
+}  # fmt: skip
+_LOWERED = "₀₁₂₃₄₅₆₇₈₉"
+_SMALL_QUOTIENT = re.compile(f"([⁰¹²³⁴⁵⁶⁷⁸⁹]+)[/⁄]([{_LOWERED}]+)")
+_LOWERED_BEHIND = re.compile(rf"(?<![\w.])[\d.]*\d[{_LOWERED}]")
+_ONE_NUMBER = re.compile(r"\d(?:[\d.٫٬]*\d)?")
+_RAISED_POINT = re.compile(r"\s*[-+−]?0[·⋅∙•](\d+)\s*")
 _UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})  # kinds of characters
 _OPENING = {"(": ")", "[": "]", "{": "}", "⟨": "⟩"}
 _CLOSING = frozenset(_OPENING.values())
@@ -36,20 +48,38 @@ class Unreadable(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A stretch of typed text in its one spelling, and the column where it begins."""
+    """A stretch of typed text in its one spelling, and where it was typed.
+
+    Attributes:
+        text: the stretch.
+        start: the column where it begins.
+        columns: of each character, and of the end, where they do not just follow each other.
+    """
 
     text: str
     start: int = 0
+    columns: tuple[int, ...] = ()
 
     def part(self, start: int, stop: int) -> "Source":
         """A stretch of it, without the spaces around."""
         stretch = self.text[start:stop].rstrip()
         bare = stretch.lstrip()
-        return Source(bare, self.column(start + len(stretch) - len(bare)))
+        first = start + len(stretch) - len(bare)
+        return Source(bare, self.column(first), self.columns[first : first + len(bare) + 1])
 
     def column(self, index: int) -> int:
         """Where a character of it was typed."""
-        return self.start + index
+        return self.columns[index] if self.columns else self.start + index
+
+    def replaced(self, pattern: re.Pattern[str], by: Callable[[re.Match[str]], str]) -> "Source":
+        """The same with something else for what a pattern finds, all of it in the column where that was typed."""
+        text, columns, end = "", [], 0
+        for match in pattern.finditer(self.text):
+            kept, new = self.text[end : match.start()], by(match)
+            columns += [*map(self.column, range(end, match.start())), *[self.column(match.start())] * len(new)]
+            text, end = text + kept + new, match.end()
+        columns += map(self.column, range(end, len(self.text) + 1))
+        return Source(text + self.text[end:], self.start, tuple(columns)) if end else self
 
     def unreadable(self, message: str, index: int = 0) -> Unreadable:
         """A complaint about a character of it."""
@@ -97,7 +127,33 @@ def respelled(text: str, longest: int) -> Source:
     for column, character in enumerate(text):
         if character not in "\t\n\r" and unicodedata.category(character) in _UNSEEN:
             raise Unreadable(f"It holds an invisible character (U+{ord(character):04X}); retype it.", column)
-    return Source("".join(map(_spelled, text))).part(0, len(text))
+    _refuse_odd_digits(text)
+    # ¹⁄₄ is a number of its own, as ¼ is.
+    source = Source(text).replaced(_SMALL_QUOTIENT, lambda match: _on_the_line(match, text))
+    return replace(source, text="".join(map(_spelled, source.text))).part(0, len(source.text))
+
+
+def _refuse_odd_digits(text: str) -> None:
+    """Complain about digits that would be read as other numbers in the one spelling."""
+    for number in _ONE_NUMBER.finditer(text):
+        if len({ord(digit) - unicodedata.decimal(digit) for digit in number[0] if digit.isdecimal()}) > 1:
+            message = f"{quoted(number[0])} mixes the digits of two scripts; write it in one."
+            raise Unreadable(message, number.start())
+    if lowered := _LOWERED_BEHIND.search(text):
+        message = f"{quoted(lowered[0])} has a lowered digit; write all digits of a number on one line."
+        raise Unreadable(message, lowered.start())
+    if point := _RAISED_POINT.fullmatch(text):
+        digits = quoted(f"0.{point[1]}")
+        raise Unreadable(f"{quoted(text)} may be {digits} or 0 times {quoted(point[1])}; write {digits} or 0.", 0)
+
+
+def _on_the_line(match: re.Match[str], text: str) -> str:
+    """A quotient of small digits, as it is written on the line."""
+    above, below = (unicodedata.normalize("NFKC", digits) for digits in match.groups())
+    if text[: match.start()].rstrip()[-1:].isalnum():
+        message = f"Is {quoted(match[0])} added or a factor? Write + or * before {above}/{below}."
+        raise Unreadable(message, match.start())
+    return f"({above}/{below})"
 
 
 @lru_cache(maxsize=4096)
@@ -107,8 +163,12 @@ def _spelled(character: str) -> str:
         return character
     if character in _ALIKE:
         return _ALIKE[character]
+    if character.isdecimal():
+        return str(unicodedata.decimal(character))  # of any script
     wide = unicodedata.normalize("NFKC", character)
-    return _ALIKE.get(wide, wide) if len(wide) == 1 else character
+    if len(wide) != 1 or (wide.isdecimal() and character not in _LOWERED):  # ① is no 1
+        return character
+    return _ALIKE.get(wide, wide)
 
 
 def spelled(text: str) -> str:

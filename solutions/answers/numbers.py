@@ -1,5 +1,6 @@
 """Typed numbers worked out exactly, and shown back as they were read."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -8,16 +9,26 @@ from flint import fmpq
 
 from rldrill.problems.exact import PARAMETERS
 from rldrill.problems.grammar import read
-from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, folded, nodes, rank
-from rldrill.problems.spelling import Source, Unreadable, quoted
+from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, folded, nodes, rank
+from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 from rldrill.solutions.answers.arithmetic import Arithmetic
+from rldrill.solutions.answers.rule import equivalent, within
+from rldrill.solutions.answers.source import bare
 from rldrill.solutions.exact import Value
+from rldrill.solutions.exact import parameters as parameters_of
 
 _ECHO = 60
 _CONSTANTS = {"e": sympy.E, "pi": sympy.pi}
 #: How strongly the parts of an operation must bind to need no brackets.
 _LEAST = {"+": (SUM, PRODUCT), "-": (SUM, PRODUCT), "*": (PRODUCT, POWER), "/": (PRODUCT, POWER), "^": (ATOM, ATOM),
           "%": (ATOM,)}  # fmt: skip
+_QUOTED = re.compile(r"""\((['"])([^'"()]*)\1\)""")  # Decimal('0.25')
+#: The letter x between numbers, in Latin or Cyrillic; 0x10 is something else.
+_TIMES = re.compile(rf"(?<![0-9A-Za-z_])((?!0[xX])[0-9.]*[0-9.]|(?<=[0-9])[%{VULGAR}])\s*[xXхХ]\s*([0-9.√{VULGAR}])")
+_EQUAL = re.compile(r"==|≈|(?<=[^=~≈])~|≡")
+_AGAIN = re.compile(r"(?:i\.\s?e\.,?|or\b|[=≈~]|approx(?:imately)?\b\.?|about\b|ca\b\.?)*\s*", re.IGNORECASE)
+_DECIMAL = re.compile(r"[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?", re.IGNORECASE)
+_MOST_FORMS = 8
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
 
@@ -37,7 +48,7 @@ class Reading:
 
 
 def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
-    """Read one number.
+    """Read one number, or one number in several forms: ``1/4 = 0.25``, ``0.25 (25%)``, ``1/3 ≈ 0.333``.
 
     Args:
         source: all that was typed of it.
@@ -45,10 +56,39 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
         arithmetic: what it is worked out with; one for the whole answer.
 
     Raises:
-        Unreadable: it is not a number, or not one of moderate size.
+        Unreadable: it is not a number, or not one of moderate size, or may be read as two.
     """
+    source = bare(source).replaced(_QUOTED, lambda match: f"({match[2]})")
+    if "x" not in parameters:
+        source = source.replaced(_TIMES, lambda match: f"{match[1]}*{match[2]}")
+    _refuse_two_signs(source)
+    forms = _forms(source)
+    if len(forms) == 1:
+        return _in_brackets(source, parameters, arithmetic) or _single(source, parameters, arithmetic).reading
+    readings = [_single(form, parameters, arithmetic) for form in forms]
+    for form in readings[1:]:
+        if not _agree(readings[0], form):
+            first, other = readings[0].reading.echo, form.reading.echo
+            raise form.source.unreadable(
+                f"It says {quoted(first)} and {quoted(other)}, which differ; write one number."
+            )
+    return _together(readings)
+
+
+@dataclass(frozen=True, slots=True)
+class _Form:
+    """A number in one form, with the text and the tree of it."""
+
+    source: Source
+    tree: Node
+    reading: Reading
+
+
+def _single(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> _Form:
+    """A number in one form."""
     tree = read(source)
-    names = {node.text: _meant(node, parameters) for node in nodes(tree) if isinstance(node, Name)}
+    units = _behind_numbers(tree)
+    names = {node.text: _meant(node, parameters, node in units) for node in nodes(tree) if isinstance(node, Name)}
 
     def worth(node: Node, parts: list[Value]) -> Value:
         try:
@@ -58,11 +98,125 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
 
     value = arithmetic.finish(folded(tree, worth))
     echo = folded(tree, lambda node, parts: _echo(node, parts, names))
-    echo = echo if len(echo) <= _ECHO else f"{echo[: _ECHO - 1]}…"
-    return Reading(value, echo, any(map(_is_decimal, nodes(tree))))
+    return _Form(source, tree, Reading(value, _cut(echo), any(map(_is_decimal, nodes(tree)))))
 
 
-def _meant(name: Name, parameters: Sequence[str]) -> str:
+def _cut(echo: str) -> str:
+    return echo if len(echo) <= _ECHO else f"{echo[: _ECHO - 1]}…"
+
+
+def _sign(node: Node) -> str:
+    """The sign of an operation, with a name of its own for that of a negative."""
+    if not isinstance(node, Operation):
+        return ""
+    return "negative" if node.sign == "-" and len(node.parts) == 1 else node.sign
+
+
+def _behind_numbers(tree: Node) -> list[Name]:
+    """The names that follow a number without a sign: parameters, or units."""
+    return [
+        right
+        for node in nodes(tree)
+        if isinstance(node, Operation) and node.sign == "*" and node.at == node.parts[1].at
+        for left, right in [node.parts]
+        if isinstance(left, Numeral) and isinstance(right, Name)
+    ]
+
+
+def _refuse_two_signs(source: Source) -> None:
+    """Complain about two signs before a number: a plus or minus, or a dash typed as two signs."""
+    if signs := re.match(r"(\+-|-\+|--)\s*([0-9.][0-9./]*)", source.text):
+        readings = {"+-": ("-{}", "±{}"), "-+": ("-{}", "∓{}"), "--": ("{}", "-{}")}[signs[1]]
+        shown = " or ".join(quoted(reading.format(signs[2])) for reading in readings)
+        raise source.unreadable(f"{quoted(signs[0])} may be {shown}; write one sign at most.")
+
+
+def _forms(source: Source) -> list[Source]:
+    """The pieces between signs of equality; before the first there may be nothing."""
+    forms = source.replaced(_EQUAL, lambda _: "=").split("=")
+    if len(forms) > _MOST_FORMS:
+        raise source.unreadable("The number is given too often; write it once.")
+    if len(forms) > 1 and not forms[-1].text:
+        raise source.unreadable("A number is missing after the last sign; write one.", len(source.text) - 1)
+    return forms if forms[0].text or len(forms) == 1 else forms[1:]
+
+
+def _in_brackets(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading | None:
+    """A number and the same again in brackets, ``0.25 (1/4)``; None if it is something else, such as a product."""
+    ends = [index for index, character in source.outside() if character in "()"][-2:]
+    if len(ends) < 2 or ends[1] != len(source.text) - 1:
+        return None
+    outside, inside = source.part(0, ends[0]), source.part(ends[0] + 1, ends[1])
+    said = _AGAIN.match(inside.text)
+    again = bool(said and said.end())
+    inside = inside.part(said.end() if said else 0, len(inside.text))
+    last, spaced = outside.text[-1:], source.text[ends[0] - 1].isspace()
+    if not (last.isalnum() or last in (".", "%", ")", "}", "]", "…") or last in VULGAR):
+        return None
+    try:
+        if not again and not _is_plain(read(inside)):
+            return None
+        first, second = (_single(form, parameters, arithmetic) for form in (outside, inside))
+    except Unreadable:
+        return None
+    agree = _agree(first, second)
+    if again:
+        if agree:
+            return _together([first, second])
+        raise source.unreadable(f"It says {_both(first, second)}, which differ; write one number.")
+    if not agree and not (spaced and _is_plain(first.tree) and last != ")"):
+        return None
+    try:
+        product = _single(source, parameters, arithmetic)
+    except Unreadable:  # it is not one for sure
+        return _together([first, second]) if agree and spaced else None
+    same_text = outside.text == inside.text
+    if product.reading.value == first.reading.value or (same_text and not spaced):
+        return product.reading
+    if agree and not same_text and spaced and last != ")" and not _may_be_product(first, second):
+        return _together([first, second])
+    readings = f"{quoted(product.reading.echo)} or say {_both(first, second)}"
+    raise source.unreadable(f"{quoted(source.text)} may be {readings}; write one number.")
+
+
+def _is_plain(tree: Node) -> bool:
+    """Whether a number stands there as it is written, and no sum or product."""
+    return all(isinstance(node, Numeral) or _sign(node) in ("/", "%", "negative") for node in nodes(tree))
+
+
+def _may_be_product(first: _Form, second: _Form) -> bool:
+    """Whether what stands in brackets may be a factor of a sum's last term, in spite of being worth the sum."""
+    return any(_sign(node) in ("+", "-") for node in nodes(first.tree)) and second.source.text.isdigit()
+
+
+def _both(first: _Form, second: _Form) -> str:
+    return f"{quoted(first.reading.echo)} and {quoted(second.reading.echo)}"
+
+
+def _agree(first: _Form, second: _Form) -> bool:
+    """Whether the second form says the same as the first, or is the first rounded to the digits it has."""
+    exact, other = first.reading.value, second.reading.value
+    if exact == other:
+        return True
+    if parameters_of(exact) or parameters_of(other) or not second.reading.decimal:
+        return equivalent(other, exact)
+    decimal = _DECIMAL.fullmatch(second.source.text)
+    if decimal is None:
+        return equivalent(other, exact)
+    places = len(decimal[1] or "") - int(decimal[2] or 0) + 2 * bool(decimal[3])
+    return within(other, exact, fmpq(10) ** -places / 2)
+
+
+def _together(forms: Sequence[_Form]) -> Reading:
+    """The reading of a number that stands there in several forms: the first, with all of them shown."""
+    first = forms[0].reading
+    echo = first.echo
+    for form in forms[1:]:
+        echo += f" {'=' if form.reading.value == first.value else '≈'} {form.reading.echo}"
+    return Reading(first.value, _cut(echo), first.decimal)
+
+
+def _meant(name: Name, parameters: Sequence[str], behind_number: bool) -> str:
     """The parameter or constant that is meant by a name."""
     typed = name.text if name.text in parameters else name.text.lower()
     for parameter in parameters:
@@ -74,7 +228,8 @@ def _meant(name: Name, parameters: Sequence[str]) -> str:
     if typed in _ENDLESS:
         message = f"{quoted(name.text)} is not a number; write a finite one."
     else:
-        instead = f"it may contain {', '.join(parameters)}" if parameters else "write a number such as 3/4"
+        instead = "write the number alone, without a unit" if behind_number else "write a number such as 3/4"
+        instead = f"it may contain {', '.join(parameters)}" if parameters else instead
         message = f"{quoted(name.text)} is not something this answer may contain; {instead}."
     raise Unreadable(message, name.at)
 
@@ -104,18 +259,20 @@ def _echo(node: Node, parts: list[str], names: Mapping[str, str]) -> str:
 
     single = len(parts) == 1
     least = (PRODUCT,) if node.sign == "-" and single else _LEAST.get(node.sign, (SUM,) * len(parts))
-    within = [
+    shown = [
         text if rank(part) >= needed else f"({text})"
         for part, text, needed in zip(node.parts, parts, least, strict=True)
     ]
+    if node.sign in ("/", "^") and shown[1].endswith("%"):
+        shown[1] = f"({shown[1]})"
     match node.sign:
         case "+" | "-":
-            return f"-{within[0]}" if single else f" {node.sign} ".join(within)
+            return f"-{shown[0]}" if single else f" {node.sign} ".join(shown)
         case "*" | "/" | "^":
-            return node.sign.join(within)
+            return node.sign.join(shown)
         case "%":
-            return f"{within[0]}%"
-    return f"{node.sign}({', '.join(within)})"
+            return f"{shown[0]}%"
+    return f"{node.sign}({', '.join(shown)})"
 
 
 def _is_decimal(node: Node) -> bool:

@@ -30,7 +30,7 @@ from rldrill.solutions.answers.names import (
 )
 from rldrill.solutions.answers.numbers import Reading, number
 from rldrill.solutions.answers.pasted import laid_out
-from rldrill.solutions.answers.rule import is_close, is_right
+from rldrill.solutions.answers.rule import equivalent, is_right
 from rldrill.solutions.answers.source import clean
 from rldrill.solutions.exact import NotReal
 
@@ -419,28 +419,35 @@ def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Re
 
 def _agree(first: Reading, second: Reading) -> bool:
     """Whether two readings may be forms of one number; decimals may be rounded."""
-    rounded = first.decimal or second.decimal
     key, value = (second, first) if first.decimal else (first, second)
+    if not value.decimal:
+        return equivalent(value.value, key.value)
     try:
-        if is_right(value.value, key.value, rounded=rounded):
-            return rounded or value.value == key.value or not hasattr(key.value, "p")
-        return rounded and is_close(value.value, key.value)
+        return is_right(value.value, key.value)
     except NotReal:
         return False
 
 
 def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
-    """Read one number in one or several forms, perhaps in brackets or quotes."""
-
-    def read(member: Source) -> Reading:
-        text = member.text
-        if len(text) > 2 and text[0] == text[-1] and text[0] in "'\"":
-            member = member.part(1, len(text) - 1)
-        if member.text[:1] == "~":
-            member = member.part(1, len(member.text))
-        return number(member.unwrapped("[") or member, parameters, arithmetic)
-
-    return _forms(source, read, lambda reading: (reading,))
+    """Read one number; before its forms may stand what it is, and how it was worked out."""
+    source = source.unwrapped("[") or source
+    signs = [index for index, sign in source.outside() if sign in "=≈"]
+    if len(signs) > _FORMS:
+        raise source.unreadable("It holds too many equal signs; write the value alone, once.")
+    probe, begun = Arithmetic(), 0
+    for start, stop in reversed(list(zip([0, *(index + 1 for index in signs)], signs, strict=False))):
+        member = source.part(start, stop)
+        try:
+            number(member, parameters, probe)
+        except Unreadable:
+            begun = stop + 1  # V(cool), max{1; 2}
+            break
+    try:
+        return number(source.part(begun, len(source.text)), parameters, arithmetic)
+    except Unreadable:
+        if begun or not signs or not _ONLY_NAME.fullmatch(source.text[: signs[0]].strip()):
+            raise
+        return number(source.part(signs[0] + 1, len(source.text)), parameters, arithmetic)  # e = 2 may name the trace
 
 
 def _numbers(

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.expressions import letters, parsed, worked_out, written
 from rldrill.problems.grammar import read
+from rldrill.problems.latex import typed
 from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, nodes, rank
-from rldrill.problems.spelling import Unreadable, respelled
+from rldrill.problems.spelling import Unreadable
 from rldrill.render.unicode import unicode
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.rational import RationalFunction
@@ -32,7 +33,7 @@ def op(sign: str, *parts: Node) -> Node:
 
 
 def tree(text: str) -> Node:
-    return read(respelled(text, 500))
+    return read(typed(text, 500))
 
 
 def as_answer(text: str) -> Fraction:
@@ -95,7 +96,30 @@ STRUCTURES = {
     "√(2/3)": op("sqrt", op("/", n(2), n(3))),
     "ln3": op("ln", n(3)),
     "a¹²³": op("^", a, n(123)),
-    "max(a, b; c)": op("max", a, b, c),
+    "max(a, b, c)": op("max", a, b, c),
+    "0.(3)": Numeral(F(1, 3), "1/3"),
+    "0.0(6) a": op("*", Numeral(F(1, 15), "1/15"), a),
+    "a + 0.1666…": op("+", a, Numeral(F(1, 6), "1/6")),
+    "0.142857142857...": Numeral(F(1, 7), "1/7"),
+    "0.1\u03058\u0305": Numeral(F(2, 11), "2/11"),
+    "0.1\u030742857\u0307": Numeral(F(1, 7), "1/7"),
+    "0.16\u0305": Numeral(F(1, 6), "1/6"),
+    "∛8": op("^", n(8), Numeral(F(1, 3), "1/3")),
+    "Sqrt[2]a": op("*", op("sqrt", n(2)), a),
+    "np.exp(-a)": op("exp", op("-", a)),
+    "Fraction(1, 4)": op("/", n(1), n(4)),
+    "np.float64(2)": n(2),
+    "a^{b - 1}": op("^", a, op("-", b, n(1))),
+    r"\frac{a}{2}b": op("*", op("/", a, n(2)), b),
+    r"\frac12": op("/", n(1), n(2)),
+    r"\sqrt[3]{8}": op("^", n(8), op("/", n(1), n(3))),
+    r"\sqrt 2": op("sqrt", n(2)),
+    r"2\gamma\cdot a": op("*", op("*", n(2), γ), a),
+    r"\left(a + b\right)\,c": op("*", op("+", a, b), c),
+    r"\mathrm{e}^{-1}": op("^", Name("e"), op("-", n(1))),
+    "٢/٤": op("/", n(2), n(4)),
+    "२": n(2),
+    "³⁄₄": op("/", n(3), n(4)),
 }
 
 
@@ -149,9 +173,24 @@ def test_files_read_what_answers_read(text: str, value: float) -> None:
         ("1 + (γ*", 8, "missing after '*'"), ("1 + *2", 5, "missing before '*'"), ("(1 + γ", 7, "close the bracket"),
         ("(1))", 4, "not opened"), ("γ + @", 5, "'@' is not understood"), ("  γ + @", 7, "'@' is not understood"),
         ("1½ + @", 6, "'@' is not understood"), ("2⁺⁻", 2, "exponent"), ("γ\u200b", 2, "U+200B"), ("1,5γ", 2, "1.5"),
-        ("[γ", 1, "is not closed"), ("1 = γ", 3, "'=' is not understood"), ("1 + " + "9" * 41, 5, "40 digits"),
+        ("[γ", 1, "is not closed"), ("1 + " + "9" * 41, 5, "40 digits"),
         ("1e41", 1, "40 digits"), ("1 " + "9" * 41 + "/" + "9" * 42, 1, "40 digits"), ("ab + 1", 1, "'ab' is not"),
-        ("γ + foo", 5, "'foo' is not"),
+        ("γ + foo", 5, "'foo' is not"), ("γ + 50/2%", 7, "'50/2%' may be (50/2)% or 50/(2%)"),
+        ("γ^2%", 2, "may be ^(2%) or (^2)%"), ("γ^1/3", 2, "may be ^(1/3) or (…^1)/3"),
+        ("1/4 / 1/2", 5, "may be …/(1/2) or (…/1)/2"), ("√9/16", 3, "two ways; put it in brackets"),
+        ("2.5*10-1", 1, "'2.5*10-1' may be '2.5*10^-1' or '2.5*10 - 1'"), ("γ + 2.5 × 10 −1", 5, "'2.5*10^-1'"),
+        ("2.5*103", 1, "may be 2.5*10^3 or 103*2.5"), ("10-1", 1, "may be '10^-1' or '10 - 1'"),
+        ("1.2(34)", 1, "may be '611/495', its last digits repeated, or '1.2*34'"),
+        ("0.142857...", 1, "does not show which digits repeat"),
+        ("0.21112111...", 1, "may be '190009/900000' or '2111/9999'"),
+        ("γ + 1'234", 6, "thousands separator; write '1234'"), ("1_234", 2, "thousands separator; write '1234'"),
+        ("1 234", 3, "may be '1234' or two numbers"), ("1.234.567", 6, "write '1234567'"),
+        ("1.234,5", 6, "write '1234.5'"), ("12,34,567.5", 3, "write '1234567.5'"),
+        ("3,125", 2, "may be '3.125' or '3125'"),
+        ("1\u066b5٢", 1, "mixes the digits of two scripts"), ("γ + 10₂", 5, "lowered digit"),
+        ("γ + 5€", 6, "is a unit"),
+        ("γ + \\frac{1}{2", 13, "not closed"), ("2\\frac12", 2, "may be 2 + 1/2 or 2*1/2"),
+        ("γ\\foo", 2, "command '\\foo' is not understood"),
     ],
 )  # fmt: skip
 def test_both_refuse_and_name_the_column(text: str, column: int, fault: str) -> None:
@@ -237,7 +276,7 @@ def test_how_dynamics_are_set(text: str, shown: str) -> None:
 
 MIXED = [Numeral(F(whole * 4 + 3, 4), str(F(whole * 4 + 3, 4))) for whole in range(1, 4)]
 NUMERALS = (
-    st.integers(0, 20).map(n)
+    st.integers(0, 20).filter(lambda value: value != 10).map(n)  # 2*10-1 may have lost a superscript
     | st.sampled_from(["0.5", "2.25", "10.", "1e2"]).map(lambda text: Numeral(F(text), text))
     | st.sampled_from([Numeral(F(1, 2), "1/2"), Numeral(F(2, 3), "2/3"), *MIXED])
 )
@@ -247,7 +286,7 @@ def combined(parts: st.SearchStrategy[Node]) -> st.SearchStrategy[Node]:
     return st.one_of(
         st.builds(op, st.sampled_from("+-*/"), parts, parts),
         st.builds(op, st.sampled_from("-%"), parts),
-        st.builds(op, st.just("^"), parts, st.integers(1, 4).map(n)),
+        st.builds(op, st.just("^"), parts, st.integers(2, 4).map(n)),
     )
 
 
@@ -277,8 +316,11 @@ def spelled(node: Node, random: Random, least: int = SUM) -> str:
         sign = random.choice({"-": "-−", "*": "*·×", "/": "/÷"}.get(node.sign, node.sign))
         sides = (SUM, PRODUCT) if node.sign in "+-" else (PRODUCT, POWER)
         left, right = (spelled(part, random, side) for part, side in zip(node.parts, sides, strict=True))
+        if node.sign == "/":  # 50/2% and 1/4 / 1/2 may be read in two ways
+            gap, right = "", f"({right})" if right.endswith("%") else right
         alone = isinstance(node.parts[0], Numeral | Name) or left.endswith(")")
         simple = alone and not isinstance(node.parts[0], Operation) and (right == "γ" or right.startswith("("))
+        simple &= "." not in left  # 0.1(6) may be 1/6
         implicit = node.sign == "*" and simple and random.random() < 0.7
         text = f"{left}{gap}{right}" if implicit else f"{left}{gap}{sign}{gap}{right}"
     return f"({gap}{text}{gap})" if rank(node) < least or random.random() < 0.1 else text

@@ -1,0 +1,114 @@
+"""One number, in all the forms in which people write it: read as what it is, or refused with its readings named."""
+
+import pytest
+from flint import fmpq
+
+from number_spellings import misread
+from rldrill.solutions.answers.text import Unreadable, read_number
+
+READ = {
+    # two forms of one number
+    "0.25 (1/4)": ("1/4", "0.25 = 1/4"), "1/4 (0.25)": ("1/4", "1/4 = 0.25"), "0.25 (25%)": ("1/4", "0.25 = 25%"),
+    "1/4 = 0.25": ("1/4", "1/4 = 0.25"), "1/4 ≈ 0.25": ("1/4", "1/4 = 0.25"), "9/41 (0.22)": ("9/41", "9/41 ≈ 0.22"),
+    "9/41 ≈ 21.95%": ("9/41", "9/41 ≈ 21.95%"), "1/2 + 3/4 = 5/4 = 1.25": ("5/4", "1/2 + 3/4 = 5/4 = 1.25"),
+    "9/41 (approx. 0.2195)": ("9/41", "9/41 ≈ 0.2195"), "2/3 (or 0.67)": ("2/3", "2/3 ≈ 0.67"),
+    # decimals that repeat
+    "0.333...": ("1/3", "1/3"), "-0.(3)": ("-1/3", "-1/3"), "0.1666…": ("1/6", "1/6"), "0.999...": ("1", "1"),
+    r"0.\overline{18}": ("2/11", "2/11"), "1/3 = 0.333...": ("1/3", "1/3 = 1/3"),
+    # signs of products, also the letter x
+    "2.5 x 10^-1": ("1/4", "2.5*10^(-1)"), "2.5X0.1": ("1/4", "2.5*0.1"), "2.5•10⁻¹": ("1/4", "2.5*10^(-1)"),
+    "2 ✕ 3": ("6", "2*3"), "(1/2) (1/3)": ("1/6", "1/2*(1/3)"), "1 + 0.9 (0.5)": ("29/20", "1 + 0.9*0.5"),
+    "2.5*10 - 1": ("24", "2.5*10 - 1"), "2(3)": ("6", "2*3"),
+    # fraction signs, percent
+    "⅛/½": ("1/4", "1/8/(1/2)"), "¾²": ("9/16", "(3/4)^2"), "¾%": ("3/400", "(3/4)%"), "√¼": ("1/2", "sqrt(1/4)"),
+    "1/(4%)": ("25", "1/(4%)"), "¹⁄₄": ("1/4", "1/4"),
+    # LaTeX
+    r"\frac{1}{4}": ("1/4", "1/4"), r"$\frac14$": ("1/4", "1/4"), r"2.5\cdot10^{-1}": ("1/4", "2.5*10^(-1)"),
+    r"25\%": ("1/4", "25%"), r"\(\tfrac 1 4\)": ("1/4", "1/4"), "0{,}25": ("1/4", "0.25"),
+    r"\sqrt[3]{\frac{8}{27}}": ("2/3", "(8/27)^(1/3)"),
+    # what programs print
+    "np.float64(0.25)": ("1/4", "0.25"), "Fraction(1, 4)": ("1/4", "1/4"), "Decimal('0.25')": ("1/4", "0.25"),
+    "Sqrt[4]": ("2", "sqrt(4)"), "math.sqrt(4)": ("2", "sqrt(4)"), "2**-2": ("1/4", "2^(-2)"),
+    "2.5*^-1": ("1/4", "2.5e-1"),
+    # what stands around a number
+    "=6.8": ("34/5", "6.8"), "≈ 6.8": ("34/5", "6.8"), "approx. 6.8": ("34/5", "6.8"), '"6.8"': ("34/5", "6.8"),
+    "‘6.8’": ("34/5", "6.8"), "6.8.": ("34/5", "6.8"),
+    # digits of other scripts
+    "٠٫٢٥": ("1/4", "0.25"), "۱/۴": ("1/4", "1/4"), "१/४": ("1/4", "1/4"),
+    "１／４": ("1/4", "1/4"), "٢٥٪": ("1/4", "25%"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", READ)
+def test_what_is_read_is_shown(text: str) -> None:
+    reading = read_number(text)
+    assert (str(reading.value), reading.echo) == READ[text]
+
+
+REFUSED = {
+    "2.5 e-1": "may be '2.5e-1' or '2.5*e - 1'",
+    "2.5 E −1": "may be '2.5e-1' or '2.5*e - 1'",
+    "½e-1.": "may be '½e-1.' or '½*e - 1.'",
+    "50/2%": "may be (50/2)% or 50/(2%)",
+    "0.25 (1/5)": "may be '0.25*(1/5)' or say '0.25' and '1/5'",
+    "0.25(1/4)": "may be '0.25*(1/4)' or say '0.25' and '1/4'",
+    "2 (2)": "may be '2*2' or say '2' and '2'",
+    "1 + 2 (3)": "may be '1 + 2*3' or say '1 + 2' and '3'",
+    "1/4 = 0.26": "'1/4' and '0.26', which differ",
+    "1/4 (≈ 0.24)": "'1/4' and '0.24', which differ",
+    "2/3 = 0.66": "'2/3' and '0.66', which differ",
+    "1/4 =": "A number is missing after the last sign",
+    "2.5×10−1": "may be '2.5*10^-1' or '2.5*10 - 1'",
+    "2.5 x 10 -1": "may be '2.5*10^-1' or '2.5*10 - 1'",
+    "2.0*0.5*10-1/2": "may be '0.5*10^-1' or '0.5*10 - 1'",
+    "1.(1)": "may be '10/9', its last digits repeated, or '1.*1'",
+    "0.25...": "does not show which digits repeat",
+    "0·25": "may be '0.25' or 0 times '25'",
+    "3{,}125": "may be '3.125' or '3125'",
+    "1\u202f234": "may be '1234' or two numbers",
+    "+-3": "may be '-3' or '±3'",
+    "--3": "may be '3' or '-3'",
+    "5 m": "write the number alone, without a unit",
+    "5$": "'$' is a unit",
+    "1\\frac34": "may be 1 + 3/4 or 1*3/4",
+    "0x10": "'x10' is not something",
+    "2x": "'x' is not something",
+    "1②": "'②' is not something",
+}
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_may_be_read_in_two_ways_is_refused_with_both(text: str) -> None:
+    with pytest.raises(Unreadable) as refused:
+        read_number(text)
+    assert REFUSED[text] in refused.value.message
+
+
+def test_x_is_a_parameter_where_the_problem_has_one() -> None:
+    assert read_number("2x", ["x"]).echo == "2*x"
+    with pytest.raises(Unreadable, match="follows without a sign"):
+        read_number("2 x 3", ["x"])
+
+
+def test_two_forms_of_an_expression() -> None:
+    assert read_number("(1 - γ²)/(1 - γ) = 1 + γ", ["gamma"]).echo == "(1 - gamma^2)/(1 - gamma) = 1 + gamma"
+    assert read_number("sqrt(2)/2 (0.707)").echo == "sqrt(2)/2 ≈ 0.707"
+    assert read_number("exp(-1) ≈ 0.368").echo == "exp(-1) ≈ 0.368"
+    with pytest.raises(Unreadable, match="which differ"):
+        read_number("γ = 1 - γ = γ + 1", ["gamma"])
+
+
+def test_the_column_of_what_stands_behind_a_command() -> None:
+    with pytest.raises(Unreadable, match="'@'") as refused:
+        read_number(r"\frac{1}{2} + \sqrt{4} + @")
+    assert refused.value.position == 25
+
+
+def test_a_repeated_decimal_is_exact() -> None:
+    assert read_number("0.(142857)").value == fmpq(1, 7)
+
+
+def test_no_spelling_is_read_as_another_number() -> None:
+    outcomes, wrong = misread(3000)
+    assert not wrong
+    assert sum(count for (_, outcome), count in outcomes.items() if outcome == "read") > 2000
