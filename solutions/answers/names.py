@@ -13,9 +13,8 @@ Key = TypeVar("Key", bound=str | tuple[str, str])
 
 MARKS = "\u0300-\u036f"  # the hat, bar or tilde on a letter
 # V(cool), V^(π₀)(cool), ln p(cool), (cool, fast)
-_OF = re.compile(
-    rf"(?:[^\W\d_](?:[\^_]\s*\{{(?:[^{{}}]|\{{[^{{}}]*\}})*\}}|[\^_]\([^()]*\)|[\w '^*⊤{MARKS}])*)?[(\[](.*)[)\]]"
-)
+_RAISED = r"[\^_]\s*\{(?:[^{}]|\{[^{}]*\})*\}|[\^_]\([^()]*\)"
+_OF = re.compile(rf"(?:[^\W\d_](?:{_RAISED}|[\w '^*⊤{MARKS}])*)?[(\[](.*)[)\]]")
 _BELOW = re.compile(rf"[^\W\d_][{MARKS}]?_(?:\{{(.*)\}}|(.*))")  # V_cool
 _LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
 _INDEX = re.compile(r"(?<=\w)\((\d+)\)|_\{([^{}]*)\}")  # pi(1), s_{1}
