@@ -9,7 +9,7 @@ from rldrill.problems.spelling import Source, Unreadable, quoted
 from rldrill.solutions.answers.lists import filled
 from rldrill.solutions.answers.names import Key, is_end, is_known, keys_named, listed, matches, shown, the_key
 
-_ARROW = re.compile(r"->|→|↦|:=|[:=]")
+_ARROW = re.compile(r"->|→|↦|:=|[:=←]")
 _CELL = re.compile(r"r(\d+)c(\d+)")
 _LETTER = re.compile(r"[^\W\d_]['*]?\s*=")
 _ZERO = re.compile(r"[-+]?(?:0+\.?0*|\.0+)")
@@ -98,7 +98,7 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
     start, name, begun, forms = 0, "", 0, 0
     for index, _ in piece.outside():
         mark = _ARROW.match(piece.text, index)
-        if mark is None or index < begun:
+        if mark is None or index < begun or (mark[0] == "←" and not asked.numbers):
             continue
         before = piece.text[begun:index].rstrip()
         if not re.search(r"\w", before) or (mark[0] in ("→", "->") and not piece.text[mark.end() :].strip()):

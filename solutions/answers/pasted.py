@@ -6,13 +6,13 @@ brackets of several lines are put together anew.
 
 import re
 from collections.abc import Callable, Iterator
-from itertools import groupby
 
 from rldrill.problems.expressions import GREEK
 
 _LONGEST = 2000  # what is longer is refused anyway
 
 _PIECES = re.compile("[⎡⎢⎣⎛⎜⎝⎧⎨⎩]([^⎡⎢⎣⎤⎥⎦⎛⎜⎝⎞⎟⎠⎧⎨⎩⎫⎬⎭\n]*)[⎤⎥⎦⎞⎟⎠⎫⎬⎭]")
+_TOP = re.compile("[⎡⎛⎧]")
 _PIECE = re.compile("[⎡⎢⎣⎛⎜⎝⎧⎨⎩]")
 
 _LETTERS = GREEK | {
@@ -84,8 +84,15 @@ def _stacked_matrices(text: str) -> str:
     """Matrices whose brackets are put together from pieces, one line for each row, as rows on one line."""
     if not _PIECE.search(text):
         return text
-    blocks = groupby(text.split("\n"), key=lambda line: bool(_PIECE.search(line)))
-    return "\n".join(_one_line(list(lines)) if stacked else "\n".join(lines) for stacked, lines in blocks)
+    blocks: list[list[str]] = []
+    stacked = False
+    for line in text.split("\n"):
+        was, stacked = stacked, bool(_PIECE.search(line))
+        if blocks and was and stacked and not _TOP.search(line):
+            blocks[-1].append(line)
+        else:
+            blocks.append([line])
+    return "\n".join(_one_line(block) for block in blocks)
 
 
 def _one_line(lines: list[str]) -> str:

@@ -50,7 +50,7 @@ Read = TypeVar("Read")
 
 # x · V(s) · V^π(s) · R_0 · V_{k+1}(s) · Q̂(s, a) · ∂J/∂θ₁
 _NAME = rf"(?:[∂d]\w*/[∂d])?[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⊤{MARKS}]|\{{[^{{}}=]*\}}|\([^()=]*\)|\[[^\[\]=]*\])*"
-_LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?::|=(?!=))")
+_LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?:[:←]|=(?!=))")
 _LEFT_SIDE = re.compile(rf"(?:{_NAME})?=(?!=)")
 _ONLY_NAME = re.compile(_NAME)
 _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
@@ -379,6 +379,9 @@ def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
         for entry, label in zip(entries, labels, strict=True)
     ]
     meant = [index for label in labels if label and (index := entry_named(label[2], names)) is not None]
+    unknown = [label[2].strip() for label in labels if label and entry_named(label[2], names) is None]
+    if meant and unknown and all(labels):
+        raise entries[0].unreadable(f"{quoted(unknown[0])} is not asked for here; give the {len(names)} entries alone.")
     if len(meant) < len(entries):
         return values
     placed: dict[int, Source] = {}
@@ -431,7 +434,7 @@ def _agree(first: Reading, second: Reading) -> bool:
 def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
     """Read one number; before its forms may stand what it is, and how it was worked out."""
     source = source.unwrapped("[") or source
-    signs = [index for index, sign in source.outside() if sign in "=≈"]
+    signs = [index for index, sign in source.outside() if sign in "=≈←"]
     if len(signs) > _FORMS:
         raise source.unreadable("It holds too many equal signs; write the value alone, once.")
     probe, begun = Arithmetic(), 0
