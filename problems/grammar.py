@@ -257,16 +257,20 @@ class _Parser:
             raise self._error(f"{quoted(self._text(before, self._token))} may be {readings}; write it so.", before)
 
     def _check_superscript(self, sign: _Token) -> None:
-        """A superscript that was lost on the way: ``2.5*10-1``. Spaces on both sides make a difference of it."""
+        """A superscript that was lost on the way: ``2.5*10-1``, ``e-2``. Spaces on both sides make it a difference."""
         factor, times, ten = ([self._tokens[0]] * 3 + self._tokens[: self._next - 1])[-3:]
-        if sign.kind != "-" or (times.kind, ten.text) != ("*", "10") or factor.kind not in ("number", "repeating"):
-            return
         digits = self._token
-        if digits.kind == "number" and _EXPONENT.fullmatch(digits.text) and not (sign.spaced and digits.spaced):
-            typed = quoted(self._text(factor, digits))
-            power, difference = f"{factor.text}*10^-{digits.text}", f"{factor.text}*10 - {digits.text}"
-            message = f"{typed} may be {quoted(power)} or {quoted(difference)}; write the one that is meant."
-            raise self._error(message, factor)
+        if sign.kind != "-" or digits.kind not in _NUMBERS or (sign.spaced and digits.spaced):
+            return
+        if (ten.kind, ten.text.lower()) == ("name", "e"):
+            first, base = ten, ten.text
+        elif (times.kind, ten.text) == ("*", "10") and factor.kind in _NUMBERS and _EXPONENT.fullmatch(digits.text):
+            first, base = factor, f"{factor.text}*10"
+        else:
+            return
+        readings = f"{quoted(f'{base}^-{digits.text}')} or {quoted(f'{base} - {digits.text}')}"
+        typed = quoted(self._text(first, digits))
+        raise self._error(f"{typed} may be {readings}; write the one that is meant.", first)
 
     def _check_alone(self) -> None:
         """A power of ten without its superscript, and nothing else: ``10-1``."""

@@ -25,7 +25,7 @@ _LEAST = {"+": (SUM, PRODUCT), "-": (SUM, PRODUCT), "*": (PRODUCT, POWER), "/": 
 _QUOTED = re.compile(r"""\((['"])([^'"()]*)\1\)""")  # Decimal('0.25')
 #: The letter x between numbers, in Latin or Cyrillic; 0x10 is something else.
 _TIMES = re.compile(rf"(?<![0-9A-Za-z_])((?!0[xX])[0-9.]*[0-9.]|(?<=[0-9])[%{VULGAR}])\s*[xXхХ]\s*([0-9.√{VULGAR}])")
-_EQUAL = re.compile(r"==|≈|(?<=[^=~≈])~|≡")
+_EQUAL = re.compile(r"==|≈|(?<=[^=~≈])~|≡|,?\s(?:or|i\.\s?e\.,?)\s")
 _AGAIN = re.compile(r"(?:i\.\s?e\.,?|or\b|[=≈~]|approx(?:imately)?\b\.?|about\b|ca\b\.?)*\s*", re.IGNORECASE)
 _DECIMAL = re.compile(r"[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?", re.IGNORECASE)
 _MOST_FORMS = 8
@@ -61,6 +61,8 @@ def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) ->
     source = bare(source).replaced(_QUOTED, lambda match: f"({match[2]})")
     if "x" not in parameters:
         source = source.replaced(_TIMES, lambda match: f"{match[1]}*{match[2]}")
+    if source.text[-2:] in (").", "%.", "}.", "]."):  # the end of a sentence
+        source = source.part(0, len(source.text) - 1)
     _refuse_two_signs(source)
     forms = _forms(source)
     if len(forms) == 1:

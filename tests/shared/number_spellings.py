@@ -183,7 +183,18 @@ def in_two_forms(random: Random) -> Spelling:
     percents = f"{float(value * 100):.{random.randrange(3)}f}%"
     other = random.choice([rounded, percents, exact])
     shape = random.choice(
-        ["{} ({})", "{}({})", "{} = {}", "{} ≈ {}", "{} (= {})", "{} (≈{})", "{} ~ {}", "{}={}", "{} or {}"]
+        [
+            "{} ({})",
+            "{}({})",
+            "{} = {}",
+            "{} ≈ {}",
+            "{} (= {})",
+            "{} (≈{})",
+            "{} ~ {}",
+            "{}={}",
+            "{} or {}",
+            "{}, i.e. {}",
+        ]
     )
     return shape.format(exact, other), value
 
@@ -228,6 +239,11 @@ def total(random: Random) -> Spelling:
     return f"{left}{gap(random)}{minus(random)}{gap(random)}{right}", first - second
 
 
+def inside_a_product(random: Random) -> Spelling:
+    text, value = signed(random)
+    return random.choice([(f"2.0*{text}/2", value), (f"0.5 * {text} * 2", value), (f"2*({text})", 2 * value)])
+
+
 def in_another_script(random: Random) -> Spelling:
     text, value = random.choice([whole, decimal, quotient, total])(random)
     digits = random.choice(_SCRIPTS)
@@ -240,17 +256,17 @@ def in_another_script(random: Random) -> Spelling:
 
 
 def with_something_around(random: Random) -> Spelling:
-    text, value = signed(random)
+    text, value = random.choice([signed, signed, in_two_forms, product, total])(random)
     around = random.choice(
         ["={}", "= {}", "≈ {}", "~{}", "{}.", '"{}"', "'{}'", "${}$", r"\({}\)", "({})", "x = {}", " {} ", "`{}`",
-         "$${}$$", "approx. {}", "{} m", "{}€", "${}", "{}°", "[{}]", "\\left({}\\right)", "2.0*{}/2", "{}f"]
+         "$${}$$", "approx. {}", "{} m", "{}€", "${}", "{}°", "[{}]", "\\left({}\\right)", "{}f"]
     )  # fmt: skip
     return around.format(text), value
 
 
 SPELLINGS = [
-    *ATOMS, signed, signed, in_two_forms, product, percent_of_a_quotient, power, total, in_another_script,
-    with_something_around, with_something_around,
+    *ATOMS, signed, signed, in_two_forms, product, percent_of_a_quotient, power, total, inside_a_product,
+    in_another_script, with_something_around, with_something_around,
 ]  # fmt: skip
 
 
