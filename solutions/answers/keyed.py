@@ -226,8 +226,8 @@ def _readings(rows: list[list[Source]], *, pairs: bool) -> Iterator[list[tuple[l
     """The cells of a table with what may name them; its first line or column may be a heading."""
     by_line = [(cells[:-1], cells[-1]) for cells in rows]
     yield from (by_line[1:], by_line)
-    if len(rows) == 2 and len(rows[0]) == len(rows[1]):
-        by_column = [([head], cell) for head, cell in zip(*rows, strict=True)]
+    if len(rows) == 2 and 0 <= (named := len(rows[1]) - len(rows[0])) <= 1:
+        by_column = [([head], cell) for head, cell in zip(rows[0], rows[1][named:], strict=True)]
         yield from (by_column[1:], by_column)
     width = len(rows[1])
     if pairs and all(len(row) == width for row in rows[1:]) and len(rows[0]) in (width - 1, width):

@@ -42,7 +42,7 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
     """
     for marks in (";", "|"):
         if source.has(marks):
-            entries = source.split(marks if marks == ";" else "|\n")
+            entries = [_ended(entry) for entry in source.split(marks if marks == ";" else "|\n")]
             _refuse_commas(entries, "semicolons" if marks == ";" else "bars")
             break
     else:
@@ -56,6 +56,11 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
     if len(entries) > 1 and not entries[-1].text:
         del entries[-1]
     return [line for entry in entries for line in filled(entry.split("\n"))]
+
+
+def _ended(entry: Source) -> Source:
+    """An entry without a comma behind it."""
+    return entry.part(0, len(entry.text) - 1) if entry.text.endswith(",") else entry
 
 
 def filled(pieces: list[Source]) -> list[Source]:

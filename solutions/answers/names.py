@@ -4,7 +4,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.spelling import Source, quoted, spelled
@@ -48,15 +48,13 @@ def the_key(name: str, keys: Sequence[Key], ends: Sequence[str], whole: Source) 
     Raises:
         Unreadable: it means none, or may mean several.
     """
-    hits = keys_named(name, keys)
+    hits: list[Key | str] = list(keys_named(name, keys))
     if not hits and is_end(name, keys, ends):
         return None
-    if not hits:
-        hits = _by_initials(name, keys, ends)
-        if not hits and len(_by_initials(name, ends, ())) == 1:
-            return None
+    begun = [] if hits else _by_initials(name, ends)
+    hits = hits or [*_by_initials(name, keys), *begun]
     if len(hits) == 1:
-        return hits[0]
+        return None if begun else cast("Key", hits[0])
     fault = f"may be any of {listed(map(shown, hits))}" if hits else "is not a key here"
     raise whole.unreadable(f"{quoted(name)} {fault}; the keys are {listed(map(shown, keys))}.")
 
@@ -86,8 +84,10 @@ def is_end(name: str, keys: Sequence[Key], ends: Sequence[str]) -> bool:
 
 def is_known(name: str, keys: Sequence[Key], ends: Sequence[str]) -> bool:
     """Whether a name means one key, or a terminal state; its first letter is enough."""
-    hits = keys_named(name, keys) or ([] if is_end(name, keys, ends) else _by_initials(name, keys, ends))
-    return len(hits) == 1 or is_end(name, keys, ends) or len(_by_initials(name, ends, ())) == 1
+    hits = keys_named(name, keys)
+    if len(hits) == 1 or is_end(name, keys, ends):
+        return True
+    return not hits and len(_by_initials(name, keys)) + len(_by_initials(name, ends)) == 1
 
 
 def _single(keys: Sequence[Key]) -> bool:
@@ -129,12 +129,10 @@ def _beside(inner: str, spellings: Sequence[tuple[str, Key]], keys: Sequence[Key
             yield from hits
 
 
-def _by_initials(name: str, keys: Sequence[Key], ends: Sequence[str]) -> list[Key]:
-    """The keys whose names begin with the one letter that is typed for each, where no terminal state's does."""
+def _by_initials(name: str, keys: Sequence[Key]) -> list[Key]:
+    """The keys whose names begin with the one letter that is typed for each."""
     for candidate in _candidates(name):
         words = [candidate.strip()] if _single(keys) else _spread(candidate).split()
-        if any(_begins(words[0], end) for end in ends if words):
-            continue
         if hits := [key for key in keys if _all_begin(words, (key,) if isinstance(key, str) else key)]:
             return hits
     return []
@@ -226,8 +224,13 @@ def _unmarked(text: str) -> str:
 
 def entry_named(label: str, names: Sequence[str]) -> int | None:
     """Which entry a label means; its index may be left out where no other entry has the same letter."""
-    for form in (_plain, _unmarked, lambda name: _unmarked(name).rstrip("0123456789")):
-        hits = [index for index, name in enumerate(names) if form(name) == _plain(label)]
+    for form in (_plain, _unmarked, _loose, lambda name: _loose(name).rstrip("0123456789")):
+        hits = [index for index, name in enumerate(names) if form(name) in (_plain(label), _loose(label))]
         if len(hits) == 1:
             return hits[0]
     return None
+
+
+def _loose(name: str) -> str:
+    """The same with what is raised on the line: ``R01`` for ``R₀⁽¹⁾``."""
+    return re.sub(r"[\^(){}]", "", unicodedata.normalize("NFKC", _unmarked(name)))

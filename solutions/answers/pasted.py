@@ -30,7 +30,8 @@ _ACCENTS = {"hat": "\u0302", "widehat": "\u0302", "bar": "\u0304", "overline": "
 _ACCENT = re.compile(rf"\\({'|'.join(_ACCENTS)})\s*\{{\s*([^\W\d_])\s*\}}")
 _SLOPE = re.compile(r"\\[dt]?frac\s*\{\s*([∂d])\s*(\w*)\s*\}\s*\{\s*([∂d])\s*(\w+(?:_\{?\w+\}?)?)\s*\}")
 _ENVIRONMENT = re.compile(
-    r"\\begin\s*\{([a-zA-Z]+)\*?\}(?:\s*\{[lcr|@ ]*\})?|\\end\s*\{[a-zA-Z]+\*?\}|\\\\(?:\s*\[[^\]\n]{0,9}\])?|&"
+    r"\\begin\s*\{([a-zA-Z]+)\*?\}(?:\s*\{[lcr|@ ]*\})?|\\end\s*\{[a-zA-Z]+\*?\}|&"
+    r"|\\\\(?:\s*\[[^\]\n]{0,9}\])?(?:\s*(?=\\end))?"
 )
 _GRIDS = frozenset({"matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "tabular"})
 
@@ -108,7 +109,7 @@ def _one_line(lines: list[str]) -> str:
         whole += " ".join(" ".join(between).split())
         if place < len(pieces[0]):
             rows = (row[place][1].strip() for row in pieces)
-            whole += f"[{';'.join(re.sub(' {2,}', ',', row) for row in rows if row)}]"
+            whole += f"[{';'.join(re.sub(' {2,}', ',', row) + ',' for row in rows if row)}]"
     return whole
 
 
@@ -123,11 +124,13 @@ def _latex(text: str) -> str:
             open_.append(match[1] in _GRIDS)
             return "[" if open_[-1] else ""
         grid = bool(open_) and open_[-1]
+        if match[0].startswith("\\\\") and match.string.startswith("\\end", match.end()):
+            return ""
         if match[0].startswith("\\end"):
-            return "]" if open_ and open_.pop() else ""
+            return ",]" if open_ and open_.pop() else ""
         if match[0] == "&":
             return ("," if grid else " ") if open_ else "&"
-        return ";" if grid else "\n"
+        return ",;" if grid else "\n"
 
     text = _WORDS.sub(_in_place(lambda match: match[1]), text)
     text = _ENVIRONMENT.sub(_in_place(environment), text)

@@ -57,6 +57,7 @@ _NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
 _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
+_ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _ENTRIES = 200
@@ -433,7 +434,7 @@ def _agree(first: Reading, second: Reading) -> bool:
 
 def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
     """Read one number; before its forms may stand what it is, and how it was worked out."""
-    source = source.unwrapped("[") or source
+    source = (source.unwrapped("[") or source).replaced(_ROUNDED, lambda match: f"{match[0]}.")
     signs = [index for index, sign in source.outside() if sign in "=≈←"]
     if len(signs) > _FORMS:
         raise source.unreadable("It holds too many equal signs; write the value alone, once.")
@@ -443,7 +444,8 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
         try:
             number(member, parameters, probe)
         except Unreadable:
-            begun = stop + 1  # V(cool), max{1; 2}
+            if not member.text or re.search(r"[^\W\d_]", member.text):
+                begun = stop + 1  # V(cool), max{1; 2}
             break
     try:
         return number(source.part(begun, len(source.text)), parameters, arithmetic)
