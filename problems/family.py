@@ -30,6 +30,20 @@ class Givens(BaseModel):
         """The parameters left open anywhere in the givens."""
         return tuple(dict.fromkeys(_parameters(self)))
 
+    def ends(self) -> tuple[str, ...]:
+        """The terminal states anywhere in the givens."""
+        return tuple(dict.fromkeys(_ends(self)))
+
+
+def _ends(givens: BaseModel) -> Iterator[str]:
+    for field in type(givens).model_fields:
+        value = getattr(givens, field)
+        if field == "terminal":
+            yield from value
+        for inner in value if isinstance(value, tuple) else (value,):
+            if isinstance(inner, BaseModel):
+                yield from _ends(inner)
+
 
 def _parameters(value: object) -> Iterator[str]:
     if isinstance(value, Parameter):

@@ -3,8 +3,9 @@
 import csv
 import io
 import re
+import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
@@ -17,6 +18,16 @@ SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
 _NAMED = ("student", "problem", "part")
 _COLUMNS = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
+#: What other programs call the columns, and the two halves of a name.
+_ALSO = {
+    "problem id": "problem", "id": "problem", "question": "problem", "problem part": "part", "response": "answer",
+    "name": "student", "student name": "student", "full name": "student", "student id": "student",
+}  # fmt: skip
+_FIRST = ("first name", "firstname", "given name", "vorname")
+_LAST = ("last name", "lastname", "surname", "family name", "nachname")
+_AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
+_SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
+_POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
 _BARE_ID = re.compile(r"^\s*\[?\s*(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
@@ -31,6 +42,7 @@ class Entry:
         text: what was typed; blank for no answer.
         line: the line of the file, where its format has one for every answer.
         path: the file of answers.
+        commas: whether commas may be decimal commas: semicolons part the file's columns, and no answer has a point.
     """
 
     student: str
@@ -39,6 +51,7 @@ class Entry:
     text: str
     line: int | None
     path: Path
+    commas: bool = False
 
     @property
     def where(self) -> str:
@@ -95,7 +108,7 @@ def _word(value: object, field: str, place: str) -> str:
         return ""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise FileError(f"{place}: '{field}' must be a text; write it in quotes.")
-    word = str(value).strip()
+    word = unicodedata.normalize("NFC", str(value).strip())
     if not word.isprintable():
         raise FileError(f"{place}: '{field}' holds a character that cannot be printed; retype it.")
     return word
@@ -142,38 +155,59 @@ def _json_lines(text: str, path: Path) -> Iterator[Entry]:
 def _csv(text: str, path: Path) -> Iterator[Entry]:
     """A header line that names the columns, then one answer a line."""
     where = shown(path)
-    header, records = _records(text, where)
+    separator, first, text = _separator(text)
+    records = ((line + first, fields) for line, fields in _numbered(text, separator, where))
+    line, named = next(((line, fields) for line, fields in records if any(map(str.strip, fields))), (1, []))
+    header = _names(named)
+    while header and not header[-1]:
+        del header[-1]
     missing = [column for column in _NEEDED if column not in header]
     if missing:
         raise FileError(
-            f"{where}, line 1: the column '{missing[0]}' is missing; "
+            f"{where}, line {line}: the column '{missing[0]}' is missing; "
             f"the first line names the columns: {','.join(_COLUMNS)}."
         )
     for column in _COLUMNS:
         if header.count(column) > 1:
-            raise FileError(f"{where}, line 1: the column '{column}' stands twice; keep one of them.")
-    for line, fields in records:
-        if not any(field.strip() for field in fields):
-            continue
-        if len(fields) != len(header):
-            raise FileError(
-                f"{where}, line {line}: {len(fields)} fields where the first line names {len(header)}; "
-                "put an answer that holds the separator in double quotes."
-            )
-        yield _entry(dict(zip(header, fields, strict=True)), line, path)
+            raise FileError(f"{where}, line {line}: the column '{column}' stands twice; keep one of them.")
+    entries = [_record(header, fields, line, path) for line, fields in records if any(map(str.strip, fields))]
+    commas = separator == ";" and not any(_POINT.search(entry.text) for entry in entries)
+    return (replace(entry, commas=commas) for entry in entries)
 
 
-def _records(text: str, where: str) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    """The names of the columns, and the records below; the first line decides what separates."""
+def _record(header: Sequence[str], fields: Sequence[str], line: int, path: Path) -> Entry:
+    """An answer in a line of a CSV file; spreadsheets leave blank fields at its end."""
+    fields = list(fields)
+    while len(fields) > len(header) and not fields[-1].strip():
+        del fields[-1]
+    if len(fields) != len(header):
+        raise FileError(
+            f"{shown(path)}, line {line}: {len(fields)} fields where the first line names {len(header)}; "
+            "put an answer that holds the separator in double quotes."
+        )
+    found = {name: _AS_TEXT.sub(r"\1", field.strip()) for name, field in zip(header, fields, strict=True) if name}
+    whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
+    return _entry({"student": whole} | found if whole else found, line, path)
+
+
+def _half(found: Mapping[str, str], names: Sequence[str]) -> str:
+    return next((found[name].strip() for name in names if name in found), "")
+
+
+def _separator(text: str) -> tuple[str, int, str]:
+    """What separates the columns, how many lines come before the header, and the text from there on.
+
+    Spreadsheets may say it in a line of its own, ``sep=;``; else the header decides.
+    """
+    if told := _SEPARATED.match(text):
+        return told[1], text.count("\n", 0, told.end()), text[told.end() :]
     first = text.lstrip("\r\n").partition("\n")[0]
-    separator = max(",;\t", key=lambda sign: len(set(_COLUMNS) & set(_names(first.split(sign)))))
-    records = _numbered(text, separator, where)
-    header = next((fields for _, fields in records if any(map(str.strip, fields))), [])
-    return _names(header), records
+    return max(",;\t", key=lambda sign: len(set(_COLUMNS) & set(_names(first.split(sign))))), 0, text
 
 
 def _names(fields: Sequence[str]) -> list[str]:
-    return [field.strip().strip('"').strip().lower() for field in fields]
+    names = [" ".join(field.replace("_", " ").replace('"', " ").lower().split()) for field in fields]
+    return [_ALSO[name] if _ALSO.get(name) not in (None, *names) else name for name in names]
 
 
 def _numbered(text: str, separator: str, where: str) -> Iterator[tuple[int, list[str]]]:

@@ -1,6 +1,7 @@
 """Judges files of answers: the library under ``rldrill verify``."""
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -12,12 +13,14 @@ from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, read_answers
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id
-from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.problems.parts import Part
+from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 #: The version of the JSON that ``Report.to_json`` gives.
 FORMAT = 1
 #: The verdict on a part that was not answered; all others are values of ``Outcome``.
 MISSING = "missing"
+_COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,14 +228,15 @@ class _Submission:
 
     def parts(self) -> Iterator[MarkedPart]:
         """Every part, answered or not."""
-        graded = self.exercise.grade({label: entry.text for label, entry in self.entries.items()})
+        texts = {part.label: self._text(part) for part in self.exercise.parts if part.label in self.entries}
+        graded = self.exercise.grade(texts)
         for part, given in zip(self.exercise.parts, graded.parts, strict=True):
             entry = self.entries.get(part.label)
             verdict = given.verdict
             yield MarkedPart(
                 problem=self.name,
                 part=part.label,
-                typed=given.typed,
+                typed="" if entry is None else entry.text,
                 read="" if verdict is None else verdict.read,
                 verdict=MISSING if verdict is None else verdict.outcome.value,
                 accepted=given.accepted,
@@ -241,6 +245,25 @@ class _Submission:
                 key=answer_kind(part.kind).write(self.exercise.solution.answers[part.label]),
                 line=None if entry is None else entry.line,
             )
+
+    def _text(self, part: Part) -> str:
+        """What was typed for a part, with points for decimal commas where only so it can be read.
+
+        The file has to allow it: its columns are parted by semicolons, and no answer in it has a decimal point.
+        """
+        entry = self.entries[part.label]
+        pointed = _COMMA.sub(r"\1.\2", entry.text)
+        if not entry.commas or pointed == entry.text or self._readable(part, entry.text):
+            return entry.text
+        return pointed if self._readable(part, pointed) else entry.text
+
+    def _readable(self, part: Part, text: str) -> bool:
+        problem = self.exercise.problem
+        try:
+            answer_kind(part.kind).read(text, problem.parameters, problem.given.ends())
+        except Unreadable:
+            return False
+        return True
 
 
 def _students(entries: Sequence[Entry], problems: _Problems) -> Iterator[StudentReport]:

@@ -1,5 +1,6 @@
 """From a typed answer to a verdict that says what is wrong and why."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
@@ -8,11 +9,13 @@ from typing import Any
 
 from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Cell, answer_kind
-from rldrill.solutions.answers.rule import is_close, is_right
+from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import NotReal, Value
+from rldrill.solutions.exact import NotReal, Value, absolute, sign
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
+
+_CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 
 
 class Outcome(Enum):
@@ -74,7 +77,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     kind = answer_kind(part.kind)
     try:
-        cells = kind.read(text, solution.problem.parameters)
+        cells = kind.read(text, solution.problem.parameters, solution.problem.given.ends())
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
@@ -113,9 +116,9 @@ def _judge(
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
         return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value, told)
     if all(_is_close(cells[name], key[name]) for name in wrong):
-        return Verdict(
-            Outcome.CLOSE, "Right idea; give an exact value or three digits.", credit, read, (), named, value
-        )
+        cut = all(_is_cut_off(cells[name], key[name]) for name in wrong)
+        says = _CUT_OFF if cut else "Right idea; give an exact value or three digits."
+        return Verdict(Outcome.CLOSE, says, credit, read, (), named, value)
     says = "Not right."
     if named and len(named) < len(key):
         says = f"Not right at {'; '.join(named)}; the rest is right."
@@ -153,7 +156,9 @@ def _content(cell: Cell) -> Any:
 
 
 def _echo(cell: Cell) -> str:
-    return cell.echo if isinstance(cell, Reading) else cell
+    if isinstance(cell, Reading):
+        return cell.echo
+    return cell if isinstance(cell, str) else " or ".join(cell)
 
 
 def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
@@ -163,8 +168,16 @@ def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str
 def _cell_is_right(cell: Cell, key: Any) -> bool:
     if isinstance(cell, Reading):
         return is_right(cell.value, key, rounded=cell.decimal)
-    return cell in key
+    return all(word in key for word in ((cell,) if isinstance(cell, str) else cell))
 
 
 def _is_close(cell: Cell, key: Value) -> bool:
     return isinstance(cell, Reading) and is_close(cell.value, key)
+
+
+def _is_cut_off(cell: Cell, key: Value) -> bool:
+    """Whether a decimal has the key's first three digits, where the third one had to be rounded up."""
+    if not isinstance(cell, Reading) or len(re.sub("[^0-9]", "", cell.echo).lstrip("0")) < DIGITS:
+        return False
+    behind = absolute(key) - absolute(cell.value)
+    return sign(cell.value) == sign(key) and sign(behind) > 0 and sign(2 * tolerance(key) - behind) > 0

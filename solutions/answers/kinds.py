@@ -34,8 +34,8 @@ from rldrill.solutions.formula.typesetting import tabular, typeset_answer
 from rldrill.solutions.matrices import is_matrix, matrix
 
 KindT = TypeVar("KindT", bound=parts.Kind)
-#: A cell of a typed answer: a number as it was read, or a word.
-Cell: TypeAlias = Reading | str
+#: A cell of a typed answer: a number as it was read, a word, or words that are said to be equally good.
+Cell: TypeAlias = Reading | str | tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +58,13 @@ class Answer(ABC, Generic[KindT]):
         """The value cell by cell, each under the name that a person would use for it."""
 
     @abstractmethod
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:
         """What was typed, cell by cell.
+
+        Args:
+            text: what was typed.
+            parameters: the open parameters that it may contain.
+            ends: the terminal states of the problem, which may be given their 0, or no action.
 
         Raises:
             Unreadable: it cannot be understood.
@@ -121,7 +126,7 @@ class NumberAnswer(Answer[parts.Number]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": value}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
         return {"": read_number(text, parameters)}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -148,7 +153,7 @@ class NumbersAnswer(Answer[parts.Numbers]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
         return dict(self.cells(read_vector(text, len(self.kind.entries), parameters, self.kind.entries)))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -185,7 +190,7 @@ class MatrixAnswer(Answer[parts.Matrix]):
             for column, entry in enumerate(line)
         }
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
         return dict(self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), parameters)))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -221,8 +226,8 @@ class ValuesAnswer(Answer[parts.Values]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {self._name(key): value[key] for key in self.kind.keys}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:
-        return dict(self.cells(read_table(text, self.kind.keys, parameters)))
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:
+        return dict(self.cells(read_table(text, self.kind.keys, parameters, ends)))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {key: cells[self._name(key)] for key in self.kind.keys}
@@ -264,8 +269,8 @@ class PolicyAnswer(Answer[parts.Policy]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {state: value[state] for state in self.kind.actions}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
-        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions))
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
+        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions, ends))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}
@@ -303,7 +308,7 @@ class ChoiceAnswer(Answer[parts.Choice]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": (value,)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
         return {"": read_choice(text, self.kind.options)}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -334,7 +339,7 @@ class YesNoAnswer(Answer[parts.YesNo]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": (self.write(value),)}
 
-    def read(self, text: str, parameters: Sequence[str]) -> dict[str, Cell]:  # noqa: ARG002
+    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
         return {"": self.write(read_yes_no(text))}
 
     def value(self, cells: Mapping[str, Any]) -> Any:

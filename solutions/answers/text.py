@@ -1,17 +1,38 @@
 """Reads what a person typed as an answer: a number, a vector, a matrix, a table, a policy or a choice."""
 
 import re
-import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import partial
+from typing import TypeVar
 
-from rldrill.problems.expressions import GREEK
-from rldrill.problems.grammar import refuse_comma
-from rldrill.problems.notation import FUNCTIONS
 from rldrill.problems.spelling import Source, Unreadable, quoted, spelled
 from rldrill.solutions.answers.arithmetic import Arithmetic
+from rldrill.solutions.answers.keyed import Asked, by_name, in_order
+from rldrill.solutions.answers.lists import (
+    entries_of,
+    filled,
+    nested_rows,
+    plain_rows,
+    untransposed,
+    unwrapped,
+    vector_entries,
+)
+from rldrill.solutions.answers.names import (
+    MARKS,
+    Key,
+    entry_named,
+    listed,
+    matches,
+    options_named,
+    shown,
+    the_options,
+    unquoted,
+)
 from rldrill.solutions.answers.numbers import Reading, number
+from rldrill.solutions.answers.pasted import laid_out
+from rldrill.solutions.answers.rule import equivalent, is_right
 from rldrill.solutions.answers.source import clean
+from rldrill.solutions.exact import NotReal
 
 __all__ = [
     "Reading",
@@ -25,28 +46,26 @@ __all__ = [
     "read_yes_no",
 ]
 
-Key = TypeVar("Key", bound=str | tuple[str, str])
+Read = TypeVar("Read")
 
 # x · V(s) · V^π(s) · R_0 · V_{k+1}(s) · Q̂(s, a) · ∂J/∂θ₁
-_MARKS = "\u0300-\u036f"  # the hat, bar or tilde on a letter
-_NAME = rf"(?:[∂d]\w*/[∂d])?[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⊤{_MARKS}]|\{{[^{{}}=]*\}}|\([^()=]*\)|\[[^\[\]=]*\])*"
+_NAME = rf"(?:[∂d]\w*/[∂d])?[^\W\d_](?:[\w '^*⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⊤{MARKS}]|\{{[^{{}}=]*\}}|\([^()=]*\)|\[[^\[\]=]*\])*"
+_LABEL = re.compile(rf"(['\"]?)({_NAME})\1\s*(?:[:←]|=(?!=))")
 _LEFT_SIDE = re.compile(rf"(?:{_NAME})?=(?!=)")
-_LABEL = re.compile(rf"({_NAME})(?::|=(?!=))")
-_TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?[T⊤]\}?|ᵀ|\.T|')$")
-_ARROW = re.compile(r"->|→|↦|:=|[:=]")
-# V(cool), V^(π₀)(cool), ln p(cool), (cool, fast)
-_OF = re.compile(rf"(?:[^\W\d_](?:[\^_][({{][^(){{}}]*[)}}]|[\w '^*⊤{_MARKS}])*)?[(\[](.*)[)\]]")
-_BELOW = re.compile(rf"[^\W\d_][{_MARKS}]?_\{{?(.*?)\}}?")  # V_cool
-_LETTER = re.compile(r"[^\W\d_]['′]*(?:_?\d+)?")  # s, s', s_0
-_SPELLED_OUT = str.maketrans({glyph: name for name, glyph in GREEK.items()} | {"π": "pi", "∂": "d"})
+_ONLY_NAME = re.compile(_NAME)
+_NEXT_LABEL = re.compile(r"[^\W\d_∂](?:[^\s=:,;()]|\([^()=:;]*\))*\s*[=:](?!=)|∂[^\s=:,;]*\s*=(?!=)")
 _YES = frozenset({"yes", "y", "true", "t", "ja", "j"})
 _NO = frozenset({"no", "n", "false", "f", "nein"})
-_LISTED = 60
+_DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}")
+_ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
+_SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
+_BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _ENTRIES = 200
+_FORMS = 30
 
 
 def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
-    """Read one number.
+    """Read one number, perhaps in several forms: ``V(s) = 1/4 = 0.25``.
 
     Args:
         text: what was typed.
@@ -55,8 +74,7 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     Raises:
         Unreadable: it is not one number.
     """
-    source = _right_side(clean(text))
-    return number(source.unwrapped("[") or source, parameters, Arithmetic())
+    return _number(clean(laid_out(text)), parameters, Arithmetic())
 
 
 def read_vector(
@@ -73,11 +91,22 @@ def read_vector(
     Raises:
         Unreadable: an entry is not a number, or is given twice, or there are too few or too many.
     """
-    source = clean(text)
-    entries = _vector(_untransposed(source), length)
+    source = clean(laid_out(text))
+
+    def vector(member: Source) -> tuple[Reading, ...]:
+        return _vector(member, length, parameters, names)
+
+    body = _right_side(source)
+    if length != 1 and body.has("=≈") and len(_pieces(body, length)) == 1:
+        return _forms(source, vector, tuple)  # (1/4, 2) = (0.25, 2)
+    return vector(source)
+
+
+def _vector(source: Source, length: int | None, parameters: Sequence[str], names: Sequence[str]) -> tuple[Reading, ...]:
+    entries = _pieces(source, length)
     if len(entries) == 1 or not all(_LABEL.match(entry.text) for entry in entries[1:]):
         source = _right_side(source)  # R = 1, 2
-        entries = _vector(_untransposed(source), length)
+        entries = _pieces(source, length)
     entries = _unlabelled(entries, names)  # R_0 = 1, R_1 = 2
     readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None)
     if length is not None and len(readings) != length:
@@ -85,6 +114,22 @@ def read_vector(
             f"{_count(len(readings))} read, {length} {_are(length)} needed.{_comma(source, len(readings), length)}"
         )
     return readings
+
+
+def _pieces(source: Source, length: int | None) -> list[Source]:
+    """The entries of a vector; labels begin new ones: ``mu = 1 Sigma = 2``."""
+    body = untransposed(source)
+    inside, _ = unwrapped(body)
+    labels = [
+        index
+        for index, sign in inside.outside()
+        if sign.isspace()
+        and _NEXT_LABEL.match(inside.text, index + 1)
+        and inside.text[:index].rstrip()[-1:] not in "=≈:,;+-*/("
+    ]
+    if labels and not inside.has(",;|\n"):
+        return inside.split(lambda index, _: index in labels)
+    return vector_entries(body, length)
 
 
 def read_matrix(
@@ -101,12 +146,20 @@ def read_matrix(
     Raises:
         Unreadable: an entry is not a number, or the shape is another one.
     """
-    source = _right_side(clean(text))
-    body = _untransposed(source)
-    rows = _nested_rows(body)
+    source = clean(laid_out(text))
+    return _forms(
+        source, lambda member: _matrix(member, shape, parameters), lambda rows: [entry for row in rows for entry in row]
+    )
+
+
+def _matrix(
+    source: Source, shape: tuple[int, int] | None, parameters: Sequence[str]
+) -> tuple[tuple[Reading, ...], ...]:
+    body = untransposed(source)
+    rows = nested_rows(body)
     plain = rows is None
     if rows is None:
-        rows = _plain_rows(body)
+        rows = plain_rows(body)
     if len(rows) > _ENTRIES:
         raise source.unreadable(f"More than {_ENTRIES} rows were typed; leave out those that were not asked for.")
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
@@ -128,67 +181,117 @@ def read_matrix(
     return tuple(matrix)
 
 
-def read_table(text: str, keys: Sequence[Key], parameters: Sequence[str] = ()) -> dict[Key, Reading]:
+def read_table(
+    text: str, keys: Sequence[Key], parameters: Sequence[str] = (), ends: Sequence[str] = ()
+) -> dict[Key, Reading]:
     """Read a number for each key: ``cool: 3.5, warm: 2.5``, or the numbers alone in the keys' order.
 
     Args:
         text: what was typed.
         keys: the states, or the pairs of state and action, that each need a number.
         parameters: the names of the open parameters that the numbers may contain.
+        ends: the terminal states, whose 0 may be typed too.
 
     Raises:
         Unreadable: a key is unknown, repeated or missing, or its number cannot be read.
     """
-    source = clean(text)
-    items = _items(source, keys)
-    if items is None:
-        try:
-            readings = read_vector(text, len(keys), parameters)
-        except Unreadable:
-            readings = read_vector(text, None, parameters)
-        if len(readings) != len(keys):
-            needed = f"{len(keys)} {_are(len(keys))} needed: {_listed(map(_shown, keys))}."
+    source = clean(laid_out(text))
+    asked = Asked(keys, ends)
+    found = by_name(source, asked)
+    if found is None:
+        body = untransposed(_unnamed(source))
+        rows = _number_rows(body, spaced=len(keys) > 1)
+        flat = [entry for row in rows for entry in row]
+        found = in_order(rows, source, asked) if len(flat) <= _ENTRIES else None
+        if found is None:
+            readings = _numbers(flat, parameters, "entry {}".format if len(flat) != 1 else None)
+            needed = f"{len(keys)} {_are(len(keys))} needed: {listed(map(shown, keys))}."
             raise source.unreadable(f"{_count(len(readings))} read, {needed}{_comma(source, len(readings), len(keys))}")
-        return dict(zip(keys, readings, strict=True))
     arithmetic = Arithmetic()
-    found = {}
-    for key, item in _by_key(items, keys).items():
-        place = _shown(key)
-        (found[key],) = _numbers([item], parameters, lambda _, place=place: place, arithmetic)
-    return found
+    return {key: _numbers([entry], parameters, partial(_place, key), arithmetic)[0] for key, entry in found.items()}
 
 
-def read_words(text: str, keys: Sequence[str], options: Mapping[str, Sequence[str]]) -> dict[str, str]:
+def _place(key: str | tuple[str, str], _: int) -> str:
+    return shown(key)
+
+
+def _number_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
+    """The numbers line by line, or by the brackets around each row."""
+    if rows := nested_rows(source):
+        return rows
+    body, wrapped = unwrapped(source)
+    lines = filled(body.split("\n;" if body.has("\n") or not body.has(",") else "\n"))
+    return [entries_of(line, spaced or wrapped) for line in lines]
+
+
+def read_words(
+    text: str, keys: Sequence[str], options: Mapping[str, Sequence[str]], ends: Sequence[str] = ()
+) -> dict[str, tuple[str, ...]]:
     """Read a policy: ``cool: fast, warm: slow``, or the actions alone in the keys' order.
 
     Args:
         text: what was typed.
         keys: the states.
         options: the actions that are allowed in each.
+        ends: the terminal states, for which a sign for no action may be typed.
+
+    Returns:
+        The action of each state, or several that are said to be equally good: ``cool: E or S``.
 
     Raises:
         Unreadable: a state is unknown, repeated or missing, or its action is not allowed.
     """
-    source = clean(text)
-    items = _items(source, keys)
-    if items is None:
-        body = _right_side(source)
-        words = [word for word in (body.unwrapped() or body).split(",;\n") if word.text]
-        if len(words) == 1 < len(keys):
-            words = [word for word in words[0].split(" ") if word.text]
-        if len(words) != len(keys):
-            needed = f"{len(keys)} {_are(len(keys))} needed: {_listed(keys)}."
+    source = clean(laid_out(text))
+    asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
+    found = by_name(source, asked)
+    if found is None:
+        body = _unnamed(source)
+        rows = _word_rows(body, options)
+        words = [word for row in rows for word in row]
+        tied = len(keys) == 1 and len(words) > 1
+        found = {keys[0]: body} if tied else in_order(rows, source, asked)
+        if found is None:
+            needed = f"{len(keys)} {_are(len(keys))} needed: {listed(keys)}."
             raise source.unreadable(f"{_count(len(words), 'word')} read, {needed}")
-        placed = dict(zip(keys, words, strict=True))
-    else:
-        placed = _by_key(items, keys)
-    return {key: _option(word, key, options[key]) for key, word in placed.items()}
+    return {key: the_options(_last_form(word), key, options[key]) for key, word in found.items()}
+
+
+def _is_option(word: str, allowed: Sequence[str]) -> bool:
+    return len(options_named(word, allowed)) == 1
+
+
+def _word_rows(source: Source, options: Mapping[str, Sequence[str]]) -> list[list[Source]]:
+    """The words line by line, or by the brackets around each row; of a line without commas, those between spaces."""
+    allowed = {tuple(actions) for actions in options.values()} if len(options) > 1 else set()
+    body, _ = unwrapped(source)
+    pieces = [piece for piece in body.split(",;\n ") if piece.text]
+    rows = [piece.unwrapped("[(") for piece in pieces]
+    if len(pieces) != len(options) and len(pieces) > 1 and all(rows):  # [[up, up], [left, up]]
+        return [_line_words(row, allowed) for row in rows if row]
+    return [_line_words(line, allowed) for line in filled(body.split("\n;" if body.has("\n") else "\n"))]
+
+
+def _line_words(line: Source, allowed: Collection[Sequence[str]]) -> list[Source]:
+    if line.has(",;|"):
+        return [word for word in line.split(",;|") if word.text]
+    if not allowed or any(_is_option(line.text, actions) for actions in allowed):
+        return [line]
+    words = [word for word in line.split(lambda _, sign: sign.isspace()) if word.text]
+    if len(words) == 1 and _DRAWN.fullmatch(line.text):
+        return [line.part(index, index + 1) for index in range(len(line.text))]
+    return words
+
+
+def _last_form(source: Source) -> Source:
+    """What stands behind the last equal sign: the action in ``arg max {1; 2} = fast``."""
+    return source.split("=")[-1]
 
 
 def read_choice(text: str, options: Mapping[str, str]) -> str:
     """Read which option was chosen, and give its letter.
 
-    It may be typed as its letter, ``b`` or ``(b)``, its text, how its text begins, or words of it that no other has.
+    It may be typed as its letter, ``b`` or ``(b)``, its text, both, how its text begins, or words of it that no other
+    has.
 
     Args:
         text: what was typed.
@@ -197,17 +300,39 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     Raises:
         Unreadable: no option fits, or several do.
     """
-    source = clean(text)
-    spellings = [(told.replace("$", ""), letter) for letter, told in options.items()]
-    typed = re.fullmatch(r"\(?([A-Za-z])[).:]?", source.text)
-    lettered = [letter for letter in options if typed and letter.casefold() == typed[1].casefold()]
-    marked = bool(lettered) and len(source.text) > 1  # (b) is no text
-    named = [] if marked else _matches(source.text, spellings)
-    hits = list(dict.fromkeys(lettered + named)) or _partly(source.text, spellings)
+    source = clean(laid_out(text))
+    typed = _flattened(unquoted(source.text))
+    spellings = [(_flattened(told), letter) for letter, told in options.items()]
+    typed = _SAID.sub("", typed)
+    both = _BOTH.fullmatch(typed)
+    if both and (lettered := _lettered(both[1], options)):
+        told = _told(both[2], spellings)
+        if told == lettered:
+            return lettered[0]
+        if told:
+            raise source.unreadable(f"{quoted(typed)} has the letter of one option and words of another; type one.")
+    alone = re.fullmatch(r"\(?([A-Za-z])[).:]?", typed)
+    lettered = _lettered(alone[1], options) if alone else []
+    marked = bool(lettered) and len(typed) > 1  # (b) is no text
+    named = [] if marked else matches(typed, spellings)
+    hits = list(dict.fromkeys(lettered + named)) or _partly(typed, spellings)
     if len(hits) == 1:
         return hits[0]
     fault = "fits more than one option" if hits else "is not one of the options"
     raise source.unreadable(f"{quoted(source.text)} {fault}; type a letter from {min(options)} to {max(options)}.")
+
+
+def _flattened(text: str) -> str:
+    """A text without the signs that only set its mathematics: ``Q*`` for ``$Q^*$``."""
+    return re.sub(r"[$^{}]", "", text)
+
+
+def _lettered(typed: str, options: Iterable[str]) -> list[str]:
+    return [letter for letter in options if letter.casefold() == typed.casefold()]
+
+
+def _told(typed: str, spellings: Sequence[tuple[str, str]]) -> list[str]:
+    return matches(typed, spellings) or _partly(typed, spellings)
 
 
 def _partly(typed: str, spellings: Sequence[tuple[str, str]]) -> list[str]:
@@ -227,8 +352,8 @@ def read_yes_no(text: str) -> bool:
     Raises:
         Unreadable: it is neither.
     """
-    source = clean(text)
-    word = source.text.casefold().rstrip(".!")
+    source = clean(laid_out(text))
+    word = unquoted(source.text).casefold().rstrip(".!")
     if word in _YES or word in _NO:
         return word in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
@@ -240,6 +365,13 @@ def _right_side(source: Source) -> Source:
     return source.part(left.end(), len(source.text)) if left else source
 
 
+def _unnamed(source: Source) -> Source:
+    """What is typed after ``V =`` or ``V:``, perhaps in braces with it: ``{"V": [3.5, 2.5]}``."""
+    inside = source.unwrapped("{") or source
+    label = _LABEL.match(inside.text)
+    return inside.part(label.end(), len(inside.text)) if label else source
+
+
 def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
     """The entries without the ``R_0 =`` or ``R_0:`` before each; in the order of the names, if all are known."""
     labels = [_LABEL.match(entry.text) for entry in entries]
@@ -247,7 +379,10 @@ def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
         entry.part(label.end(), len(entry.text)) if label else _right_side(entry)
         for entry, label in zip(entries, labels, strict=True)
     ]
-    meant = [index for label in labels if label and (index := _entry(label[1], names)) is not None]
+    meant = [index for label in labels if label and (index := entry_named(label[2], names)) is not None]
+    unknown = [label[2].strip() for label in labels if label and entry_named(label[2], names) is None]
+    if meant and unknown and all(labels):
+        raise entries[0].unreadable(f"{quoted(unknown[0])} is not asked for here; give the {len(names)} entries alone.")
     if len(meant) < len(entries):
         return values
     placed: dict[int, Source] = {}
@@ -258,99 +393,66 @@ def _unlabelled(entries: list[Source], names: Sequence[str]) -> list[Source]:
     return [placed[index] for index in sorted(placed)]
 
 
-def _entry(label: str, names: Sequence[str]) -> int | None:
-    """Which entry a label means; its index may be left out where no other entry has the same letter."""
-    typed = _plain(label)
-    for form in (_plain, lambda name: _plain(name).rstrip("0123456789")):
-        hits = [index for index, name in enumerate(names) if form(name) == typed]
-        if len(hits) == 1:
-            return hits[0]
-    return None
+def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Read], Iterable[Reading]]) -> Read:
+    """One answer in several forms, ``x = 1/4 = 0.25``: the last that is exact, else the last.
+
+    Raises:
+        Unreadable: the last cannot be read, or another one says something else.
+    """
+    members = source.split("=≈")
+    while len(members) > 1 and not members[0].text:
+        del members[0]
+    if len(members) > _FORMS:
+        raise source.unreadable("It holds too many equal signs; write the value alone, once.")
+    best = read(members[-1])
+    for place, member in reversed(list(enumerate(members[:-1]))):
+        try:
+            other = read(member)
+        except Unreadable:
+            continue  # what it is, or how it was worked out
+        pairs = list(zip(numbers(other), numbers(best), strict=True))
+        if not all(_agree(*pair) for pair in pairs):
+            if place == 0 and _ONLY_NAME.fullmatch(member.text):
+                continue
+            first, second = quoted(member.text), quoted(members[-1].text)
+            raise member.unreadable(f"{first} and {second} are not equal; '=' stands between forms of one answer.")
+        if any(mine.decimal and not others.decimal for others, mine in pairs):
+            best = other
+    return best
 
 
-def _untransposed(source: Source) -> Source:
-    """A bracket without the ``^T`` behind it; the source itself if there is none."""
-    mark = _TRANSPOSED.search(source.text)
-    return source.part(0, mark.start()) if mark else source
+def _agree(first: Reading, second: Reading) -> bool:
+    """Whether two readings may be forms of one number; decimals may be rounded."""
+    key, value = (second, first) if first.decimal else (first, second)
+    if not value.decimal:
+        return equivalent(value.value, key.value)
+    try:
+        return is_right(value.value, key.value)
+    except NotReal:
+        return False
 
 
-def _vector(source: Source, length: int | None) -> list[Source]:
-    body, wrapped = _unwrapped(source)
-    entries = _list(body, length != 1 and (wrapped or length is not None))
-    columns = [entry.unwrapped("[") for entry in entries]  # [[1], [2]]
-    whole = [column for column in columns if column]
-    return whole if len(whole) == len(entries) else entries
-
-
-def _unwrapped(source: Source) -> tuple[Source, bool]:
-    """What stands in up to three pairs of brackets around it all, and whether there are any."""
-    body = source
-    for _ in range(3):
-        body = body.unwrapped() or body
-    return body, body is not source
-
-
-def _list(source: Source, spaced: bool) -> list[Source]:
-    """The entries between semicolons, else commas, else lines, else (if ``spaced``) spaces."""
-    if source.has(";"):
-        entries = source.split(";")
-        for entry in entries:
-            for index, character in entry.outside():
-                if character == ",":
-                    refuse_comma(entry, index)
-                    raise entry.unreadable("Commas and semicolons are mixed; use one of them.", index)
-    elif source.has(","):
-        entries = source.split(",")
-    elif source.has("\n"):
-        entries = [source]
-    else:
-        return _filled(source.split(_gap(source))) if spaced else [source]
-    if len(entries) > 1 and not entries[-1].text:
-        del entries[-1]
-    return [line for entry in entries for line in _filled(entry.split("\n"))]
-
-
-def _filled(pieces: list[Source]) -> list[Source]:
-    """The pieces that are not blank; a blank one if all are, to be complained about."""
-    return [piece for piece in pieces if piece.text] or pieces[:1]
-
-
-def _gap(source: Source) -> Callable[[int, str], bool]:
-    """Whether a space parts two entries: ``[1 -2]`` are two, ``[1 - 2]`` is one."""
-
-    def parts(index: int, character: str) -> bool:
-        if not character.isspace():
-            return False
-        before, after = source.text[:index].rstrip(), source.text[index:].lstrip()
-        word = re.search("[A-Za-z]+$", before[-5:])
-        if before.endswith(tuple("+-*/^√")) or (word and word[0].lower() in FUNCTIONS):
-            return False
-        sign, behind = after[:1], after[1:2]
-        return not (sign in "*/^%" or (sign in "+-" and behind.isspace()))
-
-    return parts
-
-
-def _nested_rows(source: Source) -> list[list[Source]] | None:
-    """The entries of rows that each have brackets of their own; None if they have not."""
-    for whole, fewest in ((source.unwrapped(), 1), (source, 2)):
-        pieces = [piece for piece in whole.split(",;\n ") if piece.text] if whole else []
-        rows = [piece.unwrapped("[{⟨") or piece.unwrapped("(") for piece in pieces]
-        if len(rows) < fewest:
-            continue
-        found = [
-            row for piece, row in zip(pieces, rows, strict=True) if row and (piece.text[0] != "(" or row.has(",;"))
-        ]
-        if len(found) == len(rows):
-            return [_list(row, True) for row in found]
-    return None
-
-
-def _plain_rows(source: Source) -> list[list[Source]]:
-    """The entries of rows that end with a semicolon or a line."""
-    body, wrapped = _unwrapped(source)
-    rows = _filled(body.split(";\n"))
-    return [_list(row, wrapped or len(rows) > 1) for row in rows]
+def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
+    """Read one number; before its forms may stand what it is, and how it was worked out."""
+    source = (source.unwrapped("[") or source).replaced(_ROUNDED, lambda match: f"{match[0]}.")
+    signs = [index for index, sign in source.outside() if sign in "=≈←"]
+    if len(signs) > _FORMS:
+        raise source.unreadable("It holds too many equal signs; write the value alone, once.")
+    probe, begun = Arithmetic(), 0
+    for start, stop in reversed(list(zip([0, *(index + 1 for index in signs)], signs, strict=False))):
+        member = source.part(start, stop)
+        try:
+            number(member, parameters, probe)
+        except Unreadable:
+            if not member.text or re.search(r"[^\W\d_]", member.text):
+                begun = stop + 1  # V(cool), max{1; 2}
+            break
+    try:
+        return number(source.part(begun, len(source.text)), parameters, arithmetic)
+    except Unreadable:
+        if begun or not signs or not _ONLY_NAME.fullmatch(source.text[: signs[0]].strip()):
+            raise
+        return number(source.part(signs[0] + 1, len(source.text)), parameters, arithmetic)  # e = 2 may name the trace
 
 
 def _numbers(
@@ -366,162 +468,10 @@ def _numbers(
     readings = []
     for i, entry in enumerate(entries, 1):
         try:
-            readings.append(number(entry, parameters, arithmetic))
+            readings.append(_number(entry, parameters, arithmetic))
         except Unreadable as complaint:
             raise (complaint.within(place(i)) if place else complaint) from None
     return tuple(readings)
-
-
-class _Item(NamedTuple):
-    """What is typed for a key: ``cool: 3.5``."""
-
-    name: str
-    value: Source
-    whole: Source
-
-
-def _items(source: Source, keys: Sequence[Key]) -> list[_Item] | None:
-    """What is typed for each key; None if no keys are typed."""
-    body = source.unwrapped() or source
-    pieces = [piece for piece in body.split(",;\n") if piece.text]
-    items = [_item(piece) for piece in pieces]
-    named = [item for item in items if item]
-    if not named:
-        return None
-    first, several = items[0], len(items) > 1 or named[0].value.unwrapped()
-    if first and several and len(named) == 1 < len(keys) and not _keys(first.name, keys):
-        return None  # V = 3.5, 2.5
-    return _joined(pieces, items, keys)
-
-
-def _joined(pieces: list[Source], items: list[_Item | None], keys: Sequence[Key]) -> list[_Item]:
-    """The items, with the first half of a pair put before the second: ``cool, fast: 3.5``."""
-    joined: list[_Item] = []
-    half = ""
-    for piece, item in zip(pieces, items, strict=True):
-        if item:
-            joined.append(item._replace(name=f"{half} {item.name}".strip()))
-            half = ""
-        elif half or isinstance(keys[0], str) or piece.text[0] in "0123456789":
-            if joined and re.fullmatch("[0-9]+", piece.text) and joined[-1].value.text[-1:].isdigit():
-                shown, point = (quoted(joined[-1].value.text + mark + piece.text) for mark in ",.")
-                raise piece.unreadable(f"{shown} may have a decimal comma; write {point}.")
-            raise piece.unreadable(f"{quoted(piece.text)} is not understood; write it as {_shown(keys[0])}: … .")
-        else:
-            half = piece.text
-    if half:
-        raise pieces[-1].unreadable(f"{quoted(half)} has no value; write one after a colon.")
-    return joined
-
-
-def _item(piece: Source) -> _Item | None:
-    mark = _arrow(piece)
-    if mark is None:
-        return None
-    value = piece.part(mark.end(), len(piece.text))
-    if _arrow(value):
-        raise value.unreadable(f"{quoted(piece.text)} holds two keys; put a comma between them.")
-    return _Item(piece.part(0, mark.start()).text, value, piece)
-
-
-def _arrow(piece: Source) -> re.Match[str] | None:
-    """The colon, or what stands for one, behind a key."""
-    marks = (_ARROW.match(piece.text, index) for index, _ in piece.outside())
-    return next(filter(None, marks), None)
-
-
-def _by_key(items: list[_Item], keys: Sequence[Key]) -> dict[Key, Source]:
-    """What is typed for each key, in the keys' order."""
-    found: dict[Key, Source] = {}
-    for item in items:
-        hits = _keys(item.name, keys)
-        if len(hits) != 1:
-            fault = f"may be any of {_listed(map(_shown, hits))}" if hits else "is not a key here"
-            raise item.whole.unreadable(f"{quoted(item.name)} {fault}; the keys are {_listed(map(_shown, keys))}.")
-        (key,) = hits
-        if key in found:
-            raise item.whole.unreadable(f"{_shown(key)} is given twice; give it once.")
-        found[key] = item.value
-    for key in keys:
-        if key not in found:
-            raise Unreadable(f"{_shown(key)} is missing; give it too.")
-    return {key: found[key] for key in keys}
-
-
-def _keys(name: str, keys: Sequence[Key]) -> list[Key]:
-    """The keys that a name may mean: ``cool``, ``V(cool)``, ``V_cool``, ``p(cool|wet)``; ``Q(cool, fast)``."""
-    spellings = _spellings(keys)
-    inner = [match[1] for pattern in (_OF, _BELOW) if (match := pattern.fullmatch(name))]
-    for candidate in (name, *inner):
-        spread = candidate if not keys or isinstance(keys[0], str) else re.sub(r"[\s,/|;()]+", " ", candidate).strip()
-        if hits := _matches(spread, spellings):
-            return hits
-    return list(dict.fromkeys(hit for candidate in inner for hit in _beside(candidate, spellings, keys)))
-
-
-def _spellings(keys: Sequence[Key]) -> list[tuple[str, Key]]:
-    """How each key is typed; of pairs that have one half in common, the other half is enough."""
-    spellings = [(key if isinstance(key, str) else " ".join(key), key) for key in keys]
-    pairs = [key for key in keys if not isinstance(key, str)]
-    for half in (0, 1):
-        if len({key[half] for key in pairs}) == 1:
-            spellings += [(key[1 - half], key) for key in pairs]
-    return spellings
-
-
-def _beside(inner: str, spellings: Sequence[tuple[str, Key]], keys: Sequence[Key]) -> Iterator[Key]:
-    """The keys that stand beside something else: ``cool|wet``, ``D|cool``, ``s, fast``.
-
-    Behind or before a bar that may be anything where keys are single names; else it is a letter.
-    """
-    free = "|" in inner and isinstance(keys[0], str)
-    pieces = [piece.strip() for piece in re.split(r"[|]" if free else r"[|,]", inner)]
-    found = {piece: _matches(piece, spellings) for piece in pieces}
-    if len(pieces) > 1 and all(hits or free or _LETTER.fullmatch(piece) for piece, hits in found.items()):
-        for hits in found.values():
-            yield from hits
-
-
-def _option(word: Source, key: str, allowed: Sequence[str]) -> str:
-    spellings = [(option, option) for option in allowed]
-    hits = _matches(word.text, spellings) or _matches(word.text.rstrip("."), spellings)
-    if len(hits) == 1:
-        return hits[0]
-    fault = "may be any of" if hits else "is not one of"
-    raise word.unreadable(f"{quoted(word.text)} {fault} {_listed(allowed)}; type one of them.").within(key)
-
-
-def _matches(typed: str, spellings: Iterable[tuple[str, Key]]) -> list[Key]:
-    """What is spelled so; else if capitals do not count; else if ``_``, spaces and quotes do not; else its name."""
-    pairs = list(spellings)
-    for form in (_unquoted, lambda text: _unquoted(text).casefold(), _bare, _plain):
-        if hits := [meant for spelling, meant in pairs if form(spelling) == form(typed)]:
-            return hits
-    return []
-
-
-def _unquoted(text: str) -> str:
-    text = spelled(text)
-    return text[1:-1] if len(text) > 2 and text[0] == text[-1] and text[0] in "'\"" else text
-
-
-def _bare(text: str) -> str:
-    return re.sub("[_\\s{}'\"]", "", spelled(text).casefold())
-
-
-def _plain(text: str) -> str:
-    """The name in Latin letters and digits alone: ``pi1`` for π₁ and ``pi(1)``."""
-    letters = unicodedata.normalize("NFD", re.sub("[()]", "", _bare(text)))
-    return "".join(sign for sign in letters if not unicodedata.combining(sign)).translate(_SPELLED_OUT)
-
-
-def _shown(key: str | tuple[str, str]) -> str:
-    return key if isinstance(key, str) else f"({', '.join(key)})"
-
-
-def _listed(names: Iterable[str]) -> str:
-    text = ", ".join(names)
-    return text if len(text) <= _LISTED else text[: _LISTED - 1] + "…"
 
 
 def _count(count: int, noun: str = "number") -> str:

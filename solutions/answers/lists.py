@@ -1,0 +1,137 @@
+"""How a typed text is parted into entries, and into rows of entries."""
+
+import re
+from collections.abc import Callable
+
+from rldrill.problems.grammar import refuse_comma
+from rldrill.problems.notation import FUNCTIONS
+from rldrill.problems.spelling import Source
+
+_TRANSPOSED = re.compile(r"(?<=[\])}⟩])\s*(?:\^\s*\{?\s*[Tt⊤]\s*\}?|ᵀ|\.T|\.?')$")
+_MIXED = re.compile(r"[0-9]+\s+[0-9]+\s*/\s*[0-9]+(?![0-9.])")
+
+
+def untransposed(source: Source) -> Source:
+    """A bracket without the ``^T`` behind it; the source itself if there is none."""
+    mark = _TRANSPOSED.search(source.text)
+    return source.part(0, mark.start()) if mark else source
+
+
+def unwrapped(source: Source) -> tuple[Source, bool]:
+    """What stands in up to three pairs of brackets around it all, and whether there are any."""
+    body = source
+    for _ in range(3):
+        body = body.unwrapped() or body
+    return body, body is not source
+
+
+def vector_entries(source: Source, length: int | None) -> list[Source]:
+    """The entries of a vector, perhaps each in brackets of its own."""
+    body, wrapped = unwrapped(source)
+    entries = entries_of(body, length != 1 and (wrapped or length is not None))
+    columns = [entry.unwrapped("[") for entry in entries]  # [[1], [2]]
+    whole = [column for column in columns if column]
+    return whole if len(whole) == len(entries) else entries
+
+
+def entries_of(source: Source, spaced: bool) -> list[Source]:
+    """The entries between semicolons, else bars, else commas, else lines and (if ``spaced``) spaces.
+
+    Raises:
+        Unreadable: a comma may part two entries or be a decimal comma.
+    """
+    for marks in (";", "|"):
+        if source.has(marks):
+            entries = [_ended(entry) for entry in source.split(marks if marks == ";" else "|\n")]
+            _refuse_commas(entries, "semicolons" if marks == ";" else "bars")
+            break
+    else:
+        if not source.has(","):
+            lines = source.split("\n")
+            alone = [not spaced or line.has("=≈:") for line in lines]
+            cut = [[line] if whole else line.split(_gap(line)) for line, whole in zip(lines, alone, strict=True)]
+            return filled([piece for pieces in cut for piece in pieces])
+        entries = source.split(",")
+        _refuse_doubtful(source, entries)
+    if len(entries) > 1 and not entries[-1].text:
+        del entries[-1]
+    return [line for entry in entries for line in filled(entry.split("\n"))]
+
+
+def _ended(entry: Source) -> Source:
+    """An entry without a comma behind it."""
+    return entry.part(0, len(entry.text) - 1) if entry.text.endswith(",") else entry
+
+
+def filled(pieces: list[Source]) -> list[Source]:
+    """The pieces that are not blank; a blank one if all are, to be complained about."""
+    return [piece for piece in pieces if piece.text] or pieces[:1]
+
+
+def _refuse_commas(entries: list[Source], others: str) -> None:
+    """Complain about commas inside entries that something else parts."""
+    for entry in entries:
+        for index, character in entry.outside():
+            if character == ",":
+                refuse_comma(entry, index)
+                raise entry.unreadable(f"Commas and {others} are mixed; use one of them.", index)
+
+
+def _refuse_doubtful(source: Source, entries: list[Source]) -> None:
+    """Complain about ``-1 -0,5``: are these −1 and −0.5, or −1 − 0 and 5?"""
+    tight = [
+        index
+        for index, sign in source.outside()
+        if sign == "," and source.text[:index][-1:].isdigit() and source.text[index + 1 :][:1].isdigit()
+    ]
+    lines = [line for entry in entries for line in entry.split("\n")] if tight else []
+    if not any(len(filled(line.split(_gap(line)))) > 1 for line in map(_whole, lines)):
+        return
+    for index in tight:
+        refuse_comma(source, index)
+    raise source.unreadable(
+        "Commas and spaces are mixed; put a comma between all entries, and write decimals with a point.", tight[0]
+    )
+
+
+def _whole(source: Source) -> Source:
+    """An entry with its mixed numbers, 1 3/4, in one piece."""
+    return Source(_MIXED.sub("1", source.text), source.start)
+
+
+def _gap(source: Source) -> Callable[[int, str], bool]:
+    """Whether a space parts two entries: ``[1 -2]`` are two, ``[1 - 2]`` is one."""
+
+    def parts(index: int, character: str) -> bool:
+        if not character.isspace():
+            return False
+        before, after = source.text[:index].rstrip(), source.text[index:].lstrip()
+        word = re.search("[A-Za-z]+$", before[-5:])
+        if before.endswith(tuple("+-*/^√")) or (word and word[0].lower() in FUNCTIONS):
+            return False
+        sign, behind = after[:1], after[1:2]
+        return not (sign in "*/^%" or (sign in "+-" and behind.isspace()))
+
+    return parts
+
+
+def nested_rows(source: Source) -> list[list[Source]] | None:
+    """The entries of rows that each have brackets of their own; None if they have not."""
+    for whole, fewest in ((source.unwrapped(), 1), (source, 2)):
+        pieces = [piece for piece in whole.split(",;\n ") if piece.text] if whole else []
+        rows = [piece.unwrapped("[{⟨") or piece.unwrapped("(") for piece in pieces]
+        if len(rows) < fewest:
+            continue
+        found = [
+            row for piece, row in zip(pieces, rows, strict=True) if row and (piece.text[0] != "(" or row.has(",;"))
+        ]
+        if len(found) == len(rows) and not (len(found) == 1 and found[0].has(";\n")):
+            return [entries_of(row, True) for row in found]
+    return None
+
+
+def plain_rows(source: Source) -> list[list[Source]]:
+    """The entries of rows that end with a semicolon or a line."""
+    body, wrapped = unwrapped(source)
+    rows = filled(body.split(";\n"))
+    return [entries_of(row, wrapped or len(rows) > 1 or row.has("|")) for row in rows]
