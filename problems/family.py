@@ -30,7 +30,7 @@ class Givens(BaseModel):
         """The parameters left open anywhere in the givens."""
         return tuple(dict.fromkeys(_parameters(self)))
 
-    def ends(self) -> tuple[str, ...]:
+    def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
         return tuple(dict.fromkeys(_ends(self)))
 

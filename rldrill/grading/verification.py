@@ -260,7 +260,7 @@ class _Submission:
     def _readable(self, part: Part, text: str) -> bool:
         problem = self.exercise.problem
         try:
-            answer_kind(part.kind).read(text, problem.parameters, problem.given.ends())
+            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
         except Unreadable:
             return False
         return True

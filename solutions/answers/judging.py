@@ -77,7 +77,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     kind = answer_kind(part.kind)
     try:
-        cells = kind.read(text, solution.problem.parameters, solution.problem.given.ends())
+        cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
