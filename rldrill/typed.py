@@ -38,8 +38,7 @@ def _pairs(table: Mapping[object, object], what: str) -> Iterator[str]:
             for action, number in value.items():
                 yield f"({state}, {action}): {_scalar(number, what)}"
         else:
-            # Of tied best actions, which stand in a tuple, any one is an answer.
-            yield f"{state}: {_scalar(value[0] if isinstance(value, tuple) and value else value, what)}"
+            yield f"{state}: {_row(value, what)}"  # tied best actions, or a row of a table, stand in a list
 
 
 def _row(value: object, what: str) -> str:

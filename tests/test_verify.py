@@ -219,6 +219,14 @@ Ann,sweep.toml,b,
 }
 
 
+SAME |= {
+    "sep.csv": b"\xef\xbb\xbfsep=;\r\n STUDENT ; Problem ;Part;Answer;;\r\nAnn;return.toml;a;10;;\r\n"
+    b'Ann;return.toml;b;8\r\nAnn;td.toml;;"rim: 6,8";;\r\nAnn;sweep.toml;a;"4; 1,5";;;\r\n',
+    "excel.csv": 'Student Name,Problem ID,Part,Response\nAnn,return.toml,a,="10"\nAnn,return.toml,b,"=""8"""\n'
+    'Ann,td.toml,,rim: 6.8\nAnn,sweep.toml,a,"4, 1.5"\n',
+}
+
+
 @pytest.mark.parametrize("name", SAME)
 def test_every_format_gives_the_same_report(folder: Path, name: str) -> None:
     report = verify([write(folder, name, SAME[name])])
@@ -232,6 +240,48 @@ def test_every_format_gives_the_same_report(folder: Path, name: str) -> None:
     ((student,),) = [file.students for file in report.files]
     assert student.student == "Ann"
     assert (report.score, report.exit_code) == (Score(Fraction(3), 5), 1)
+
+
+def test_names_in_two_columns_are_one_name(folder: Path) -> None:
+    head = '"Last name","First name",problem,part,answer\n'
+    content = head + "Doe,Ann,td.toml,a,6.8\nRoe,Ann,td.toml,a,6.8\n,Ben,td.toml,a,6.8\n"
+    (file,) = verify([write(folder, "a.csv", content)]).files
+    assert [student.student for student in file.students] == ["Ann Doe", "Ann Roe", "Ben"]
+
+
+def test_a_name_in_two_normal_forms_is_one_student(folder: Path) -> None:
+    path = write(folder, "a.csv", HEAD + "J\u00f6rg,return.toml,a,1/4\nJo\u0308rg,return.toml,b,25/8\n")
+    (student,) = verify([path]).files[0].students
+    assert [part.verdict for part in student.parts] == ["right", "right"]
+
+
+@pytest.mark.parametrize(
+    ("content", "verdicts"),
+    [
+        # Semicolons part the columns and no answer has a point: the comma is a decimal comma where nothing else fits.
+        (
+            "A;td.toml;a;6,8\nB;sweep.toml;a;4 1,5\nC;sweep.toml;a;4,2\n",
+            ["right", "right", "missing", "wrong", "missing"],
+        ),
+        ("A;td.toml;a;6,8\nB;td.toml;a;6.8\n", ["unreadable", "right"]),
+        ("A;sweep.toml;a;rim: 4, slope: 1,5\n", ["right", "missing"]),
+    ],
+)
+def test_decimal_commas_are_read_where_the_whole_file_allows_it(
+    folder: Path, content: str, verdicts: list[str]
+) -> None:
+    report = verify([write(folder, "a.csv", "student;problem;part;answer\n" + content)])
+    assert [row.verdict for row in rows(report)] == verdicts
+
+
+def test_what_was_typed_is_shown_as_it_was_typed(folder: Path) -> None:
+    (row,) = rows(verify([write(folder, "a.csv", "problem;answer\ntd.toml;6,8\n")]))
+    assert (row.typed, row.read) == ("6,8", "rim: 6.8")
+
+
+def test_tied_actions_may_be_a_list(folder: Path) -> None:
+    first, second = judged(folder, '"sweep.toml" = {a = [4, 1.5], b = {rim = ["drill", "drive"], slope = ["drive"]}}')
+    assert (first.verdict, second.verdict, second.read) == ("right", "wrong", "rim: drill or drive, slope: drive")
 
 
 def test_lines_are_kept(folder: Path) -> None:
@@ -283,6 +333,8 @@ FAULTY = [
     ("a.json", '{"td\\u0000.toml": 1}', "cannot be printed"),
     ("a.csv", "student,problem,part\nAnn,td.toml,a\n", "line 1: the column 'answer' is missing"),
     ("a.csv", "Ann,td.toml,a,1\n", "line 1: the column 'problem' is missing"),
+    ("a.csv", "sep=;\nproblem;part\n", "line 2: the column 'answer' is missing"),
+    ("a.csv", "sep=;\nproblem;answer\ntd.toml;1;2\n", "line 3: 3 fields where"),
     ("a.csv", "problem,answer,answer\ntd.toml,1,2\n", "the column 'answer' stands twice"),
     ("a.csv", HEAD + "Ann,td.toml,a,1\nAnn,sweep.toml,a,4, 1.5\n", "line 3: 5 fields where"),
     ("a.csv", HEAD + "Ann,td.toml,1\n", "line 2: 3 fields where"),

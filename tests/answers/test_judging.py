@@ -296,6 +296,45 @@ def test_any_of_tied_actions_is_right() -> None:
     assert {judge(solution, "b", f"a: {action}").outcome for action in ("left", "right")} == {Outcome.RIGHT}
 
 
+def test_the_set_of_tied_actions_is_right_and_no_other() -> None:
+    # "left" and "right" end the episode with reward 1, "wait" with 0.
+    moves = [["a", "left", "end", 1, 1], ["a", "right", "end", 1, 1], ["a", "wait", "end", 1, 0]]
+    solution = problem("value-iteration", gamma=1, sweeps=1, mdp={"transitions": moves, "terminal": ["end"]})
+    for text in ("a: left or right", "left, right", "{left, right}", "a: right/left", '{"a": ["left", "right"]}'):
+        verdict = judge(solution, "b", text)
+        assert (verdict.outcome, verdict.read) == (Outcome.RIGHT, "a: left or right"), text
+    for text in ("a: left or wait", "left, right, wait"):
+        assert judge(solution, "b", text).outcome is Outcome.WRONG, text
+
+
+def test_a_terminal_state_may_be_given_its_zero() -> None:
+    assert verdicts("cool: 3.5, warm: 2.5, overheated: 0")[0].outcome is Outcome.RIGHT
+    assert verdicts("3.5, 2.5, 0", "fast, slow, -")[1].outcome is Outcome.RIGHT
+    assert "'overheated' is terminal" in verdicts("cool: 3.5, warm: 2.5, overheated: -10")[0].says
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("1.44", "Right."),  # 13/9 = 1.4444…
+        ("1.43", "Right idea; give an exact value or three digits."),
+    ],
+)
+def test_what_is_close_is_told_why(text: str, says: str) -> None:
+    solution = problem("return", rewards=[1, 1, 1], gamma="1/3", time=0)  # 13/9
+    assert judge(solution, "a", text).says == says
+
+
+@pytest.mark.parametrize(("text", "cut"), [("0.219, 0.780", True), ("0.217, 0.78", False)])
+def test_digits_that_are_cut_off_are_named(text: str, cut: bool) -> None:
+    # P(sound) = 9/41 = 0.21951…, P(worn) = 32/41 = 0.78048…
+    given_ = {"prior": {"sound": "9/41", "worn": "32/41"}, "likelihood": {"hum": {"sound": 0.5, "worn": 0.5}}}
+    solution = problem("bayes-rule", measurements=["hum"], **given_)
+    verdict = judge(solution, "a", text)
+    assert verdict.outcome is Outcome.CLOSE
+    assert ("do not cut it off" in verdict.says) is cut
+
+
 BUMP = problem("rbf", position=[1], centres=[[4]], sigma="sigma")  # exp(−9/(2σ²))
 
 
