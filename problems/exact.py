@@ -216,10 +216,12 @@ def _rate(value: Scalar) -> Scalar:
     return value
 
 
-def _discounts(value: object) -> Scalar | tuple[Scalar, ...]:
-    if isinstance(value, list | tuple):
-        return tuple(_probability(read_scalar(gamma)) for gamma in value)
-    return _probability(read_scalar(value))
+def _discounts(value: object, info: ValidationInfo) -> Scalar | tuple[Scalar, ...]:
+    def one(gamma: object) -> Scalar:
+        number = read_scalar(gamma)
+        return _probability(meant(gamma, number, note_of(info)) if isinstance(number, Fraction) else number)
+
+    return tuple(map(one, value)) if isinstance(value, list | tuple) else one(value)
 
 
 _serialised = PlainSerializer(write, return_type=str)
