@@ -5,7 +5,7 @@ import io
 import json
 from collections.abc import Iterable
 
-from rich.console import Console
+from rich.console import Console, RenderableType
 
 from rldrill.exercise import Exercise, draw
 from rldrill.print.key import answer_lines
@@ -47,7 +47,7 @@ def _shown(exercise: Exercise) -> str:
     lines = [_terminal(exercise.question(), 100)]
     for part in exercise.parts:
         kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
-        lines.append(f"{asked(part)}\n  {kind.how_to_type()}")
+        lines.append(f"{_console(asked(part), 100)}  {kind.how_to_type()}")
         lines.append(_terminal(exercise.hint(part.label), 100))
         lines.append(_terminal(exercise.working(part.label), 100))
         lines += [f"  {unicode(line)}" for line in answer_lines(part, value)]
@@ -60,9 +60,13 @@ def _shown(exercise: Exercise) -> str:
 
 
 def _terminal(blocks: Iterable[Block], width: int) -> str:
+    return _console(render(blocks), width)
+
+
+def _console(content: RenderableType, width: int) -> str:
     console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False, markup=False, emoji=False)
     with console.capture() as capture:
-        console.print(render(blocks))
+        console.print(content)
     return capture.get()
 
 
