@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Generic
 
+from rldrill.problems.grammar import refuse_comma
 from rldrill.problems.spelling import Source, Unreadable, quoted
-from rldrill.solutions.answers.lists import filled
+from rldrill.solutions.answers.lists import ended, filled, unwrapped
 from rldrill.solutions.answers.names import Key, is_end, is_known, keys_named, listed, matches, shown, the_key
 
 _ARROW = re.compile(r"->|→|↦|:=|[:=←]")
@@ -59,7 +60,7 @@ def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     Raises:
         Unreadable: a key is unknown, repeated or missing, or a terminal state is given a value.
     """
-    body = source.unwrapped() or source
+    body, _ = unwrapped(source)
     items = _marked(body, asked)
     if items is not None:
         return _by_key(items, asked)
@@ -114,7 +115,7 @@ def _items(piece: Source, asked: Asked[Key]) -> Iterator[_Item]:
             stop = begun + split
             yield _Item(name, piece.part(begun, stop), piece.part(start, stop))
             start, name, begun = stop, piece.text[stop:index].strip(), mark.end()
-        elif mark[0] != "=":
+        elif mark[0] != "=" or (piece.text[begun - 1] in ":>→↦" and re.fullmatch(r"\s*[^\W\d]\w*", before)):
             raise piece.unreadable(f"{quoted(piece.text[start:])} holds two keys; put a comma between them.", begun)
     if name:
         yield _Item(name, piece.part(begun, len(piece.text)), piece.part(start, len(piece.text)))
@@ -208,7 +209,7 @@ def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
 
 def _tabled(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     """A table: a line for each key; or the keys in the first line; or states by actions."""
-    lines = _lines(body)
+    lines = [ended(line) for line in _lines(body)]
     if not 2 <= len(lines) <= _MOST:
         return None
     parting = next((mark for mark in "|;," if lines[0].has(mark)), None)
@@ -307,6 +308,8 @@ def in_order(rows: Sequence[Sequence[Source]], source: Source, asked: Asked[Key]
         _check_rows(rows, source, keys)
         return dict(zip(keys, flat, strict=True))
     order = _natural_order(keys, ends)
+    if ends and len(flat) > len(keys):
+        _refuse_decimal_comma(source)
     if len(flat) != len(keys) + len(ends) or not ends:
         return _walled(flat, cells, asked) if cells else None
     if order:
@@ -326,6 +329,13 @@ def in_order(rows: Sequence[Sequence[Source]], source: Source, asked: Asked[Key]
             f"{listed(ends)} may be read in {len(readings)} ways, so leave it out."
         )
     return None
+
+
+def _refuse_decimal_comma(source: Source) -> None:
+    """Refuse ``0,5`` where it may be one value, or a terminal state's 0 and a 5."""
+    if "." not in source.text and (comma := re.search(r"[0-9](,)[0-9]", source.text)):
+        refuse_comma(source, comma.start(1))
+        raise source.unreadable("Commas may be decimal commas here; write decimals with a point, as in 3.5.")
 
 
 def _check_rows(rows: Sequence[Sequence[Source]], source: Source, keys: Sequence[Key]) -> None:

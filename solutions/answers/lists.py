@@ -42,7 +42,7 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
     """
     for marks in (";", "|"):
         if source.has(marks):
-            entries = [_ended(entry) for entry in source.split(marks if marks == ";" else "|\n")]
+            entries = [ended(entry) for entry in source.split(marks if marks == ";" else "|\n")]
             _refuse_commas(entries, "semicolons" if marks == ";" else "bars")
             break
     else:
@@ -58,7 +58,7 @@ def entries_of(source: Source, spaced: bool) -> list[Source]:
     return [line for entry in entries for line in filled(entry.split("\n"))]
 
 
-def _ended(entry: Source) -> Source:
+def ended(entry: Source) -> Source:
     """An entry without a comma behind it."""
     return entry.part(0, len(entry.text) - 1) if entry.text.endswith(",") else entry
 
@@ -84,7 +84,7 @@ def _refuse_doubtful(source: Source, entries: list[Source]) -> None:
         for index, sign in source.outside()
         if sign == "," and source.text[:index][-1:].isdigit() and source.text[index + 1 :][:1].isdigit()
     ]
-    lines = [line for entry in entries for line in entry.split("\n")] if tight else []
+    lines = [line.split("=≈:←")[-1] for entry in entries for line in entry.split("\n")] if tight else []
     if not any(len(filled(line.split(_gap(line)))) > 1 for line in map(_whole, lines)):
         return
     for index in tight:

@@ -326,6 +326,17 @@ def test_decimal_commas_are_no_other_numbers(text, length):
     assert "has a decimal comma; write" in refusal(read_vector, text, length)
 
 
+@pytest.mark.parametrize("text", ["0,5", "-0,5", "3,0", "[0,5]", "V = 0,5"])
+def test_a_decimal_comma_is_no_terminal_state(text):
+    assert "a decimal comma; write" in refusal(read_table, text, ["cool"], (), ENDS)
+    assert read_table("3, 0", ["cool"], (), ENDS)["cool"].value == 3
+
+
+@pytest.mark.parametrize("text", ["x = 1,2", "R = [1,2]", "(1,2)"])
+def test_a_comma_between_digits_parts_two_entries_where_two_are_needed(text):
+    assert [reading.value for reading in read_vector(text, 2)] == [1, 2]
+
+
 def test_a_matrix_with_decimal_commas_is_refused():
     assert "0,5 has a decimal comma; write 0.5." in refusal(read_matrix, "0,5 1; 2 3", (2, 2))
 
