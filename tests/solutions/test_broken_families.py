@@ -49,7 +49,7 @@ def test_a_step_without_a_value_for_a_letter(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_draws_that_the_givens_refuse() -> None:
     def wrong(*_: Any) -> Any:
-        return TD.given.model_validate({"gamma": 2})
+        return TD.kinds[0].model_validate({"gamma": 2})
 
     assert "'draw' makes givens of level 1 that 'Given' refuses: " in told(replace(TD, draw=wrong))
 
