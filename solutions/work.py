@@ -183,7 +183,13 @@ class Work:
         return value_of(self.reading(formula), known)
 
     def system(
-        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **known: Any
+        self,
+        formula: Formula,
+        unknown: type[Quantity],
+        cases: Iterable[Mapping[str, Any]],
+        *,
+        instead: Formula | None = None,
+        **known: Any,
     ) -> dict[Any, Value]:
         """Solve the linear equations that a formula states, one for every case.
 
@@ -191,6 +197,7 @@ class Work:
             formula: a formula that gives the unknown quantity, linear in it.
             unknown: the quantity to solve for.
             cases: the indices of every equation, such as ``{"s": "cool"}``.
+            instead: an equation between a number and what is linear in the unknown, in place of that of the last case.
             **known: everything else; values of the unknown that are fixed may be among it.
 
         Raises:
@@ -205,6 +212,10 @@ class Work:
         for key, case in keys:
             equations[key] = value_of(right, {**bound, **case})
             self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
+        if instead is not None:
+            right, (last, _) = self.reading(instead), keys[-1]
+            equations[last] = lookup[last] + value_of(instead.left, {}) + value_of(right, bound) * (ZERO - 1)
+            self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, instead.left, "=")
         solution = bounded(solve_linear(equations))
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
         self.lines.append(Note("Solving these equations:"))

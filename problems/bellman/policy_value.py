@@ -1,11 +1,15 @@
 """The exact value of every state of a small MDP under a policy."""
 
+from typing import Any, Self
+
+from pydantic import Field, model_validator
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import Model, ModelAndPolicy, Process, Transition, model_blocks, policy_blocks
-from rldrill.problems.parts import Part, Values
+from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
 
@@ -21,6 +25,29 @@ class Given(ModelAndPolicy):
     """
 
     mdp: Process
+    average: bool = Field(
+        default=False,
+        exclude_if=lambda average: not average,
+        description="Whether the average reward per step is asked for, not values; then gamma is left out, or 1.",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _undiscounted(cls, data: Any) -> Any:
+        return {"gamma": 1, **data} if isinstance(data, dict) and data.get("average") is True else data
+
+    @model_validator(mode="after")
+    def _goes_on(self) -> Self:
+        if self.average and self.mdp.terminal:
+            raise ValueError(
+                f"average: there is no long run, because {self.mdp.terminal[0]!r} is terminal; give it an action that "
+                "goes on (to a start), or leave out average"
+            )
+        if self.average and self.gamma != 1:
+            raise ValueError(
+                "average: all steps count alike, so γ plays no part; leave out gamma, or give 1, or leave out average"
+            )
+        return self
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -68,8 +95,25 @@ def _left_open(rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The model and the policy; a value is asked for every state."""
+    if given.average:
+        return _in_the_long_run(given)
     values = "V^π" if given.mdp.chooses else "V"
     return Question(
         (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
         (Part(f"What is ${values}(s)$ for every state{in_open(given)}?", Values(values, given.mdp.states)),),
+    )
+
+
+def _in_the_long_run(given: Given) -> Question:
+    reward = "$r(π)$, the average reward per step" if given.mdp.chooses else "the average reward per step"
+    return Question(
+        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph("It goes on for ever. Nothing is discounted.")),
+        (
+            Part(
+                f"What is $d(s)$, the share of all steps that begin in $s$ in the long run, for every state"
+                f"{in_open(given)}?",
+                Values("d", given.mdp.states),
+            ),
+            Part(f"What is {reward} in the long run{in_open(given)}?", Number()),
+        ),
     )

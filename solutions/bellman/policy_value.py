@@ -1,24 +1,84 @@
 """The Bellman equations of all states, solved as a linear system."""
 
+from typing import Any
+
+import numpy as np
+
 from rldrill.problems.bellman.policy_value import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.oracle import Answers, swept
-from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
-from rldrill.solutions.sheet.bellman import BELLMAN_V, TRANSPOSED
+from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.oracle import Answers, chances, swept, tensors
+from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_backup, terminal_value
+from rldrill.solutions.recurrence import predecessors
+from rldrill.solutions.sheet.bellman import (
+    AVERAGE_REWARD,
+    BELLMAN_V,
+    EQUAL_SHARES,
+    SHARES_SUM,
+    STATIONARY,
+    TRANSPOSED,
+    Share,
+)
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """One equation for every state; what is reached and terminal is worth nothing."""
     known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    if given.average:
+        _in_the_long_run(given, work, known)
+        return
     if not given.mdp.chooses:
         work.say("There is nothing to choose, so $V$ is $V^π$ of the only policy there is.")
     work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
 
 
-MISCONCEPTIONS = (one_backup(solve), terminal_value(solve), TRANSPOSED)
+def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
+    """How often every state is visited where nothing ends, and what a step earns then on average.
+
+    Raises:
+        NoSolution: there are several sets of states that are never left: all depends on where it begins.
+    """
+    loops = endless(given.mdp, known)
+    if len(loops) > 1:
+        raise NoSolution(
+            f"the average reward depends on where it begins: whoever comes to {loops[0]} stays there for ever, and so "
+            f"does whoever comes to {loops[1]}; change the policy or the model so that one of them leads to the other"
+        )
+    ways = {
+        state: [(action, [row.next for row in given.mdp.outcomes[state, action]]) for action in actions]
+        for state, actions in given.mdp.actions.items()
+    }
+    before = dict.fromkeys(given.mdp.states, ()) | predecessors(ways)
+    work.say(
+        "In the long run every state is come to as often as it is left. The equation of the last "
+        "state follows from the others; that the shares sum to $1$ takes its place:"
+    )
+    cases = [{"s1": state} for state in given.mdp.states]
+    shares = work.answer(
+        of_states(given.mdp, work.system(STATIONARY, Share, cases, instead=SHARES_SUM, predecessors=before, **known))
+    )
+    work.answer(work.step(AVERAGE_REWARD, visited=shares, **known))
+
+
+MISCONCEPTIONS = (one_backup(solve), terminal_value(solve), TRANSPOSED, EQUAL_SHARES)
 
 
 def oracle(given: Given) -> Answers:
-    """Sweeps of evaluation until nothing changes, on arrays."""
+    """Sweeps of evaluation until nothing changes, on arrays; the mean of very many powers of the chain."""
+    if given.average:
+        return _mean_of_powers(given)
     return (swept(given)[0][: len(given.mdp.states)],)
+
+
+def _mean_of_powers(given: Given) -> Answers:
+    states = given.mdp.states
+    P, R = tensors(given.mdp, states)
+    pi = chances(given.chances, given.mdp, states)
+    power, mean = np.einsum("ij,ijk->ik", pi, P), np.eye(len(states))
+    for _ in range(60):  # the mean of the first 2ⁿ powers, and the power that comes next
+        mean = (mean + mean @ power) / 2
+        power = power @ power
+        power /= power.sum(axis=1, keepdims=True)
+    shares = mean[0]
+    return (shares, float(np.einsum("i,ij,ijk,ijk->", shares, pi, P, np.where(np.isinf(R), 0.0, R))))

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from sympy import evaluate
+from sympy import Integer, evaluate
 
-from rldrill.problems.mathematics import Math
+from rldrill.problems.mathematics import Fence, Math, row, variable
 from rldrill.problems.models import Transition
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
@@ -26,6 +26,7 @@ from rldrill.solutions.formula.notation import (
     beside,
     called,
     gamma,
+    letter,
     pi,
     quantity,
     s,
@@ -41,6 +42,10 @@ def _edge(here: Math, after: Math) -> Math:
 Residual = quantity("residual", called("δ"))
 #: What an edge of a graph earns, where nothing is left to chance.
 EdgeReward = quantity("edge_reward", _edge)
+#: The share of all steps that begin in a state in the long run, and the states from which another may be reached.
+Share = quantity("visited", called("d"))
+Predecessors = quantity("predecessors", called("S"))
+average = letter("average", row(variable("r"), Fence(variable("π"))))
 
 
 def _rows(given: Any) -> tuple[Transition, ...]:
@@ -257,5 +262,47 @@ with evaluate(False):
         note="Any part of an optimal policy is optimal for the subproblem that starts there.",
         misread={
             TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        },
+    )
+    STATIONARY = Formula(
+        "stationary-distribution",
+        Share(s1),
+        SumOver(Share(s) * SumOver(pi(a, s) * P(s, a, s1), a, Actions(s)), s, Predecessors(s1)),
+        title="Stationary distribution",
+        source="Sutton & Barto 2018, section 10.3; Puterman 1994, section 8.2",
+        hint="A state is come to as often as it is left: add up, over the states that lead there, their share "
+        "times the probability of that step.",
+        place=Place.WORKING,
+    )
+    SHARES_SUM = Formula(
+        "shares-sum",
+        Integer(1),
+        SumOver(Share(s), s, States),
+        title="Sum of the stationary distribution",
+        source="Puterman 1994, section 8.2",
+        hint="One of the stationary equations follows from the others; that the shares sum to 1 takes its place.",
+        place=Place.WORKING,
+    )
+    EQUAL_SHARES = Misconception(
+        "equal-shares",
+        "Each state counts with the share of the steps that begin there, not with the same weight.",
+        when=lambda given: given.average,
+    )
+    AVERAGE_REWARD = Formula(
+        "average-reward",
+        average,
+        SumOver(
+            Share(s) * SumOver(pi(a, s) * SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)), a, Actions(s)),
+            s,
+            States,
+        ),
+        title="Average reward",
+        source="Sutton & Barto 2018, section 10.3",
+        hint="Average what a step earns in every state, with the states' shares of the steps as weights.",
+        place=Place.WORKING,
+        misread={
+            EQUAL_SHARES: MeanOver(
+                SumOver(pi(a, s) * SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a)), a, Actions(s)), s, States
+            ),
         },
     )

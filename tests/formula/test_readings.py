@@ -61,6 +61,7 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
         "states": STATES, "choices": ACTIONS, "features": (1, 2), "hypotheses": STATES, "measurements": ("door",),
         "S": Anything(lambda t: STATES[t % 3]), "A": Anything(lambda t: ACTIONS[t % 2]),
         "actions": Anything(lambda _: ACTIONS), "successors": Anything(lambda _: STATES[:2]),
+        "predecessors": Anything(lambda _: STATES[1:]),
         "visits": Anything(lambda _: (1, 2)),
         "best": Anything(lambda _: data.draw(st.sampled_from(ACTIONS))),
         "greedy": Anything(lambda _: data.draw(st.sampled_from([("slow",), ("fast",), ACTIONS]))),

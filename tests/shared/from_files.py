@@ -9,6 +9,8 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                        "gamma": ["1/2"], "asked": [[0, 1]]}),
     ("lambda-return", {"trajectory": {"states": ["a", "b", "end"], "rewards": [1, 1], "terminal": ["end"]},
                        "values": {"a": 1, "b": 2}, "gamma": ["1/2", 1], "lam": 1}),
+    ("policy-value", {"mdp": {"transitions": [["a", "x", "a", "1/2", 2], ["a", "x", "b", "1/2", 0],
+                                              ["b", "x", "a", 1, 3]]}, "average": True}),
     ("value-iteration", {"mdp": {"transitions": [["a", "x", "end", 1, 1]], "terminal": ["end"]}, "gamma": 1,
                          "sweeps": 1, "action_values": True}),
     ("td-lambda-backward", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},

@@ -37,3 +37,10 @@ def test_what_cannot_be_told_from_zero_is_not_divided_by(text: str) -> None:
 
 def test_what_is_close_to_1_is_divided_by() -> None:
     assert number(clean("1/(sqrt(2)-0.4142)"), (), Arithmetic()).echo == "1/(sqrt(2) - 0.4142)"
+
+
+def test_the_average_reward_where_two_states_take_turns() -> None:
+    # No power of the chain is the limit here, but their mean is: half of the steps begin in each, (4 + 1)/2 on average.
+    mdp = {"transitions": [["a", "b", 1, 4], ["b", "a", 1, 1]]}
+    shares, reward = oracle("policy-value", mdp=mdp, average=True)
+    assert [*shares, reward] == pytest.approx([0.5, 0.5, 2.5])

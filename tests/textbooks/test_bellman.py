@@ -103,6 +103,43 @@ def test_the_random_walk_of_example_6_2_is_a_reward_process() -> None:
     assert values == {state: fmpq(number, 6) for number, state in enumerate("ABCDE", 1)}
 
 
+def test_the_average_reward_of_a_policy() -> None:
+    # To a lead a (1/2) and b (1): d(a) = 1/2·d(a) + d(b), so d(a) = 2·d(b) = 2/3. A step from a earns 1, from b 3.
+    rows = [["a", "x", "a", "1/2", 2], ["a", "x", "b", "1/2", 0], ["b", "x", "a", 1, 3]]
+    exercise = rldrill.read({"family": "policy-value", "given": {"mdp": {"transitions": rows}, "average": True}})
+    assert exercise.solve() == {"a": {"a": fmpq(2, 3), "b": fmpq(1, 3)}, "b": fmpq(5, 3)}
+    # A policy that stays in a with probability p = 3/4: d(a) = 4/5, reward 4/5·(3/4·2 + 1/4·0) + 1/5·3 = 9/5.
+    rows = [["a", "stay", "a", 1, 2], ["a", "go", "b", 1, 0], ["b", "go", "a", 1, 3]]
+    policy = {"a": {"stay": "3/4", "go": "1/4"}, "b": "go"}
+    answers = solved("policy-value", mdp={"transitions": rows}, policy=policy, average=True)
+    assert answers == {"a": {"a": fmpq(4, 5), "b": fmpq(1, 5)}, "b": fmpq(9, 5)}
+
+
+def test_the_average_reward_of_a_period_and_of_a_start_that_is_never_come_back_to() -> None:
+    # After the start, worth 100 once, a and b take turns for ever: half of the steps each, (4 + 1)/2 on average.
+    rows = [["start", "a", 1, 100], ["a", "b", 1, 4], ["b", "a", 1, 1]]
+    answers = solved("policy-value", mdp={"transitions": rows}, average=True)
+    assert answers == {"a": {"start": 0, "a": fmpq(1, 2), "b": fmpq(1, 2)}, "b": fmpq(5, 2)}
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "says"),
+    [
+        ([["a", "x", "end", 1, 1]], {}, "'end' is terminal; give it an action that goes on"),
+        ([["a", "x", "a", 1, 1]], {"gamma": "1/2"}, "γ plays no part; leave out gamma"),
+    ],
+)
+def test_an_average_reward_needs_a_long_run_without_discount(rows: list[Any], more: dict[str, Any], says: str) -> None:
+    with pytest.raises(FileError, match=says):
+        solved("policy-value", mdp={"transitions": rows}, average=True, **more)
+
+
+def test_an_average_reward_that_depends_on_the_start_is_refused() -> None:
+    rows = [["s", "x", "a", "1/2", 0], ["s", "x", "b", "1/2", 0], ["a", "x", "a", 1, 1], ["b", "x", "b", 1, 2]]
+    with pytest.raises(FileError, match=r"whoever comes to a \(x\) stays there for ever, and so does .* b \(x\);"):
+        solved("policy-value", mdp={"transitions": rows}, average=True)
+
+
 def test_the_print_of_a_reward_process_names_no_action() -> None:
     mdp = {"transitions": [["a", "a", "1/2", 1], ["a", "end", "1/2", 0]], "terminal": ["end"]}
     for name, more in (("policy-value", {}), ("policy-evaluation", {"sweeps": 1})):
