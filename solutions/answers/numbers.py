@@ -267,6 +267,8 @@ def _echo(node: Node, parts: list[str], names: Mapping[str, str]) -> str:
     ]
     if node.sign in ("/", "^") and shown[1].endswith("%"):
         shown[1] = f"({shown[1]})"
+    if node.sign == "/" and shown[0].endswith("^1"):  # 2^1/3 could be 2^(1/3)
+        shown[0] = f"({shown[0]})"
     match node.sign:
         case "+" | "-":
             return f"-{shown[0]}" if single else f" {node.sign} ".join(shown)

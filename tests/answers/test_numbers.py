@@ -140,3 +140,9 @@ def test_hostile_spellings_take_no_time(text: str) -> None:
     assert len(refused.value.message) < 300
     assert refused.value.message.isprintable()
     assert time.process_time() - start < 0.5
+
+
+def test_a_first_power_above_a_line_is_shown_in_brackets() -> None:
+    reading = read_number("(2^1) / 3")
+    assert reading.echo == "(2^1)/3"
+    assert read_number(reading.echo).value == reading.value
