@@ -59,7 +59,10 @@ def _progress(steps: int) -> Iterator[Callable[[], None]]:
     from rldrill.render.terminal import console
 
     screen = console(stderr=True)
-    with Progress(console=screen, transient=True, disable=not screen.is_terminal) as progress:
+    if not screen.is_terminal:  # even a progress that is disabled ends with an empty line in some releases
+        yield lambda: None
+        return
+    with Progress(console=screen, transient=True) as progress:
         task = progress.add_task("Typesetting", total=steps)
         yield lambda: progress.advance(task)
 
