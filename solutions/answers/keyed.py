@@ -16,6 +16,7 @@ _LETTER = re.compile(r"[^\W\d_]['*]?\s*=")
 _ZERO = re.compile(r"[-+]?(?:0+\.?0*|\.0+)")
 _NOTHING = re.compile(r"[-–—.·*_#xX/]*|none|null|nan|n/?a|end|terminal|exit|goal", re.IGNORECASE)
 _NUMERIC = re.compile(r"[-+]?[\d.]")
+_QUOTES = "'\""
 _MOST = 200
 _FORMS = 30
 
@@ -60,7 +61,7 @@ def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     Raises:
         Unreadable: a key is unknown, repeated or missing, or a terminal state is given a value.
     """
-    body, _ = unwrapped(source)
+    body = _bracketed(unwrapped(source)[0], asked)
     items = _marked(body, asked)
     if items is not None:
         return _by_key(items, asked)
@@ -69,6 +70,15 @@ def by_name(source: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
         if found is not None and len(found) == len(asked.keys):
             return {key: found[key] for key in asked.keys}
     return None
+
+
+def _bracketed(body: Source, asked: Asked[Key]) -> Source:
+    """Names with a comma in them in brackets, in quotes or not: ``0,1: 3`` would else be two entries."""
+    for name in (*asked.keys, *asked.ends):
+        if isinstance(name, str) and "," in name and not name.startswith("("):
+            typed = rf"(?<![\w,.(])(['\"]?){re.escape(name)}\1(?=\s*(?:{_ARROW.pattern}))"
+            body = body.replaced(re.compile(typed), lambda found: f"({found[0].strip(_QUOTES)})")
+    return body
 
 
 def _marked(body: Source, asked: Asked[Key]) -> list[_Item] | None:

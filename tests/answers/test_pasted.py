@@ -2,6 +2,7 @@
 
 import pytest
 
+import rldrill
 from rldrill.solutions.answers.pasted import laid_out
 from rldrill.solutions.answers.text import (
     Unreadable,
@@ -374,3 +375,14 @@ def test_a_letter_and_other_words_are_refused():
 def test_columns_are_kept(text):
     stacked = any(sign in text for sign in "⎡⎣")
     assert stacked or len(laid_out(text)) == len(text)
+
+
+@pytest.mark.parametrize(
+    "typed",
+    ["0,0: 2, 0,1: 3", "'0,0': 2; '0,1': 3", '{"0,0": "2", "0,1": 3}', "(0,0): 2, (0,1): 3", "V(0,0)=2, V(0,1)=3"],
+)
+def test_coordinates_are_names_of_states(typed: str) -> None:
+    rows = [["0,0", "go", "0,1", 1, 2], ["0,1", "go", "0,0", 1, 3]]
+    given = {"gamma": "1/2", "sweeps": 1, "mdp": {"transitions": rows}}
+    exercise = rldrill.read({"family": "value-iteration", "given": given})
+    assert exercise.check(typed).outcome is rldrill.Outcome.RIGHT
