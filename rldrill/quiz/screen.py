@@ -88,6 +88,8 @@ class Screen:
             session.records.append(record)
             self._header(exercise, number, session.total)
             self._print(render(exercise.question()))
+            for note in exercise.notes:
+                self._print(Text(f"({note})", style="dim"))
             then = self._parts(record)
             if then is Then.NEXT:
                 then = self._after(record)

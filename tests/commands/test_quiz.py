@@ -230,3 +230,15 @@ def test_history_and_a_new_size_of_the_window_do_no_harm(terminal: pexpect.spawn
     terminal.expect(r"\(a\) > ")
     terminal.send("\x1b[A\x15cool: 3.5, warm: 5/2\r")  # up to the answer before, and all of it deleted
     terminal.expect(r"✓\S* Right")
+
+
+def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
+    prior = dict.fromkeys("abc", 0.3333333333333333)
+    likelihood = {"hit": dict.fromkeys("ab", "1/2") | {"c": "1/4"}, "miss": dict.fromkeys("ab", "1/2") | {"c": "3/4"}}
+    exercise = rldrill.read(
+        {"family": "bayes-rule", "given": {"prior": prior, "likelihood": likelihood, "measurements": ["hit"]}}
+    )
+    console = Console(file=StringIO(), width=80, color_system=None)
+    with console.capture() as capture:
+        Screen(console, lambda _: "q").run([exercise], Session(1))
+    assert "(read 0.3333333333333333 as 1/3)" in capture.get()
