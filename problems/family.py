@@ -77,7 +77,8 @@ class Family:
     """One family: the module ``problems/<topic>/<name>.py`` as an object.
 
     ``given`` is a model; or, where the family has several kinds of problems, ``Annotated`` with the ``Discriminator``
-    that tells them apart, the union of their models, each with its ``Tag``.
+    that tells them apart, the union of their models, each with its ``Tag``. ``distractors`` are the places of givens
+    that need not matter, such as ``values.*``: what an exam would print, too.
     """
 
     name: str
@@ -90,6 +91,7 @@ class Family:
     draw: Callable[[int, Draws], Givens]
     question: Callable[[Any], Question]
     levels: tuple[int, ...] = LEVELS
+    distractors: tuple[str, ...] = ()
 
     @classmethod
     def load(cls, topic: str, name: str) -> "Family":
@@ -110,6 +112,7 @@ class Family:
             draw=_demanded(module, "draw"),
             question=_demanded(module, "question"),
             levels=getattr(module, "LEVELS", LEVELS),
+            distractors=getattr(module, "DISTRACTORS", ()),
         )
 
     @cached_property

@@ -145,5 +145,5 @@ def known_or_asked(values: Mapping[str, Fraction] | None, states: tuple[str, ...
     """The values of π as a question gives them, or the part that asks for them first."""
     if values is None:
         ask = "What is $V^π(s)$, the value of every state under $π$?"
-        return [], [Part(ask, Values("V^π", states), points=len(states))]
+        return [], [Part(ask, Values("V^π", states))]
     return [Paragraph("The values under $π$ are known:"), values_table(values, "V^π")], []

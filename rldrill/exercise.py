@@ -2,8 +2,9 @@
 
 import reprlib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from numbers import Integral
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.effort import points
 from rldrill.solutions.exact import NoSolution, TooLong
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import Solution
@@ -55,10 +57,11 @@ class Exercise:
         """The problem's ID; None for a problem from outside."""
         return None if self.problem.identity is None else str(self.problem.identity)
 
-    @property
+    @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """What is asked."""
-        return self.problem.parts
+        """What is asked, with its points."""
+        worth = points(self.solution)
+        return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
 
     def __repr__(self) -> str:
         name = self.id or f"of the family {self.problem.family.name}"

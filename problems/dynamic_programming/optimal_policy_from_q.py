@@ -95,9 +95,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
-    best = Part(
-        "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions)
-    )
+    best = Part("Which action does an optimal policy take in every state?", Policy(given.actions))
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
         return Question(tuple(known), (best,))
@@ -111,7 +109,7 @@ def question(given: Given) -> Question:
     ask = (
         "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
     )
-    return Question(blocks, (Part(ask, Values("Q^*", given.gaps), points=len(given.gaps)), best))
+    return Question(blocks, (Part(ask, Values("Q^*", given.gaps)), best))
 
 
 def _table(given: Given) -> Table:

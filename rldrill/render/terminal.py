@@ -242,6 +242,5 @@ def _asked(part: Part, spelling: Spelling, *, only: bool) -> Text:
     if isinstance(part.kind, Choice):
         for letter, option in part.kind.options.items():
             text.append(f"\n    ({letter}) {spelling.inline(option)}")
-    if part.points != 1:
-        text.append(f"  [{part.points} points]", style="dim")
+    text.append(f"  [{part.points} {'point' if part.points == 1 else 'points'}]", style="dim")
     return text

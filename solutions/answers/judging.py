@@ -110,19 +110,33 @@ def _judge(
             Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
         )
     made = _made(solution, part, cells, earlier)
-    credit = Fraction(len(key) - len(wrong), len(key)) if len(key) > 1 else Fraction(0)
+    earned = credit(part.kind, len(key), len(wrong))
     named = tuple(name for name in wrong if name)
     if told := _told(part.kind, made):
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
-        return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value, told)
+        return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
     if all(_is_close(cells[name], key[name]) for name in wrong):
         cut = all(_is_cut_off(cells[name], key[name]) for name in wrong)
         says = _CUT_OFF if cut else "Right idea; give an exact value or three digits."
-        return Verdict(Outcome.CLOSE, says, credit, read, (), named, value)
+        return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
     says = "Not right."
     if named and len(named) < len(key):
         says = f"Not right at {'; '.join(named)}; the rest is right."
-    return Verdict(Outcome.WRONG, says, credit, read, made, named, value)
+    return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
+
+
+def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
+    """The share of the points that an answer with some wrong cells earns.
+
+    Cells of a policy earn what is beyond guessing: with two actions everywhere, half of the states right is nothing.
+    """
+    if cells == 1:
+        return Fraction(0)
+    share = Fraction(cells - wrong, cells)
+    if isinstance(kind, Policy):
+        chance = sum((Fraction(1, len(possible)) for possible in kind.actions.values()), Fraction(0)) / cells
+        return max(Fraction(0), (share - chance) / (1 - chance)) if chance < 1 else Fraction(0)
+    return share
 
 
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
