@@ -239,8 +239,8 @@ def asked(part: Part, *, only: bool = False) -> RenderableType:
 def _asked(part: Part, spelling: Spelling, *, only: bool) -> Text:
     text = Text() if only else Text(f"({part.label}) ", style="bold")
     text.append(spelling.inline(part.ask))
+    text.append(f"  [{part.points} {'point' if part.points == 1 else 'points'}]", style="dim")
     if isinstance(part.kind, Choice):
         for letter, option in part.kind.options.items():
             text.append(f"\n    ({letter}) {spelling.inline(option)}")
-    text.append(f"  [{part.points} {'point' if part.points == 1 else 'points'}]", style="dim")
     return text
