@@ -4,11 +4,19 @@ from typing import Any, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import Model, ModelAndPolicy, Process, Transition, model_blocks, policy_blocks
+from rldrill.problems.models import (
+    Model,
+    ModelAndPolicy,
+    Process,
+    Transition,
+    model_blocks,
+    never_left,
+    policy_blocks,
+)
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -46,6 +54,13 @@ class Given(ModelAndPolicy):
         if self.average and self.gamma != 1:
             raise ValueError(
                 "average: all steps count alike, so γ plays no part; leave out gamma, or give 1, or leave out average"
+            )
+        if self.average and len(classes := never_left(self.mdp, self.chances)) > 1:
+            first, second, *_ = (f"{joined([*states[:4]])}{' and others' * (len(states) > 4)}" for states in classes)
+            raise ValueError(
+                f"average: it depends on the first state, for whoever comes to {first} stays there for ever, and so "
+                f"does whoever comes to {second}; rldrill asks for it only where it is the same from every state: "
+                "write a problem for each of them, without the states of the other, or let the one lead to the other"
             )
         return self
 
