@@ -2,11 +2,11 @@
 
 from typing import Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Model,
@@ -32,7 +32,18 @@ class Given(ModelAndPolicy):
     A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
     """
 
+    # The average reward needs no discount, values do.
+    model_config = ConfigDict(
+        json_schema_extra={
+            "required": ["mdp"],
+            "if": {"properties": {"average": {"const": True}}, "required": ["average"]},
+            "then": {},
+            "else": {"required": ["gamma"]},
+        }
+    )
+
     mdp: Process
+    gamma: Discount = Field(description="The discount; left out where the average reward is asked for.")
     average: bool = Field(
         default=False,
         exclude_if=lambda average: not average,
