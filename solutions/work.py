@@ -1,6 +1,6 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
