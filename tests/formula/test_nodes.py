@@ -2,8 +2,6 @@
 
 from collections.abc import Callable
 from fractions import Fraction
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 import sympy
@@ -14,7 +12,7 @@ from sympy import Expr, Integer, Pow, S, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
-from rldrill.solutions.effort import minutes
+from rldrill.solutions.effort import seconds_of
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import arg_max, compiled, needs, value_of
 from rldrill.solutions.formula.formula import Formula
@@ -81,11 +79,10 @@ def test_a_new_node_is_one_class() -> None:
     assert unicode(typeset(step)) == "5·median(5, 3, 2 − (−2))"
     assert unicode(typeset(reduced(step))) == "5·median(5, 3, 4)"
     assert evaluated(step) == evaluated(reduced(step)) == 20
-    # A part (30 s), a step (6 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
+    # A step (8 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
     work = Work()
     work.step(Formula("own", x, formula, "Title", "Source", "Hint."), **known)
-    solution: Any = SimpleNamespace(problem=SimpleNamespace(parts="a"), lines=work.lines)
-    assert minutes(solution) * 60 == 30 + 6 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
+    assert seconds_of(work.lines) == 8 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
 
 
 def test_a_node_that_does_not_say_how_it_is_written_is_refused() -> None:
@@ -166,7 +163,7 @@ def test_all_that_are_best_in_their_order() -> None:
     ("formula", "value", "step"),
     [
         (SumOver(i**2, i, Counting(S(2), n)), 2**2 + 3**2 + 4**2, "2² + 3² + 4²"),
-        (ProductOver(i, i, Counting(S(1), n)), 2 * 3 * 4, "2·3·4"),
+        (ProductOver(i, i, Counting(S(1), n)), 2 * 3 * 4, "1·2·3·4"),
         (MeanOver(i, i, Counting(S(2), n)), 3, "(2 + 3 + 4)/3"),
         (MaxOver(-i, i, Counting(S(2), n)), -2, "max{−2; −3; −4}"),
         (SumOver(i, i, Counting(S(5), n)), 0, "0"),
