@@ -6,6 +6,7 @@ from functools import cached_property
 from math import log2
 from typing import Any, TypeVar
 
+import sympy
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -20,6 +21,7 @@ from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
 from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.rational import lifted
 from rldrill.solutions.vector import Vector
 
 Written = TypeVar("Written")
@@ -221,6 +223,20 @@ class Work:
         self.lines.append(Note("Solving these equations:"))
         self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
         return {**fixed, **solution}
+
+    def equate(self, letter: str, left: Any, right: Any) -> Any:
+        """Solve an equation that is linear in one letter, and return what the letter is worth.
+
+        Raises:
+            NoSolution: the letter drops out, or the equation is not linear in it.
+        """
+        difference = lifted(left - right, letter)
+        slope, constant = difference.top[1], difference.top[0]
+        if difference.top.degree() != 1:
+            raise NoSolution(f"no single {letter} solves the equation")
+        value = -constant / slope
+        self.lines.append(Result((sympy.Symbol(letter, positive=True),), (value,)))
+        return value
 
     def recall(self, formula: Formula) -> None:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""

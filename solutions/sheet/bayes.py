@@ -137,11 +137,14 @@ with evaluate(False):
         "not-normalised", "The posterior sums to 1: divide by p(z), the sum over all hypotheses."
     )
     BASE_RATE_IGNORED = Misconception(
-        "base-rate-ignored", "The prior counts: each likelihood is weighted with the probability of its hypothesis."
+        "base-rate-ignored",
+        "The prior counts: each likelihood is weighted with the probability of its hypothesis.",
+        when=lambda given: not given.prior_found,
     )
     LIKELIHOOD_FOR_POSTERIOR = Misconception(
         "likelihood-for-posterior",
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
+        when=lambda given: not given.prior_found,
     )
     BAYES = Formula(
         "bayes",
