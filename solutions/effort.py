@@ -9,7 +9,7 @@ from sympy import Expr
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.solution import Solution
-from rldrill.solutions.work import Line, Result, Step
+from rldrill.solutions.work import Elimination, Line, Result, Step
 
 #: Seconds, as for somebody who knows the formula: to read a part, to write down a step, to do an
 #: operation, and to handle one digit of a number in it.
@@ -42,7 +42,7 @@ def _seconds_of(lines: Iterable[Line]) -> Fraction:
         if isinstance(line, Step):
             seconds += STEP + _seconds(line.put_in)
             unknowns += line.value is None
-        elif isinstance(line, Result):
+        elif isinstance(line, Result | Elimination):
             # Elimination: about n³/3 operations, each written down, on numbers that grow to three or four digits.
             size = LETTER if any(map(parameters, line.values)) else 3
             seconds += (2 * OPERATION + size * DIGIT) * Fraction(unknowns**3 + 3 * unknowns**2, 3)

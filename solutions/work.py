@@ -6,22 +6,22 @@ from functools import cached_property
 from math import log2
 from typing import Any, TypeVar
 
-import sympy
 from sympy import Expr
 
 from rldrill.problems.document import Equation
-from rldrill.problems.mathematics import Math, listed, name
+from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, simplest, tidy
+from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
+from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
 from rldrill.solutions.matrices import is_matrix
-from rldrill.solutions.rational import lifted
+from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.vector import Vector
 
 Written = TypeVar("Written")
@@ -36,7 +36,8 @@ _LONGEST = MOST_DIGITS * log2(10)
 class Step:
     """One application of a formula: what was put in, and the exact value that came out.
 
-    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's.
+    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's; ``label``
+    which of many steps it is, ``$t = 2$``.
     """
 
     formula: Formula
@@ -46,6 +47,7 @@ class Step:
     into: Expr
     sign: str
     own: bool = False
+    label: str = ""
 
     @cached_property
     def left(self) -> Expr:
@@ -67,7 +69,10 @@ class Step:
         if self.value is not None:  # an equation of a system has no value of its own
             rights += [typeset(reduced(written)), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
-        return Equation(typeset(self.left), distinct, (self.sign, *["="] * (len(distinct) - 1)))
+        left = typeset(self.left)
+        if self.label:
+            left = row(mathematics(self.label), punctuation(":"), left)
+        return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)))
 
 
 @dataclass(frozen=True)
@@ -110,7 +115,38 @@ class Result:
         )
 
 
-Line = Step | Note | Recalled | Drawn | Result
+@dataclass(frozen=True)
+class Equality:
+    """An equation that follows from the ones before: both sides values, or expressions in what is not known yet."""
+
+    left: Any
+    rights: tuple[Any, ...]
+
+    def equation(self) -> Equation:
+        """The equation typeset, without what it repeats."""
+        left, *rights = dict.fromkeys(map(_side, (self.left, *self.rights)))
+        return Equation(left, tuple(rights), ("=",) * len(rights))
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """How a system of equations is solved by hand."""
+
+    names: Mapping[Hashable, Expr]
+    equations: Mapping[Hashable, Any]
+    values: tuple[Any, ...]
+
+    def lines(self) -> "Iterator[Note | Equality]":
+        """The lines of it."""
+        for line in elimination(self.names, self.equations):
+            yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
+
+
+def _side(value: Any) -> Math:
+    return typeset(value) if isinstance(value, Expr) else shown_value(value)
 
 
 def shown_value(value: Any) -> Math:
@@ -154,9 +190,10 @@ class Work:
         self,
         formula: Formula,
         *,
-        into: Any = None,  # these three are Any so that **known may come from a mapping of anything
+        into: Any = None,  # these four are Any so that **known may come from a mapping of anything
         sign: Any = None,
         right: Any = None,
+        label: Any = None,
         **known: Any,
     ) -> Any:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
@@ -167,6 +204,7 @@ class Work:
             sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
+            label: which of many steps this is, in mathematics (``i = 2``); an update that knows its t says it.
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
         own = right is not None
@@ -177,7 +215,9 @@ class Work:
             raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
         left = formula.left if into is None else into(*formula.left.args)
         sign = sign or (formula.sign if into is None else "=")
-        self.lines.append(Step(formula, right, known, value, left, sign, own))
+        if label is None:
+            label = f"t = {known['t']}" if sign == "←" and "t" in known else ""
+        self.lines.append(Step(formula, right, known, value, left, sign, own, label))
         return value
 
     def value(self, formula: Formula, **known: Any) -> Any:
@@ -220,22 +260,33 @@ class Work:
             self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, instead.left, "=")
         solution = bounded(solve_linear(equations))
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
-        self.lines.append(Note("Solving these equations:"))
-        self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
+        if len(keys) <= MOST_UNKNOWNS:
+            names = {key: left for (key, _), left in zip(keys, lefts, strict=True)}
+            self.lines.append(Elimination(names, equations, tuple(solution[key] for key, _ in keys)))
+        else:
+            self.lines.append(Note("Solving these equations:"))
+            self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
         return {**fixed, **solution}
 
-    def equate(self, letter: str, left: Any, right: Any) -> Any:
-        """Solve an equation that is linear in one letter, and return what the letter is worth.
+    def equate(self, letter: str, left: Any, right: Any) -> Value:
+        """Solve an equation that is linear in one letter, in front of the reader; the letter's value.
+
+        Args:
+            letter: the letter, ``gamma``; the sides were worked out with ``generator("gamma")`` in its place.
+            left: the one side, a value.
+            right: the other side.
 
         Raises:
-            NoSolution: the letter drops out, or the equation is not linear in it.
+            NoSolution: every value solves the equation, or none.
         """
-        difference = lifted(left - right, letter)
-        slope, constant = difference.top[1], difference.top[0]
-        if difference.top.degree() != 1:
-            raise NoSolution(f"no single {letter} solves the equation")
-        value = -constant / slope
-        self.lines.append(Result((sympy.Symbol(letter, positive=True),), (value,)))
+        difference = left - right
+        slope, constant = linear(difference, letter)
+        value = bounded(simplest(ZERO - constant / slope))
+        symbol = to_sympy(generator(letter))
+        self.lines.append(Equality(left, (right,)))
+        if slope != 1 or constant != ZERO - right:
+            self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
+        self.lines.append(Equality(symbol, (value,)))
         return value
 
     def recall(self, formula: Formula) -> None:

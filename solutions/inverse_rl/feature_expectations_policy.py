@@ -1,6 +1,5 @@
 """One linear system for every feature, then the mean over the start distribution."""
 
-from collections import defaultdict
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,7 @@ def solve(given: Given, work: Work) -> None:
         for action, rows in given.motion.items()
         for state in states
     }
-    P: dict[Any, Any] = defaultdict(lambda: ZERO)
+    P: dict[Any, Any] = knowns.Sparse()
     P.update({(state, action, target): chance for (target, state, action), chance in motion.items()})
     known: dict[str, Any] = {
         "P": P,

@@ -34,7 +34,7 @@ def unicode(math: Math) -> str:
         case Glyph(text, style):
             if style == "relation":
                 return f" {text} "
-            if style == "punctuation" and text in ",;":
+            if style == "punctuation" and text in ",;:":
                 return f"{text} "
             return text
         case Row(items):
