@@ -24,11 +24,11 @@ def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) ->
 
 def put_in(values: dict[Key, Any], found: Value) -> dict[Key, Any]:
     """Probabilities, with what was found put in for the letter left open."""
-    return values | {
-        key: chance.top[0] + chance.top[1] * found
+    filled = {
+        key: chance.top[0] + chance.top[1] * found if isinstance(chance, RationalFunction) else chance
         for key, chance in values.items()
-        if isinstance(chance, RationalFunction)
     }
+    return type(values)(filled)
 
 
 def number(chance: Scalar, q: float) -> float:
