@@ -54,6 +54,7 @@ def _below(head: Math, index: str) -> Math:
 
 
 M = letter("M")
+M1 = letter("M1", "M′")
 Models = letter("models", "M")
 theta = letter("share", "θ")
 Thetas = letter("thetas", "Θ")
@@ -438,6 +439,16 @@ with evaluate(False):
         title="Posterior odds of two models",
         source="MacKay 2003, section 3.3",
         hint="Multiply the ratio of the evidences with the ratio of the priors; p(D) cancels.",
+        place=Place.BEYOND,
+    )
+
+    MODEL_POSTERIOR = Formula(
+        "model-posterior",
+        of_model(M),
+        evidence(M) * p(M) / SumOver(evidence(M1) * p(M1), M1, Models),
+        title="Posterior probability of a model",
+        source="Bishop 2006, eq. 3.66",
+        hint="Bayes' rule: the evidence is the likelihood of a model.",
         place=Place.BEYOND,
     )
 

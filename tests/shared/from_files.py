@@ -20,6 +20,8 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                       "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,
                       "replacing": True}),
     ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}] * 2}),
-    ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "back", "point": [1, 2, 3]}),
-    ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "point", "point": [1, 2, 3]}),
+    ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "back",
+                            "point": [1, 2, 3]}),
+    ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "point",
+                            "point": [1, 2, 3]}),
 ]  # fmt: skip

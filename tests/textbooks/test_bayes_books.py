@@ -361,3 +361,13 @@ def test_values_of_a_coin_that_do_not_fit(model: Any, message: str) -> None:
     with pytest.raises(FileError, match=message):
         solved("model-comparison", models={"any": {}, "some": model}, prior={"any": "1/2", "some": "1/2"},
                heads=2, tails=1)  # fmt: skip
+
+
+def test_the_prior_that_makes_two_models_equally_probable_by_hand() -> None:
+    # Two heads: 1/3 under a uniform prior, 1/4 of a fair coin; q/3 = (1 − q)/4 for q = 3/7, and twice that for 3/5.
+    models: dict[str, Any] = {"any": {}, "fair": {"theta": "1/2"}}
+    case = {"models": models, "prior": {"any": "q", "fair": "1-q"}, "heads": 2, "tails": 0}
+    assert solved("model-comparison", **case, odds=1)["b"] == fmpq(3, 7)
+    assert solved("model-comparison", **case, odds=2)["b"] == fmpq(3, 5)
+    with pytest.raises(FileError, match="odds: they go with two models"):
+        solved("model-comparison", **case)
