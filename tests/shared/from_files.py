@@ -24,4 +24,10 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                             "point": [1, 2, 3]}),
     ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "point",
                             "point": [1, 2, 3]}),
+    ("model-fitting", {"sample": {"values": [7, 9, 8], "prior": {"mean": 6, "variance": 1, "noise": 2}}}),
+    ("model-fitting", {"line": {"points": [[0, 1], [1, 3], [2, 2]], "prior": {"variance": 1, "noise": 1}}}),
+    ("model-comparison", {"models": {"x": {}, "y": {"theta": "1/2"}, "z": {"thetas": [["1/4", 1]]}},
+                          "prior": {"x": "1/2", "y": "1/4", "z": "1/4"}, "heads": 2, "tails": 1}),
+    ("bic", {"border": "more", "fitted": {"x": {"likelihood": "1/4", "k": 1}, "y": {"likelihood": "1/2", "k": 2}}}),
+    ("bic", {"data": {"tosses": {"x": [1, 3]}, "models": ["fair", "shared"]}}),
 ]  # fmt: skip
