@@ -437,6 +437,10 @@ A_tilde = letter("Atilde", Accent(variable("A"), "tilde"), matrix=True)
 B_tilde = letter("Btilde", Accent(variable("B"), "tilde"), matrix=True)
 dt = letter("dt", row(variable("Δ"), variable("t")))
 unit = letter("unit", "I", matrix=True)
+delta_s, delta_a, delta_f, delta_next = (
+    letter(code, row(variable("δ"), variable(glyph)), matrix=True)
+    for code, glyph in (("ds", "s"), ("da", "a"), ("df", "f"), ("dF", "F"))
+)
 s1_bar, f1_bar = letter("sbark", _bar("s")), letter("fbark", row(variable("f"), _POINT))
 Ad, Bd = (letter(f"{head}d", Script(variable(head), variable("Δ")), matrix=True) for head in "AB")
 
@@ -449,6 +453,15 @@ with evaluate(False):
         source="Åström & Murray 2008, section 5.4",
         hint="Differentiate each component of f by each state and each action, then put the operating point in.",
         sign="≈",
+    )
+    DEVIATION = Formula(
+        "linearise-deviation",
+        delta_f,
+        Ai * delta_s + Bi * delta_a,
+        title="Linearisation: the change of the rates",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Multiply A with the deviation of the state and B with that of the action, and add.",
+        place=Place.WORKING,
     )
     STATE_JACOBIAN = Formula(
         "linearise-a",
@@ -536,6 +549,15 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
+
+
+@cache
+def deviation(*, discretised: bool) -> Formula:
+    """How the rates, or the next state, change to first order."""
+    if not discretised:
+        return DEVIATION
+    with evaluate(False):
+        return replace(DEVIATION, left=delta_next, right=Ad * delta_s + Bd * delta_a)
 
 
 class Hold(NamedTuple):

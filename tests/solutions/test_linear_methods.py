@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import solved
+from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
 from rldrill.problems.robots import robots
@@ -150,9 +151,11 @@ def test_linear_dynamics_are_their_own_linearisation() -> None:
 @given(seeds)
 @settings(deadline=None, max_examples=15)
 def test_the_affine_model_is_right_at_the_operating_point(seed: int) -> None:
-    solution = draw("linearise-affine", 2, seed)
-    given_ = solution.problem.given
-    A, B = solution.answers["b"], solution.answers["c"]
+    data = draw("linearise-affine", 2, seed).problem.data()["given"]
+    del data["entries"]
+    given_ = family("linearise-affine").read(data)
+    answers = solved("linearise-affine", **data)
+    A, B = answers["b"], answers["c"]
     state = matrices.column([*(dynamics.angle(given_.state[name]) for name in given_.states), 1])
     action = matrices.column(dynamics.angle(value) for value in given_.action.values())
     after = A * state + B * action
@@ -342,3 +345,12 @@ def test_sums_of_roots_calculate_as_sympys_do(first: Any, second: Any) -> None:
         inverse = surds.inverse(y)
         assert inverse is not None
         assert surds.multiply(y, inverse) == surds.read(simplest(1))
+
+
+def test_entries_and_a_deviation_by_hand() -> None:
+    # x' = x y + u: by x it is y = 3, by y it is x = 2, by u 1; y' = u². A δs + B δa = (3·1 + 2·2 + 1·(1/2), 2·4·(1/2)).
+    system = {"dynamics": {"x": "x*y + u", "y": "u^2"}, "state": {"x": 2, "y": 3}, "action": {"u": 4}}
+    answers = solved("linearise", **system, entries={"A": [[1, 2], [1, 1]], "B": [[2, 1]]}, deviation=[1, 2, "1/2"])
+    assert answers == {"a": (2, 3), "b": 8, "c": (fmpq(15, 2), 4)}
+    with pytest.raises(FileError, match="B has 2 rows and 1 columns"):
+        solved("linearise", **system, entries={"B": [[1, 2]]})
