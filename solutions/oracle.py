@@ -12,7 +12,6 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.problems.models import Dynamics, Model, ModelAndPolicy, Policy
 
@@ -49,11 +48,6 @@ def tensors(model: Dynamics, states: tuple[str, ...]) -> tuple[Array, Array]:
         P[cell] = at(row.probability)
         R[cell] = at(row.reward)
     return P, R
-
-
-def motion_array(motion: Motion, action: str, states: tuple[str, ...]) -> Array:
-    """Where one action leads, as an array of shape (states, next states)."""
-    return np.array([[at(motion[action][state].get(target, 0)) for target in states] for state in states])
 
 
 def lookahead(P: Array, R: Array, V: Array, gamma: float) -> Array:
