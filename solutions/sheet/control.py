@@ -535,10 +535,23 @@ with evaluate(False):
         place=Place.WORKING,
     )
 
+    UCB_BALANCE = Formula(
+        "ucb-balance",
+        c,
+        (Q(a) - Q(b)) / (sqrt(log(t) / N(b)) - sqrt(log(t) / N(a))),
+        title="Weight with which two upper confidence bounds are equal",
+        source="Sutton & Barto 2018, from eq. 2.10",
+        hint="Write both bounds with c, set them equal, and solve for c.",
+        place=Place.WORKING,
+        misread={
+            TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
+        },
+    )
+
     BANDIT_WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: sum(given.preferences.values()) != 0,
+        when=lambda given: not given.sum_to_zero,
     )
     GRADIENT_BANDIT_POLICY = Formula(
         "gradient-bandit-policy",

@@ -110,6 +110,24 @@ def test_ucb_by_hand() -> None:
     assert answers["c"] == {"next": ("z",)}
 
 
+def test_the_weight_that_makes_two_bounds_equal_by_hand() -> None:
+    # Eq. 2.10 at t = 6: x has 3 after 4 pulls, y has 1 after one. 3 + c/2·√(ln 6) = 1 + c·√(ln 6), so c = 4/√(ln 6).
+    pulls = [["x", 2], ["x", 4], ["y", 1], ["x", 1], ["x", 5]]
+    answers = solved("bandit", pulls=pulls, between=["x", "y"])
+    assert sympy.simplify(answers["b"] - 4 / sympy.sqrt(sympy.log(6))) == 0
+    assert answers["c"] == {"next": ("y",)}
+    with pytest.raises(FileError, match="no weight above 0 makes their bounds equal"):
+        solved("bandit", pulls=pulls, between=["y", "x"])
+
+
+def test_a_gradient_bandit_with_logarithms_by_hand() -> None:
+    # e^(ln 3) = 3 and e^0 = 1: π = 3/4 and 1/4. The reward is 4 above the mean 2: H(x) = ln 3 − 1/2·4·3/4.
+    answers = solved("bandit", pulls=[["x", 1], ["y", 3]], preferences={"x": "ln 3", "y": 0}, alpha="1/2",
+                     pulled=["y", 6])  # fmt: skip
+    assert answers["a"] == {"x": fmpq(3, 4), "y": fmpq(1, 4)}
+    assert answers["b"] == {"x": sympy.log(3) - sympy.Rational(3, 2), "y": fmpq(3, 2)}
+
+
 def test_a_gradient_bandit_by_hand() -> None:
     # Eq. 2.12: equal preferences of two arms, so π = 1/2; the baseline is (1 + 3)/2 = 2, the reward 6, α = 1/4.
     # H(x) = 1 + 1/4·(6 − 2)·(1 − 1/2) = 3/2, H(y) = 1 − 1/4·(6 − 2)·1/2 = 1/2.
