@@ -26,6 +26,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
+from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import points
 from rldrill.solutions.exact import NoSolution, TooLong
@@ -139,9 +140,9 @@ class Exercise:
         lines = self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)
         return Page(_written(abridged(lines)))
 
-    def answer(self, part: Part) -> Equation | Paragraph:
-        """The exact answer of a part, typeset, as a block; a table has a line for each of its keys."""
-        return answer_kind(part.kind).block(self.solution.answers[part.label])
+    def answer(self, part: Part) -> Equation:
+        """The answer of a part, exact and as a decimal, as a block; a table has a line for each of its keys."""
+        return answer_block(part, self.solution.answers[part.label])
 
     def formulas(self, part: str | None = None) -> tuple[Formula, ...]:
         """The formulas of the sheet that the working uses; their equations and hints are the hint.
