@@ -6,7 +6,6 @@ import numpy as np
 
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, decimal, exact
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
@@ -102,7 +101,7 @@ def _follow_gradient(given: Preferences, work: Work) -> None:
     known = _pulls(given.every_pull) | {
         "n": len(given.pulls),
         "choices": given.every_arm,
-        "H": knowns.values(given.preferences),
+        "H": {arm: exact(value) for arm, value in given.preferences.items()},
         "alpha": exact(given.alpha),
     }
     known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.every_arm})

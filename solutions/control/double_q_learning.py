@@ -11,10 +11,10 @@ from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
     DOUBLE_Q_ACTION,
     DOUBLE_Q_LEARNING,
+    NOT_DISCOUNTED,
     OTHER_TABLE_SELECTS,
     SAME_TABLE_EVALUATES,
 )
@@ -36,7 +36,7 @@ def both_updated(given: Given, work: Work) -> None:
     _learn(given, work, lambda turn: (3 - turn, turn))
 
 
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, both_updated)
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, NOT_DISCOUNTED, both_updated)
 
 
 def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) -> None:

@@ -13,10 +13,10 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
     ACCUMULATING_ACTION_TRACE,
     ACTION_TRACE,
+    NOT_DISCOUNTED,
     Q_LEARNING_TD_ERROR,
     REPLACING_ACTION_TRACE,
     SARSA_LAMBDA,
@@ -186,7 +186,7 @@ def traces_kept(given: Given, work: Work) -> None:
 
 MISCONCEPTIONS = (
     traces_cut, only_visited, replacing, TRACE_WITHOUT_LAMBDA, TRACE_WITHOUT_GAMMA, traces_kept,
-    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, FORGOT_GAMMA,
+    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, NOT_DISCOUNTED,
 )  # fmt: skip
 
 

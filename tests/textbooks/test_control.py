@@ -41,6 +41,19 @@ def test_example_5_5(lefts: int) -> None:
     assert answers["c"] == 1
 
 
+def test_the_step_size_is_found_from_the_value_after_a_transition() -> None:
+    # Eq. 6.7: 2 + α(1 + 1/2·6 − 2) = 5/2, so α = 1/4. Eq. 6.8 with the greatest value 10: 2 + α(1 + 5 − 2) = 5/2: 1/8.
+    run = {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]}
+    given = {"trajectory": run, "values": {"a": {"x": 2}, "b": {"x": 10, "y": 6}}, "alpha": "alpha", "gamma": "1/2",
+             "outcome": ["a", "x", "5/2"]}  # fmt: skip
+    assert solved("sarsa", **given)["a"] == fmpq(1, 4)
+    assert solved("q-learning", **given)["a"] == fmpq(1, 8)
+    with pytest.raises(FileError, match="leave one number open"):
+        solved("sarsa", **given | {"alpha": "1/2"})
+    with pytest.raises(FileError, match=r"\(b, y\) is not updated"):
+        solved("sarsa", **given | {"outcome": ["b", "y", 1]})
+
+
 def test_expected_sarsa_by_hand() -> None:
     # Eq. 6.9 with α = γ = 1/2, ε = 1/2 and three actions: π is 2/3 for the best, 1/6 for the others.
     # 2/3·6 + 1/6·3 + 1/6·(−3) = 4; Q(a, x) = 2 + 1/2·(1 + 1/2·4 − 2) = 5/2.
@@ -48,6 +61,14 @@ def test_expected_sarsa_by_hand() -> None:
     run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
     answers = solved("expected-sarsa", trajectory=run, values=values, alpha=0.5, gamma=0.5, epsilon=0.5)
     assert answers["a"] == {("a", "x"): fmpq(5, 2)}
+
+
+def test_the_exploration_rate_is_found_from_an_expected_update() -> None:
+    # The next state is worth (1 − ε)·6 + ε·(6 + 2)/2 = 6 − 2ε: 2 + 1/2·(1 + 6 − 2ε − 2) = 4, so ε = 1/2.
+    run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
+    answers = solved("expected-sarsa", trajectory=run, values={"a": {"x": 2}, "b": {"x": 2, "y": 6}}, alpha="1/2",
+                     gamma=1, epsilon="epsilon", outcome=["a", "x", 4])  # fmt: skip
+    assert answers["a"] == fmpq(1, 2)
 
 
 def test_double_q_learning_by_hand() -> None:
