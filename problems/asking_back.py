@@ -1,6 +1,6 @@
 """Runs whose updates stay readable, and questions that ask back: for the step size or the discount, from a value."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import accumulate
 from typing import Annotated, Any, NamedTuple, Self
@@ -100,6 +100,20 @@ def draw_rates(rng: Draws) -> Rates:
     return Rates(Fraction(1, 2), Fraction(gamma), unit)
 
 
+def readable(
+    rows: Rows, moves: Iterable[ActionMove], terminal: tuple[str, ...], alpha: Fraction, gamma: Fraction, worth: Worth
+) -> bool:
+    """Whether every update changes a value, and to a number that is easily read."""
+    values = {state: {**row} for state, row in rows.items()}
+    for state, action, entered, reward, following in moves:
+        ahead = Fraction(0) if entered in terminal else worth(values[entered], following or "")
+        gap = reward + gamma * ahead - values[state][action]
+        values[state][action] += alpha * gap
+        if gap == 0 or values[state][action].denominator > 100 or abs(values[state][action].numerator) > 300:
+            return False
+    return True
+
+
 def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str, Any]:
     """A run with its action values, α and γ: no TD error is 0, and no value hard to read.
 
@@ -112,15 +126,10 @@ def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str,
     alpha, gamma, unit = draw_rates(rng)
     run, table = draw_action_run(rng, visits, count, same=True)
     rows = draw_rows(rng, tuple(table), tuple(next(iter(table.values()))), unit)
-    values = {state: {**row} for state, row in rows.items()}
-    for time, reward in enumerate(run.rewards):
-        after = run.states[time + 1]
-        ahead = Fraction(0) if after in run.terminal else worth(values[after], run.actions[time + 1])
-        row, action = values[run.states[time]], run.actions[time]
-        gap = reward + gamma * ahead - row[action]
-        row[action] += alpha * gap
-        if gap == 0 or row[action].denominator > 100 or abs(row[action].numerator) > 300:
-            return draw_forward(rng, visits, count, worth)
+    following = (*run.actions[1:], None)
+    moves = list(map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, following))
+    if not readable(rows, moves, run.terminal, alpha, gamma, worth):
+        return draw_forward(rng, visits, count, worth)
     return {"trajectory": run, "values": rows, "alpha": alpha, "gamma": gamma}
 
 
@@ -169,15 +178,22 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
     return {"trajectory": run, "values": rows, "outcome": Outcome(state, action, end), **rates}
 
 
-def back_asked(given: BackRun | BackMoves, outcome: Outcome) -> Part:
-    """The part that asks for what is left open, by its value or by an action that is as good in the end."""
+def back_asked(given: BackRun | BackMoves, outcome: Outcome, table: Rows, of: str = "Q") -> Part:
+    """The part that asks for what is left open, by its value or by an action that is as good in the end.
+
+    Args:
+        given: the run.
+        outcome: what a pair is worth in the end.
+        table: the action values in which the pair is updated, before the run.
+        of: how they are called.
+    """
     state, action, value = outcome
-    letter = given.asked_for
-    sought = f"{_CALLED[letter]} ${PARAMETERS[letter]}$"
-    rival = next((other for other, worth in given.values[state].items() if other != action and worth == value), None)
+    sought = f"{_CALLED[given.asked_for]} ${PARAMETERS[given.asked_for]}$"
+    rival = next((other for other, worth in table[state].items() if other != action and worth == value), None)
     if rival and (state, rival) not in given.updated:
-        return Part(f"For which {sought} are {action} and {rival} equally good in {state} {after(given)}?", Number())
-    ask = f'{after(given).capitalize()} $Q("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
+        pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{rival}")$'
+        return Part(f"For which {sought} are {pair} equal {after(given)}?", Number())
+    ask = f'{after(given).capitalize()} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
     return Part(ask, Number())
 
 

@@ -108,7 +108,7 @@ def question(given: Given) -> Question:
     """The run, the table before it and the policy; all updated pairs are asked for."""
     blocks = (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *_policy(given))
     if given.outcome:
-        return Question(blocks, (back_asked(given, given.outcome),))
+        return Question(blocks, (back_asked(given, given.outcome, given.values),))
     pairs = given.updated
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
