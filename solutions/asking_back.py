@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from rldrill.problems.asking_back import BackMoves, BackRun, Outcome
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import at
 from rldrill.solutions.work import Work
@@ -18,7 +18,7 @@ def find(work: Work, outcome: Outcome, letter: str, Q: Mapping[Any, Value]) -> N
     Raises:
         NoSolution: no value of the letter leads there, every one does, or the equation is not linear.
     """
-    work.say(f"This value has to be ${outcome.value}$:".replace("-", "−"))
+    work.say(f"The value of ({outcome.state}, {outcome.action}) has to be ${shown(outcome.value)}$:")
     work.answer(work.equate(letter, Q[outcome.state, outcome.action], exact(outcome.value)))
 
 

@@ -161,7 +161,11 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 12.7",
         hint="Sarsa's target minus the old value of the pair just left.",
     )
-    TRACE_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by the product γλ, not by γ alone.")
+    TRACE_WITHOUT_LAMBDA = Misconception(
+        "decay-without-lambda",
+        "Traces decay by the product γλ, not by γ alone.",
+        when=lambda given: not asks_for(given, "lambda"),
+    )
     TRACE_WITHOUT_GAMMA = Misconception(
         "decay-without-gamma", "Traces decay by the product γλ, not by λ alone.", when=lambda given: given.gamma != 1
     )
