@@ -1,15 +1,13 @@
 """What is left open, found from a value that updates lead to."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from typing import Any
 
 from rldrill.problems.asking_back import BackMoves, BackRun, Outcome
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import at
 from rldrill.solutions.work import Work
-
-Asking = TypeVar("Asking", bound=BackRun | BackMoves)
 
 
 def find(work: Work, outcome: Outcome, letter: str, Q: Mapping[Any, Value]) -> None:
@@ -27,7 +25,7 @@ def asks_for(given: Any, letter: str) -> bool:
     return getattr(given, "outcome", None) is not None and given.asked_for == letter
 
 
-def on_a_line(given: Asking, outcome: Outcome, value: Callable[[Asking], float]) -> float:
+def on_a_line(given: BackRun | BackMoves, outcome: Outcome, value: Callable[[Any], float]) -> float:
     """The parameter at which a value that is linear in it is what it is in the end, from its values at 0 and at 1."""
     field = next(name for name in type(given).model_fields if isinstance(getattr(given, name), Parameter))
     at_0, at_1 = (value(given.model_copy(update={field: number, "outcome": None})) for number in (0, 1))

@@ -121,9 +121,9 @@ def question(given: Given) -> Question:
         ),
     )
     if given.outcome:
-        table = given.updates[-1]
-        mine = given.second if table == 2 else given.values
-        return Question(blocks, (back_asked(given, given.outcome, mine, f"Q_{table}"),))
+        last = given.updates[-1]
+        mine = given.second if last == 2 else given.values
+        return Question(blocks, (back_asked(given, given.outcome, mine, f"Q_{last}"),))
     parts = []
     for table in given.asked:
         pairs = given.updated_in(table)

@@ -71,6 +71,26 @@ def test_the_exploration_rate_is_found_from_an_expected_update() -> None:
     assert answers["a"] == fmpq(1, 2)
 
 
+def test_epsilon_is_found_from_what_the_policy_does() -> None:
+    # Three actions, so π of the best one is 1 − ε + ε/3 = 1 − 2/3·ε = 3/4 for ε = 3/8.
+    values = {"x": 1, "y": 5, "z": 3}
+    assert solved("epsilon-greedy", values=values, epsilon="epsilon", taken=["y", "3/4"])["a"] == fmpq(3, 8)
+    # V = (1 − ε)·5 + ε·(1 + 5 + 3)/3 = 5 − 2ε = 4 for ε = 1/2.
+    assert solved("epsilon-greedy", values=values, epsilon="epsilon", state_value=4)["a"] == fmpq(1, 2)
+    with pytest.raises(FileError, match="leave it open, for it is asked for"):
+        solved("epsilon-greedy", values=values, epsilon="1/2", state_value=4)
+
+
+def test_lambda_is_found_from_a_value() -> None:
+    # γ = 1, α = 1/2: Q(a, x) = 2 + 1/2·(1 + 4 − 2) = 7/2; then δ₁ = 6 − 4 = 2, Q(a, x) = 7/2 + 1/2·2·λ = 4: λ = 1/2.
+    answers = solved(
+        "sarsa-lambda",
+        trajectory={"states": ["a", "b", "end"], "actions": ["x", "y"], "rewards": [1, 6], "terminal": ["end"]},
+        values={"a": {"x": 2}, "b": {"y": 4}}, alpha="1/2", gamma=1, lam="lambda", outcome=["a", "x", 4],
+    )  # fmt: skip
+    assert answers["a"] == fmpq(1, 2)
+
+
 def test_double_q_learning_by_hand() -> None:
     # Eq. 6.10 with α = γ = 1/2. Q₁ selects y in b (5 > 1), which Q₂ values with 2:
     # Q₁(a, x) = 4 + 1/2·(1 + 1/2·2 − 4) = 3. Then Q₂ selects x in a, which Q₁ values with 3:
