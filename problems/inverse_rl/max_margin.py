@@ -108,8 +108,9 @@ def _opened(rng: Draws, given: Given) -> Given | None:
     place = rng.below(len(given.w))
     if any(rival.mu[place] >= given.expert[place] for rival in given.policies.values()):
         return None
+    drawn = [weight for weight in given.w if isinstance(weight, Fraction)][place]
     least = {
-        Fraction(missing, given.expert[place] - given.policies[name].mu[place])
+        drawn + Fraction(missing, given.expert[place] - given.policies[name].mu[place])
         for name, missing in given.missing.items()
     }
     weighed = all(
