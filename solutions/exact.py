@@ -130,6 +130,11 @@ def _(value: sympy.Expr) -> int:
     return max((*far, *(length(fraction(number)) for number in value.atoms(sympy.Rational))), default=0)
 
 
+def told(value: Value) -> str:
+    """A rational number as mathematics, for a sentence."""
+    return str(value).replace("-", "−")
+
+
 @singledispatch
 def digits(value: Value) -> int:
     """How many digits a person must write for a number; closed forms count the longest that stands in them."""

@@ -62,12 +62,10 @@ class Step:
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
         written = self.put_in
-        if isinstance(written, Negative):  # a number that stands alone needs no brackets
-            written = written.args[0]
         rights = [typeset(self.right)] if self.own else []
-        rights.append(typeset(written))
+        rights.append(typeset(_alone(written)))
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [typeset(reduced(written)), shown_value(self.value)]
+            rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
         if self.label:
@@ -140,6 +138,11 @@ class Elimination:
         """The lines of it."""
         for line in elimination(self.names, self.equations):
             yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+def _alone(expression: Expr) -> Expr:
+    """A number that stands alone needs no brackets."""
+    return expression.args[0] if isinstance(expression, Negative) else expression
 
 
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
@@ -284,7 +287,7 @@ class Work:
         value = bounded(simplest(ZERO - constant / slope))
         symbol = to_sympy(generator(letter))
         self.lines.append(Equality(left, (right,)))
-        if slope != 1 or constant != ZERO - right:
+        if slope != 1:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
         self.lines.append(Equality(symbol, (value,)))
         return value

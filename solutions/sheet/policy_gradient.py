@@ -166,7 +166,9 @@ with evaluate(False):
         },
     )
 
-    WEIGHTS_FORGOTTEN = Misconception("weights-forgotten", "Each feature counts with its own weight θᵢ.")
+    WEIGHTS_FORGOTTEN = Misconception(
+        "weights-forgotten", "Each feature counts with its own weight θᵢ.", when=lambda given: given.at is None
+    )
     LINEAR_ACTION_VALUE = Formula(
         "linear-action-value",
         Qhat(s, a),
@@ -410,6 +412,24 @@ with evaluate(False):
         misread={
             CLIP_WITHOUT_MIN: clipped(t),
         },
+    )
+    PPO_AT_THE_UPPER_BOUND = Formula(
+        "ppo-upper-bound",
+        L_t(t),
+        (1 + epsilon) * A_t(t),
+        title="PPO: a gradient that is cut off above",
+        source="Schulman et al. 2017, figure 1",
+        hint="Where a good action has become too likely, 1 + ε stands for the ratio.",
+        place=Place.WORKING,
+    )
+    PPO_AT_THE_LOWER_BOUND = Formula(
+        "ppo-lower-bound",
+        L_t(t),
+        (1 - epsilon) * A_t(t),
+        title="PPO: a gradient that is cut off below",
+        source="Schulman et al. 2017, figure 1",
+        hint="Where a bad action has become too unlikely, 1 − ε stands for the ratio.",
+        place=Place.WORKING,
     )
     PPO_BATCH = Formula(
         "ppo-batch",
