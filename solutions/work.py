@@ -12,7 +12,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, sign, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
@@ -282,12 +282,13 @@ class Work:
         Raises:
             NoSolution: every value solves the equation, or none.
         """
-        difference = left - right
-        slope, constant = linear(difference, letter)
+        slope, constant = linear(left - right, letter)
+        if sign(slope) < 0:
+            slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
         symbol = to_sympy(generator(letter))
         self.lines.append(Equality(left, (right,)))
-        if slope != 1:
+        if slope != 1 and left != generator(letter) * slope:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
         self.lines.append(Equality(symbol, (value,)))
         return value

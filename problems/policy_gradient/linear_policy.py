@@ -77,11 +77,11 @@ def _telling(given: Given) -> bool:
 def _changing(rng: Draws, setting: Setting) -> Given:
     """In every state first the weight at which both actions are worth the same, then features that give it."""
     size, place = rng.choice(((2, 0), (2, 1), (3, 1)))
-    fixed = [rng.choice((Fraction(-2), Fraction(-1), Fraction(1), Fraction(2))) for _ in range(size)]
+    fixed = [rng.nonzero(-3, 4) for _ in range(size)]
     features = {}
     edges = []
     for state in rng.sample(setting.states, rng.choice((2, 3))):
-        slope = rng.nonzero(-3, 3)
+        slope = rng.choice((1, -1)) * rng.whole(2, 5)
         lead = [rng.nonzero(-4, 4) for _ in range(size)]  # of the first action over the second, feature by feature
         lead[place] = slope
         edges.append(

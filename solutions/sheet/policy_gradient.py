@@ -8,7 +8,19 @@ from typing import Any
 
 from sympy import evaluate, exp, log
 
-from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Fraction,
+    Glyph,
+    Math,
+    Script,
+    listed,
+    punctuation,
+    row,
+    variable,
+    word,
+)
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
@@ -60,6 +72,11 @@ def _entropy(state: Math) -> Math:
     return row(variable("H"), Fence(row(variable("π"), Fence(row(variable("·"), punctuation("|"), state)))))
 
 
+def _odds(action: Math, other: Math, state: Math) -> Math:
+    above, below = (row(variable("π"), Fence(row(each, punctuation("|"), state))) for each in (action, other))
+    return Fraction(above, below)
+
+
 def _score(action: Math, state: Math) -> Math:
     chance = row(variable("π"), Fence(row(action, punctuation("|"), state)))
     return row(_NABLA, word("log"), chance)
@@ -73,6 +90,7 @@ Qhat = quantity("Qhat", called(Accent(variable("Q"), "hat")))
 theta_vector = letter("theta_vector", "θ", matrix=True)
 f_vector = quantity("f_vector", called("f"), matrix=True)
 ones = letter("ones", "1", matrix=True)
+odds = quantity("odds", _odds)
 score = quantity("score", _score, matrix=True)
 gradient = letter("gradient", row(_NABLA, variable("J"), Fence(variable("θ"))), matrix=True)
 G_t = quantity("G", subscripted("G"))
@@ -121,6 +139,15 @@ with evaluate(False):
         hint="The score of every action taken, weighted with the return from its own step on, summed over the episode.",
         note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
         "left out, as it mostly is.",
+    )
+    RETURN_FROM_A_STEP = Formula(
+        "return-from-a-step",
+        G_t(t),
+        r(t + 1) + gamma * G_t(t + 1),
+        title="Return from a step on",
+        source="Sutton & Barto 2018, eq. 3.9",
+        hint="Begin at the end: the last reward, then each reward before it plus γ times the return that follows.",
+        place=Place.WORKING,
     )
     FIRST_RETURN_EVERYWHERE = Misconception(
         "first-return-everywhere",
@@ -217,6 +244,15 @@ with evaluate(False):
         },
     )
 
+    SOFTMAX_ODDS = Formula(
+        "softmax-odds",
+        odds(a, b, s),
+        exp(H(s, a)) / exp(H(s, b)),
+        title="How many times as often a softmax policy takes an action as another",
+        source="Sutton & Barto 2018, eq. 13.2",
+        hint="The sum in the denominator is the same for both actions: it cancels.",
+        place=Place.WORKING,
+    )
     FEATURES_ALONE = Misconception(
         "features-alone",
         "The features expected under the policy are subtracted: they come from the softmax's denominator.",
