@@ -98,11 +98,14 @@ def draw(level: int, rng: Draws) -> Given:
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/5" if len(states) == 2 else "1/2"),
         gamma=rng.fraction("1/2", "1/2", "1") if level != 2 else rng.fraction("1/2", "1/2", "3/4"),
     )
-    return given if all(map(any, given.features.values())) and all(_errors(given)) else draw(level, rng)
+    return given if all(map(any, given.features.values())) and all(_matters(given)) else draw(level, rng)
 
 
-def _errors(given: Given) -> Iterator[Fraction]:
-    """The TD errors: where one is 0, nothing is learnt. With the step size left open the first one only."""
+def _matters(given: Given) -> Iterator[Fraction]:
+    """The TD errors, and the estimates that γ stands with: none is 0, or something given would not count.
+
+    With the step size left open these are those of the first step only.
+    """
     run, theta = given.trajectory, list(given.theta)
     gamma = Fraction(1) if isinstance(given.gamma, Parameter) else given.gamma
     size = len(theta) // max(1, len(given.actions))
@@ -118,6 +121,8 @@ def _errors(given: Given) -> Iterator[Fraction]:
     for time, reward in enumerate(run.rewards):
         error = reward + gamma * estimate(time + 1) - estimate(time)
         yield error
+        if run.states[time + 1] not in run.terminal:
+            yield estimate(time + 1)
         if isinstance(given.alpha, Parameter):
             return
         rows = zip(theta[block(time)], given.features[run.states[time]], strict=True)

@@ -13,7 +13,6 @@ import rldrill
 from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
-from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.solution import solver
 
 whole = st.integers(-5, 5)
@@ -177,5 +176,6 @@ def test_wrong_givens_of_what_is_sought(name: str, given_: Any, fragment: str) -
 
 
 def test_features_that_fit_no_state_have_no_solution() -> None:
-    with pytest.raises(NoSolution, match="exactly one state"):
-        solved("piecewise-linear-rbf", centres=[[0], [4]], width=8, known={1: "3/4", 2: "1/4"})
+    # 2 away from 0 and 4 away from 4.
+    with pytest.raises(FileError, match="exactly one state"):
+        solved("piecewise-linear-rbf", centres=[[0], [4]], width=8, known={1: "3/4", 2: "1/2"})

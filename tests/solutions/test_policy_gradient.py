@@ -13,7 +13,7 @@ from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Logarithm, read_weight, shown
-from rldrill.solutions.exact import NoSolution, exact, simplest
+from rldrill.solutions.exact import exact, simplest
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.sheet.policy_gradient import PREFERENCE, SCORE_FUNCTION, SOFTMAX_POLICY
 from rldrill.solutions.sheet.policy_gradient import theta as theta_of_index
@@ -276,9 +276,9 @@ def test_the_clipping_range_follows_from_the_objective() -> None:
     answers = solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", -2)], objective="-2/5")
     assert answers == {"a": (fmpq(3, 2), fmpq(3, 2)), "b": (3, -3), "c": fmpq(1, 10)}
     # (1 + ε)·2 = 4 − 3 … with L = 1/4 the ratio would have to be clipped above 3/2.
-    with pytest.raises(NoSolution, match="no ε gives this objective"):
+    with pytest.raises(FileError, match="no ε gives this objective"):
         solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", -2)], objective="1/4")
-    with pytest.raises(NoSolution, match="exactly one sample"):
+    with pytest.raises(FileError, match="exactly one sample"):
         solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", 1)], objective=1)
 
 
