@@ -239,7 +239,10 @@ def test_a_word_proves_none_of_several_mistakes() -> None:
     no = judge(solution, "b", "no")
     assert (no.outcome, no.says, no.told) == (Outcome.WRONG, "Not right.", ())
     assert len(no.misconceptions) == 3
-    action = judge(draw("linear-policy", 1, 11), "b", "search")
+    policy = draw("linear-policy", 1, 11)
+    ((state, (best,)),) = policy.answers["b"].items()
+    (other,) = set(policy.problem.given.features[state]) - {best}  # type: ignore[attr-defined]
+    action = judge(policy, "b", other)
     assert action.outcome is Outcome.MISCONCEPTION
     assert len(action.misconceptions) > 1
     assert action.says == action.misconceptions[0].says
