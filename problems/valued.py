@@ -1,6 +1,7 @@
 """Models with values that fit them: drawn from whole values, and checked where somebody brings both."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -35,7 +36,9 @@ class Mixed(NamedTuple):
     values: dict[str, Fraction]
 
 
-def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, others: tuple[int, int]) -> Valued:
+def draw_valued(
+    rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, others: tuple[int, int], *, forked: bool = True
+) -> Valued:
     """Draw a model in which a policy has whole values.
 
     The values come first; the rewards follow from them, and so are whole, too.
@@ -46,6 +49,7 @@ def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, oth
         shape: how large the model is; its ``reward`` is not used.
         gamma: one of ``UNITS``.
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
+        forked: whether those may have several outcomes, too.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     surplus = [number for number in range(others[0], others[1] + 1) if number]
@@ -55,7 +59,8 @@ def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, oth
         better = iter(rng.shuffled(surplus))
         for action in setting.actions[: shape.actions]:
             worths[state, action] = value + (0 if action == policy[state] else next(better))
-    return Valued(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)
+    sure = () if forked else tuple(pair for pair in worths if policy[pair[0]] != pair[1])
+    return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values)
 
 
 def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, denominators: tuple[int, ...]) -> Mixed:
@@ -104,13 +109,19 @@ def draw_worth(
     gamma: Fraction,
     values: Mapping[str, Fraction],
     worths: Mapping[tuple[str, str], Fraction],
+    sure: Sequence[tuple[str, str]] = (),
 ) -> Model:
-    """A model of a world in which the actions are worth so much, if the states are worth what the values say."""
+    """A model of a world in which the actions are worth so much, if the states are worth what the values say.
+
+    Those that are called sure have one outcome each.
+    """
     places = (*setting.states[: shape.states], *((setting.terminal,) if shape.ends else ()))
     rows = [
         row
         for pair, worth in worths.items()
-        for row in draw_paying(rng, setting, places, pair, worth, values, gamma, shape)
+        for row in draw_paying(
+            rng, setting, places, pair, worth, values, gamma, replace(shape, branches=1) if pair in sure else shape
+        )
     ]
     return Model(story=setting.story, transitions=tuple(rows), terminal=places[shape.states :])
 

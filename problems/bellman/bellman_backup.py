@@ -129,10 +129,8 @@ def question(given: Given) -> Question:
             else "The values of the next states under the policy are known."
         )
         told += f" {discount(given.gamma)}"
-        of, means = (
-            ("V_1", "the value after one Bellman backup") if given.current else ("V^π", "the value of the state")
-        )
-        part = Part(f'What is ${of}("{state}")$, {means}{in_open(given)}?', Number())
+        of, after = ("V_1", ", the value after one Bellman backup") if given.current else ("V^π", "")
+        part = Part(f'What is ${of}("{state}")${after}{in_open(given)}?', Number())
     blocks = (
         Paragraph(f"In state {state} the actions have these outcomes:"),
         transitions_table(given.dynamics),

@@ -138,7 +138,8 @@ def _in_the_long_run(given: Given) -> Question:
         ),
         (
             Part(
-                f"What is $d(s)$, the long-run fraction of the time steps spent in $s$, for every state{in_open(given)}?",
+                f"What is $d(s)$, the long-run fraction of the steps that begin in $s$, for every state"
+                f"{in_open(given)}?",
                 Values("d", given.mdp.states),
             ),
             Part(f"What is {reward} in the long run{in_open(given)}?", Number()),

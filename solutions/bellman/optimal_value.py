@@ -59,15 +59,14 @@ def _iterated(given: Given, work: Work) -> dict[str, Value]:
     work.say(f"Policy iteration, starting with the action that earns most at once: {_told(policy)}.")
     while True:
         values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy})
-        better = {}
-        for state in mdp.states:
-            greedy = work.step(POLICY_IMPROVEMENT, s=state, V=values, **known)
-            better[state] = policy[state] if policy[state] in greedy else greedy[0]
-        if better == policy:
-            work.say("Improvement changes nothing, so these values solve the optimality equation:")
+        greedy = {state: work.value(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+        if all(policy[state] in greedy[state] for state in mdp.states):
+            work.say("No other action is better now: these values solve the optimality equation.")
             return values
-        policy = better
-        work.say(f"Improvement changes the policy, so it is evaluated again: {_told(policy)}.")
+        for state in mdp.states:
+            work.step(POLICY_IMPROVEMENT, s=state, V=values, **known)
+        policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
+        work.say(f"This changes the policy, so it is evaluated again: {_told(policy)}.")
 
 
 def _of_the_best(given: Given, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
