@@ -421,11 +421,11 @@ def timeline(run: Trajectory) -> Timeline:
 
 
 def seen(run: Trajectory) -> tuple[Block, ...]:
-    """What an agent was seen to do, and where that ends; a long run is a table."""
+    """The trajectory of an agent, and where it ends; a long one is a table."""
     drawn = len(run.states) <= _DRAWN
-    told = "" if drawn else " (a reward stands at the time at which it is received)"
+    told = "" if drawn else " (each reward stands at the time at which it is received)"
     return (
-        Paragraph(f"An agent was seen to do this{told}:"),
+        Paragraph(f"An agent follows this trajectory{told}:"),
         timeline(run) if drawn else trajectory_table(run),
         *terminal_note(run.terminal),
     )
@@ -448,8 +448,8 @@ def cut_off(run: Trajectory) -> tuple[Block, ...]:
     if run.ends:
         return ()
     last = run.states[-1]
-    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal: the longest n-step return"
-    return (Paragraph(f'{told} ends with $V("{last}")$, and has all the weight that the shorter ones leave.'),)
+    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal. The longest n-step return"
+    return (Paragraph(f'{told} therefore ends with $V("{last}")$, and gets all the weight that the others leave.'),)
 
 
 def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
@@ -462,7 +462,7 @@ def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
         for move in given.moves
     ]
     return (
-        Paragraph("These transitions were seen, in this order; one need not begin where the one before it ended:"),
+        Paragraph("These transitions are observed in this order; each may begin in any state:"),
         Table(
             header=("$t$", *header, *(("$a_{t+1}$",) if following else ())),
             rows=tuple((f"${time}$", *row[: len(header) + following]) for time, row in enumerate(rows)),
@@ -475,8 +475,8 @@ def run_situation(
     given: ValueRun | ActionRun | ValueMoves | ActionMoves, *values: Table, more: str = ""
 ) -> tuple[Block, ...]:
     """A run, and the values before it; ``more`` is said after the step size and the discount."""
-    before = "the first of them" if isinstance(given, ValueMoves | ActionMoves) else "the run"
-    told = f"Before {before} the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    before = "the first transition" if isinstance(given, ValueMoves | ActionMoves) else "the first update"
+    told = f"These are the values before {before}. {step_size(given.alpha)} {discount(given.gamma)} {more}"
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
     return (*happened, Paragraph(told.rstrip()), *values)
 
@@ -496,14 +496,14 @@ def after(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> str:
 
 
 def values_asked(given: ValueRun | ValueMoves) -> str:
-    """What a question asks for where every visited state changes."""
+    """What a question asks for: every value that is updated."""
     visited = given.visited
-    return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
+    return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every updated state"
 
 
 def run_blocks(given: ValueRun | ActionRun | ValueMoves | ActionMoves, values: Table, method: str) -> tuple[Block, ...]:
     """The situation of a question about updates along a run: the run, the values before it, and the method."""
     return (
         *run_situation(given, values),
-        Paragraph(f"{method} updates after every transition, with the values that are current then."),
+        Paragraph(f"{method} makes one update after every transition, with the values that are current at that time."),
     )
