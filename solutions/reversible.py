@@ -1,15 +1,18 @@
 """The value of a letter from what comes out: exactly from an equation, independently from two trials."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, TypeVar
 
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.reversible import Reversible
-from rldrill.solutions.exact import Value, exact
+from rldrill.problems.runs import ValueRun
+from rldrill.solutions.exact import Value, exact, to_sympy
 from rldrill.solutions.oracle import at
 from rldrill.solutions.work import Work
 
 Given = TypeVar("Given", bound=Reversible)
+Run = TypeVar("Run", bound=ValueRun)
 
 #: Two numbers that any letter may stand for: between 0 and 1.
 _TRIALS = Fraction(1, 4), Fraction(3, 4)
@@ -27,6 +30,11 @@ def tried(given: Given, outcome: Callable[[Given], float]) -> float:
     return first + (second - first) * (at(given.known or 0) - low) / (high - low)
 
 
+def reading(letter: Value) -> Callable[[Scalar], Value]:
+    """What reads given numbers where the letter left open has this value."""
+    return lambda number: letter if isinstance(number, Parameter) else exact(number)
+
+
 def with_letter(given: Given, number: Fraction) -> Given:
     """The problem with a number for its letter, and nothing known of what comes out."""
     data = given.model_dump(mode="json", exclude_none=True, exclude={"known"})
@@ -41,3 +49,22 @@ def _replaced(data: Any, letter: str, number: str) -> Any:
     if data == f"1-{letter}":
         return str(1 - Fraction(number))
     return number if data == letter else data
+
+
+def find_and_finish(
+    given: ValueRun, work: Work, updated: Callable[[Callable[[Scalar], Value]], dict[str, Value]]
+) -> None:
+    """Answer with the letter, from the value that is known after all updates, and with the other values."""
+    first, *others = given.updated
+    letter = find(given, work, updated(exact)[first])
+    if others:
+        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$ the updates are:")
+        after = updated(reading(letter))
+        work.answer({state: after[state] for state in others})
+
+
+def found_and_finished(given: Run, updated: Callable[[Run], Sequence[float]]) -> Sequence[Any]:
+    """The same in floating point; ``updated`` gives the values of the updated states."""
+    letter = tried(given, lambda trial: updated(trial)[0])
+    others = updated(with_letter(given, Fraction(letter).limit_denominator(10**6)))[1:]
+    return (letter, others) if len(others) else (letter,)
