@@ -2,16 +2,12 @@
 
 import ast
 import re
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
 from places import ROOMS, Mutation, Source
-
-#: So many tests for one change at most: more would be slow, and hardly likelier to notice it.
-MOST = 200
 
 
 @dataclass(frozen=True)
@@ -41,19 +37,11 @@ class Choice:
         }
 
     def tests(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
-        """The IDs with their ranks, 0 where the changed statement made what is tested; first cases first.
+        """The IDs of what can notice it with their ranks, 0 where the changed statement made what is tested.
 
         For what writes pages, the pages of all families come first: most of it shows in none of their names.
         """
-        ranked = [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 4]
-        order: Counter[tuple[int, str]] = Counter()
-        keyed = []
-        for rank, test in ranked:
-            function = test.partition("[")[0]
-            keyed.append((rank, order[rank, function], test))
-            order[rank, function] += 1
-        keyed.sort(key=lambda each: each[:2])
-        return [(rank, test) for rank, _, test in keyed[:MOST]]
+        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 4]
 
     def _ranks(self, source: Source, mutation: Mutation) -> Iterable[int]:
         path = Path(source.path)

@@ -103,7 +103,7 @@ def main() -> None:
     parser.add_argument(
         "--timeout", type=float, default=120, help="seconds of the processor after which a change counts as noticed"
     )
-    parser.add_argument("--budget", type=float, default=40, help="seconds of tests for one change, measured unchanged")
+    parser.add_argument("--budget", type=float, default=40, help="seconds of the processor for the tests of one change")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     options = parser.parse_args()
 

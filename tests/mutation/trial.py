@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
@@ -43,7 +43,10 @@ class Run:
 
 @dataclass
 class Result:
-    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, their seconds, the failed."""
+    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, what they took, the failed.
+
+    ``times`` are seconds of the processor: by the clock, tests take longer where others work too.
+    """
 
     code: int | None = None
     hung: bool = False
@@ -78,8 +81,15 @@ class Chosen:
         if report.failed:
             self._result.failed.append(report.nodeid)
 
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, object, object]:
+        begun = sum(os.times()[:4])
+        try:
+            return (yield)
+        finally:
+            self._result.times[item.nodeid] = sum(os.times()[:4]) - begun
+
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        self._result.times[report.nodeid] = self._result.times.get(report.nodeid, 0.0) + report.duration
         if report.failed:
             self._result.failed.append(report.nodeid)
 
