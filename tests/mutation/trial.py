@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
@@ -32,36 +32,38 @@ _HEAVY = ("flint", "numpy", "pydantic", "rich", "sympy", "typer", "typst")
 
 @dataclass(frozen=True)
 class Run:
-    """What is to be run: tests in their order; a file's changed content; all tests are only collected if asked."""
+    """What is to be run: tests in their order; a file's changed content; all tests are only collected if asked.
+
+    After ``budget`` seconds of the processor no other test is begun: by the clock, tests take longer where others work.
+    """
 
     tests: tuple[str, ...] = ()
     path: str = ""
     content: bytes = b""
     collect_only: bool = False
     keep_going: bool = False
+    budget: float = math.inf
 
 
 @dataclass
 class Result:
-    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, what they took, the failed.
-
-    ``times`` are seconds of the processor: by the clock, tests take longer where others work too.
-    """
+    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, how many ran, the failed."""
 
     code: int | None = None
     hung: bool = False
     seconds: float = 0.0
     seen: list[str] = field(default_factory=list)
-    times: dict[str, float] = field(default_factory=dict)
+    ran: int = 0
     failed: list[str] = field(default_factory=list)
 
 
 class Chosen:
     """A plugin of pytest that runs the chosen tests only, in their order, and notes what became of them."""
 
-    def __init__(self, tests: Sequence[str], result: Result) -> None:
-        self._places = {test: place for place, test in enumerate(tests)}
+    def __init__(self, run: Run, result: Result) -> None:
+        self._places = {test: place for place, test in enumerate(run.tests)}
         self._result = result
+        self._budget, self._begun = run.budget, 0.0
 
     @pytest.hookimpl(trylast=True)
     def pytest_configure(self) -> None:
@@ -76,22 +78,28 @@ class Chosen:
             chosen = (item for item in items if item.nodeid in self._places)
             items[:] = sorted(chosen, key=lambda item: self._places[item.nodeid])
         self._result.seen = [item.nodeid for item in items]
+        self._begun = _spent()
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
         if report.failed:
             self._result.failed.append(report.nodeid)
 
-    @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, object, object]:
-        begun = sum(os.times()[:4])
-        try:
-            return (yield)
-        finally:
-            self._result.times[item.nodeid] = sum(os.times()[:4]) - begun
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self) -> bool | None:
+        """Pass over what there is no time for."""
+        if _spent() - self._begun > self._budget:
+            return True
+        self._result.ran += 1
+        return None
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         if report.failed:
             self._result.failed.append(report.nodeid)
+
+
+def _spent() -> float:
+    """Seconds of the processor, with those of processes that have ended."""
+    return sum(os.times()[:4])
 
 
 def files(root: Path) -> list[str]:
@@ -204,7 +212,7 @@ def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
         else:
             options += ["-x"] * (not run.keep_going) + sorted({test.partition("::")[0] for test in run.tests})
         if run.tests or run.collect_only:
-            result.code = int(pytest.main(options, plugins=[Chosen(run.tests, result)]))
+            result.code = int(pytest.main(options, plugins=[Chosen(run, result)]))
         else:
             result.code = pytest.ExitCode.NO_TESTS_COLLECTED
         report.write_text(json.dumps(vars(result)), encoding="utf-8")
