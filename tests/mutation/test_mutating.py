@@ -1,6 +1,8 @@
 """The mutation run: which changes it makes, which it leaves, and which tests it holds against them."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from choice import Choice
@@ -103,11 +105,13 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
     assert ranks("solutions/sheet/td.py", 1) == callers | {"[n-step-formula]": 1, "[n-step: late]": 0}
 
 
-def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     clock = iter((10.0, 10.0, 13.0, 13.5))
     monkeypatch.setattr("trial._spent", lambda: next(clock))
     result = Result()
-    chosen = Chosen(Run(("a", "b", "c"), budget=3), result)
+    chosen = Chosen(Run(("a", "b", "c"), budget=3), result, tmp_path / "now")
     chosen.pytest_collection_modifyitems([])
-    assert [chosen.pytest_runtest_protocol() for _ in range(3)] == [None, None, True]
+    items = [cast("pytest.Item", SimpleNamespace(nodeid=test)) for test in "abc"]
+    assert [chosen.pytest_runtest_protocol(item) for item in items] == [None, None, True]
     assert result.ran == 2
+    assert (tmp_path / "now").read_text() == "b"  # which it was, if it crashes

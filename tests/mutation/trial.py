@@ -60,10 +60,10 @@ class Result:
 class Chosen:
     """A plugin of pytest that runs the chosen tests only, in their order, and notes what became of them."""
 
-    def __init__(self, run: Run, result: Result) -> None:
+    def __init__(self, run: Run, result: Result, now: Path) -> None:
         self._places = {test: place for place, test in enumerate(run.tests)}
         self._result = result
-        self._budget, self._begun = run.budget, 0.0
+        self._budget, self._begun, self._now = run.budget, 0.0, now
 
     @pytest.hookimpl(trylast=True)
     def pytest_configure(self) -> None:
@@ -85,10 +85,11 @@ class Chosen:
             self._result.failed.append(report.nodeid)
 
     @pytest.hookimpl(tryfirst=True)
-    def pytest_runtest_protocol(self) -> bool | None:
-        """Pass over what there is no time for."""
+    def pytest_runtest_protocol(self, item: pytest.Item) -> bool | None:
+        """Pass over what there is no time for; note what is run, for it may crash."""
         if _spent() - self._begun > self._budget:
             return True
+        self._now.write_text(item.nodeid, encoding="utf-8")
         self._result.ran += 1
         return None
 
@@ -150,7 +151,9 @@ class _Running:
         self._begun, self._limit = time.monotonic(), _PATIENCE * limit
         self._report = copy.with_suffix(".json")
         self._report.unlink(missing_ok=True)
-        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report, limit))
+        self._now = copy.with_suffix(".now")
+        self._now.write_text("the import of the tests", encoding="utf-8")
+        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report, self._now, limit))
         self.process.start()
 
     def left(self) -> float:
@@ -167,7 +170,7 @@ class _Running:
         self.process.join()
         hung = hung or self.process.exitcode == -signal.SIGXCPU
         self._restore()
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = {"failed": [self._now.read_text(encoding="utf-8")]}
         if self._report.exists() and not hung:
             found = json.loads(self._report.read_text(encoding="utf-8"))
         return Result(**found | {"hung": hung, "seconds": time.monotonic() - self._begun})
@@ -188,11 +191,10 @@ def _change(copy: Path, run: Run) -> Callable[[], None]:
     return restore
 
 
-def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
+def _work(run: Run, copy: Path, report: Path, now: Path, limit: float) -> None:
     """What the process does; it writes its report at the end."""
     os.setsid()
-    if run.path:  # unchanged, the pages of all families in one document may take more
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), resource.RLIM_INFINITY))
     os.chdir(copy)
     os.environ["PYTHONPATH"] = str(copy)
@@ -212,7 +214,7 @@ def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
         else:
             options += ["-x"] * (not run.keep_going) + sorted({test.partition("::")[0] for test in run.tests})
         if run.tests or run.collect_only:
-            result.code = int(pytest.main(options, plugins=[Chosen(run, result)]))
+            result.code = int(pytest.main(options, plugins=[Chosen(run, result, now)]))
         else:
             result.code = pytest.ExitCode.NO_TESTS_COLLECTED
         report.write_text(json.dumps(vars(result)), encoding="utf-8")
