@@ -2,6 +2,8 @@
 
 import pytest
 
+from rldrill.problems.grammar import read
+from rldrill.problems.latex import typed
 from rldrill.solutions.answers.text import Unreadable, read_number, read_table, read_vector
 
 #: The largest that is read, the smallest that is not, and what is said of it.
@@ -59,3 +61,10 @@ def test_so_many_entries_and_keys_are_read() -> None:
     assert len(read_table(", ".join(f"{state}: 1" for state in states), states)) == 200
     with pytest.raises(Unreadable, match="More than 200 keys"):
         read_table(", ".join(f"{state}: 1" for state in [*states, "t"]), [*states, "t"])
+
+
+@pytest.mark.parametrize(
+    "term", ["√4", "sqrt(4)", "(2)", "2^1", "2^(1)", "\\boxed{2}", "ln e", "max(1, 2)", "-(-2)", "∛8"]
+)
+def test_what_stands_side_by_side_is_not_nested(term: str) -> None:
+    assert read(typed(" + ".join([term] * 45), 2000))

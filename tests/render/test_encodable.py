@@ -24,6 +24,17 @@ ASCII = Spelling("ascii")
         ("$θ̂$", "theta_hat"),
         ("$2 · 3$", "2*3"),
         ("half: ½, three dots: …", "half: 1/2, three dots: ..."),
+        ("$2 γ$", "2 gamma"),
+        ("$γ^2$", "gamma^2"),
+        ("$α γ$", "alpha gamma"),
+        ("$V^π(s)$", "V^pi(s)"),
+        ("$γ λ δ_t$", "gamma lambda delta_t"),
+        ("$Δ Λ$", "Delta Lambda"),
+        ("$−3$", "-3"),
+        ("$s ∈ S$", "s in S"),
+        ("⠁⠂⡀⣀⣿⠀", "''..: "),
+        ("→ ←", "-> <-"),
+        ("日", "\\u65e5"),
     ],
 )
 def test_ascii_spellings(text: str, spelled: str) -> None:
