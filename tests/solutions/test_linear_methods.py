@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rldrill
@@ -19,6 +19,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.linear_methods.ddp_backward import _is_negative
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -316,3 +317,14 @@ def test_sums_of_roots_calculate_as_sympys_do(first: Any, second: Any) -> None:
         inverse = surds.inverse(y)
         assert inverse is not None
         assert surds.multiply(y, inverse) == surds.read(simplest(1))
+
+
+@given(st.lists(st.integers(-6, 2), min_size=6, max_size=6), st.integers(1, 3))
+def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(six: list[int], size: int) -> None:
+    a, b, c, d, e, f = six
+    full = np.array([[a, b, c], [b, d, e], [c, e, f]])[:size, :size]
+    eigenvalues = np.linalg.eigvalsh(full)
+    assume(min(abs(eigenvalues)) > 1e-9)
+    assert _is_negative(matrices.matrix([[fmpq(int(entry)) for entry in line] for line in full])) == bool(
+        max(eigenvalues) < 0
+    )

@@ -264,3 +264,11 @@ def test_a_policy_is_better_than_one_action_and_worse_than_another(seed: int) ->
 @pytest.mark.parametrize("seed", range(12))
 def test_every_step_counts_against_the_baseline(seed: int) -> None:
     assert all(rldrill.draw("reinforce-baseline", 1 + seed % 2, seed).solve()["a"])
+
+
+def test_the_entropy_of_a_policy_is_a_third_question_and_worth_two_points() -> None:
+    given = {"features": {"l": [1, 0], "r": [0, 1]}, "theta": [0, 0]}
+    question = rldrill.read({"family": "softmax-policy", "given": given | {"entropy": True}})
+    assert [part.points for part in question.parts] == [1, 2, 2]
+    assert question.solve()["c"] == sympy.log(2)  # both actions with 1/2
+    assert [part.points for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == [1, 2]
