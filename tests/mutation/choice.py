@@ -55,13 +55,13 @@ class Choice:
         return tuple(test for _, _, test in keyed[:MOST])
 
     def ranked(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
-        """The IDs with their ranks, 0 where the changed statement made what is tested."""
+        """The IDs with their ranks, 0 where what is tested is made of the changed statement."""
         return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 4]
 
     def _ranks(self, source: Source, mutation: Mutation) -> Iterable[int]:
         path = Path(source.path)
         statement = source.statement(mutation)
-        made = _named([statement] if statement else [])
+        made = _named(_affected(source.tree, statement) if statement else [])
         own = _named(source.tree.body) | {_family(path)}
         module = _module(path)
         importers = {Path(name) for name, modules in self._imports.items() if module in modules}
@@ -113,6 +113,21 @@ def _closed(name: str, own: dict[str, tuple[Uses, set[str]]]) -> Uses:
     found = [own[each][0] for each in seen]
     texts, modules = (each.texts for each in found), (each.modules for each in found)
     return Uses(frozenset().union(*texts), frozenset().union(*modules))
+
+
+def _affected(tree: ast.Module, statement: ast.stmt) -> list[ast.stmt]:
+    """A statement, and those of the module that mention what it defines, or what these define."""
+    rest = {node: {each.id for each in ast.walk(node) if isinstance(each, ast.Name)} for node in _flat(tree.body)}
+    found = [statement]
+    for node in found:
+        rest.pop(node, None)
+        found += [other for other, names in rest.items() if other not in found and names & _defines(node)]
+    return found
+
+
+def _flat(statements: Iterable[ast.stmt]) -> Iterable[ast.stmt]:
+    for statement in statements:
+        yield from _flat(statement.body) if isinstance(statement, ast.With) else [statement]
 
 
 def _defines(node: ast.stmt) -> set[str]:
@@ -167,10 +182,8 @@ def _family(path: Path) -> str:
 def _named(statements: Iterable[ast.stmt]) -> set[str]:
     """The names of what statements state, as in ``X = Formula("td-zero", …)`` and ``Y = slip("forgot-alpha", …)``."""
     found = set()
-    for statement in statements:
+    for statement in _flat(statements):
         match statement:
-            case ast.With(body=body):
-                found |= _named(body)
             case ast.Assign(value=ast.Call(args=arguments)):
                 found |= {each.value for each in arguments[:2] if isinstance(each, ast.Constant)}
     return {name for name in found if isinstance(name, str) and re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", name)}

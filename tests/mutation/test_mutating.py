@@ -78,7 +78,8 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
     files = {
         "problems/td/n_step.py": "",
         "solutions/td/n_step.py": "from rldrill.solutions.sheet.td import N_STEP\nx = 1",
-        "solutions/sheet/td.py": "N_STEP = Formula('n-step-formula', x + y)\nSLIP = slip('late', x - y)",
+        "solutions/sheet/td.py": "with a:\n N_STEP = Formula('n-step-formula', x + y)\n"
+        "SLIP = slip('late', x - y)\nx = letter('x', 1)",
         "tests/test_all.py": "def test_family(name): ...\ndef test_other(): ...",
         "tests/test_td.py": "def test_identity(): ...",
         "tests/test_hand.py": "import rldrill\nBOOK = 'n-step/1/7'\ndef test_book(): BOOK\ndef test_other(): ...",
@@ -102,6 +103,8 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
     assert ranks("solutions/td/n_step.py", 0) == own | {"identity": 2}
     callers = {"[n-step]": 3, "[2-n-step]": 3, "book": 3, "identity": 1}
     assert ranks("solutions/sheet/td.py", 0) == callers | {"[n-step-formula]": 0, "[n-step: late]": 1}
+    both = callers | {"[n-step-formula]": 0, "[n-step: late]": 0}
+    assert ranks("solutions/sheet/td.py", 2) == both  # x, which both mention
     assert ranks("solutions/sheet/td.py", 1) == callers | {"[n-step-formula]": 1, "[n-step: late]": 0}
 
 
