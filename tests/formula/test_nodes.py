@@ -264,3 +264,24 @@ def test_a_number_as_power_or_factor_keeps_its_brackets_and_dots() -> None:
     assert unicode(typeset(formula)) == "γx²y"
     assert unicode(typeset(put_in(formula, known))) == "1/2·(−3)²·2/3"
     assert unicode(typeset(put_in(x**2, {"x": fmpq(2, 3)}))) == "(2/3)²"
+
+
+@pytest.mark.parametrize(
+    ("count", "written"),
+    [
+        (24, " + ".join(map(str, range(1, 25)))),
+        (25, "1 + 2 + 3 + … + 25"),
+        (26, "1 + 2 + 3 + … + 26"),
+    ],
+)
+def test_a_sum_of_more_than_24_terms_is_written_with_the_first_three_and_the_last(count: int, written: str) -> None:
+    formula = SumOver(V(i), i, Counting(S(1), n))
+    known = {"n": count, "V": {number: fmpq(number) for number in range(1, count + 1)}}
+    assert unicode(typeset(put_in(formula, known))) == written
+    assert value_of(formula, known) == count * (count + 1) // 2
+
+
+def test_the_zeros_of_a_long_sum_are_not_written() -> None:
+    places = tuple(map(str, range(40)))
+    known = {"places": places, "V": {place: fmpq(int(place) % 20 == 3) for place in places}}
+    assert unicode(typeset(put_in(SumOver(V(i), i, Places), known))) == "1 + 1"
