@@ -328,3 +328,8 @@ def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(si
     assert _is_negative(matrices.matrix([[fmpq(int(entry)) for entry in line] for line in full])) == bool(
         max(eigenvalues) < 0
     )
+
+
+def test_a_matrix_with_an_eigenvalue_of_zero_is_not_negative_definite() -> None:
+    for rows in ([[0]], [[-1, 0], [0, 0]], [[0, 0], [0, -1]], [[-1, 1], [1, -1]]):
+        assert not _is_negative(matrices.matrix([[fmpq(entry) for entry in line] for line in rows]))
