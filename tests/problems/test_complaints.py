@@ -83,6 +83,7 @@ def test_a_text_of_forty_signs_is_shown_whole() -> None:
     assert complaint({"size": "x" * 38}).startswith(f"given.size: '{'x' * 38}' is not")
     assert complaint({"size": "x" * 39}).startswith(f"given.size: '{'x' * 38}… is not")
     assert complaint({"x" * 40: 1}).startswith(f"given.{'x' * 40} is")
+    assert complaint({"a\nb\x07": 1}).startswith("given.a\\nb\\x07 is not a field")
     assert complaint({"x" * 41: 1}).startswith(f"given.{'x' * 39}… is")
 
 
