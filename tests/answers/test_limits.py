@@ -30,6 +30,12 @@ LIMITS = {
     "number under a root of a fraction": ("sqrt(1/10^12)", "sqrt(1/(10^12 + 1))", "at most 12 digits"),
     "angle": ("sin(1000)", "sin(1001)", "angles up to 1000"),
     "negative angle": ("cos(-1000)", "cos(-1001)", "angles up to 1000"),
+    "arguments of max": (f"max({', '.join('1' * 20)})", f"max({', '.join('1' * 21)})", "this goes on after it"),
+    "arguments of min": (f"min({'; '.join('1' * 20)})", f"min({'; '.join('1' * 21)})", "this goes on after it"),
+    **{
+        f"arguments of {name}": (f"{name}(1)", f"{name}(1; 1)", "this goes on after it")
+        for name in ("sqrt", "exp", "ln", "log", "sin", "cos", "tan", "abs")
+    },
     "degree": ("(1 + γ)^24", "(1 + γ)^25", "grows too large"),
     "degree of a product": ("(1 + γ)^12 (2 + γ)^12", "(1 + γ)^12 (2 + γ)^13", "grows too large"),
     "degree under a function": ("exp(γ^4)", "exp(γ^5)", "grows too large"),
