@@ -56,7 +56,7 @@ class Choice:
 
     def ranked(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
         """The IDs with their ranks, 0 where what is tested is made of the changed statement."""
-        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 4]
+        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 5]
 
     def _ranks(self, source: Source, mutation: Mutation) -> Iterable[int]:
         path = Path(source.path)
@@ -64,9 +64,10 @@ class Choice:
         made = _named(_affected(source.tree, statement) if statement else [])
         own = _named(source.tree.body) | {_family(path)}
         module = _module(path)
-        importers = {Path(name) for name, modules in self._imports.items() if module in modules}
+        importers = self._importing({module})
         callers = {_family(name) for name in importers} - {"--init--"}
         calling = {_module(name) for name in importers}
+        farther = {_module(name) for name in self._importing(calling)}
         folders = {*path.parts[1:-1], path.stem} - {"__init__"}
         patterns = [_pattern(names) for names in (made, own, callers)]
         for test in self.ids:
@@ -74,16 +75,22 @@ class Choice:
             function, _, case = rest.partition("[")
             uses = self._of(file).get(function, Uses())
             writes = path.parts[:2] == ("rldrill", "render") and Path(file).name == "test_pages.py"
-            if writes or patterns[0].search(case) or made & uses.texts:
+            named = _is_named(file, path.stem)
+            if writes or patterns[0].search(case) or made & uses.texts or (named and not made):
                 yield 0
-            elif patterns[1].search(case) or own & uses.texts or module in uses.modules or _is_named(file, path.stem):
+            elif named or patterns[1].search(case) or own & uses.texts or module in uses.modules:
                 yield 1
             elif folders & set(Path(file).parts) or any(_is_named(file, name) for name in folders):
                 yield 2
             elif patterns[2].search(case) or callers & uses.texts or calling & uses.modules:
                 yield 3
-            else:
+            elif farther & uses.modules:
                 yield 4
+            else:
+                yield 5
+
+    def _importing(self, modules: set[str]) -> set[Path]:
+        return {Path(name) for name, imported in self._imports.items() if modules & imported}
 
     def _of(self, file: str) -> dict[str, Uses]:
         if file not in self._uses:
