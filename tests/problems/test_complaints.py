@@ -1,6 +1,6 @@
 """What is said of givens of the wrong form: one sentence that names the field and says what to do."""
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import pytest
 from pydantic import Field, TypeAdapter, ValidationError
@@ -24,6 +24,7 @@ class Toy(Givens):
     told: bool = False
     inner: Inner = Inner()
     inners: tuple[Inner, ...] = ()
+    named: dict[Annotated[str, Field(max_length=3)], int] = Field(default={})
 
 
 def complaint(given: object) -> str:
@@ -64,6 +65,8 @@ LISTED = "rldrill.fields('toy') and 'rldrill fields toy' list them all"
         ({"told": "maybe"}, "given.told: 'maybe' is neither true nor false; write one of them."),
         ({"inner": 3}, "given.inner: must be a table, in which every name has its value."),
         ({"inners": [{}, {"depth": "x"}]}, "given.inners[2].depth: 'x' is not a whole number; write one, such as 3."),
+        ({"named": {"abcd": 1}}, "given.named: has 4 characters, 3 are the most; shorten it."),
+        ({"named": {"abc": "x"}}, "given.named.abc: 'x' is not a whole number; write one, such as 3."),
         ({"sized": 1}, f"given.sized is not a field (did you mean size?); {LISTED}."),
         ({"Few": [1, 2]}, f"given.Few is not a field (did you mean few?); {LISTED}."),
         ({"qqqqq": 1}, f"given.qqqqq is not a field; {LISTED}."),
