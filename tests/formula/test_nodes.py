@@ -261,3 +261,46 @@ def test_a_number_as_power_or_factor_keeps_its_brackets_and_dots() -> None:
     assert unicode(typeset(formula)) == "γx²y"
     assert unicode(typeset(put_in(formula, known))) == "1/2·(−3)²·2/3"
     assert unicode(typeset(put_in(x**2, {"x": fmpq(2, 3)}))) == "(2/3)²"
+
+
+@pytest.mark.parametrize(
+    ("count", "written"),
+    [
+        (24, " + ".join(map(str, range(1, 25)))),
+        (25, "1 + 2 + 3 + … + 25"),
+        (26, "1 + 2 + 3 + … + 26"),
+    ],
+)
+def test_a_sum_of_more_than_24_terms_is_written_with_the_first_three_and_the_last(count: int, written: str) -> None:
+    formula = SumOver(V(i), i, Counting(S(1), n))
+    known = {"n": count, "V": {number: fmpq(number) for number in range(1, count + 1)}}
+    assert unicode(typeset(put_in(formula, known))) == written
+    assert value_of(formula, known) == count * (count + 1) // 2
+
+
+def test_the_zeros_of_a_long_sum_are_not_written() -> None:
+    places = tuple(map(str, range(40)))
+    known = {"places": places, "V": {place: fmpq(int(place) % 20 == 3) for place in places}}
+    assert unicode(typeset(put_in(SumOver(V(i), i, Places), known))) == "1 + 1"
+
+
+@pytest.mark.parametrize(
+    ("build", "put", "worked_out"),
+    [
+        (lambda: x * (x + y), "3·(3 + 13)", "3·16"),
+        (lambda: x + (x + y) * y, "3 + (3 + 13)·13", "3 + 16·13"),
+        (lambda: x * Pow(x + y, -1), "3/(3 + 13)", "3/16"),
+        (lambda: Pow(x + y, -1), "1/(3 + 13)", "1/16"),
+        (lambda: x * Pow(x + y, S.Half), "3√(3 + 13)", "3√16"),
+        (lambda: 1 + Pow(x + y, S.Half), "1 + √(3 + 13)", "1 + √16"),
+        (lambda: x + y, "3 + 13", "3 + 13"),
+    ],
+)
+def test_inner_brackets_are_worked_out_between_putting_in_and_the_result(
+    build: Callable[[], Expr], put: str, worked_out: str
+) -> None:
+    with evaluate(False):
+        formula = build()
+    step = put_in(formula, {"x": fmpq(3), "y": fmpq(13)})
+    assert unicode(typeset(step)) == put
+    assert unicode(typeset(reduced(step))) == worked_out

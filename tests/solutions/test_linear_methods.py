@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rldrill
@@ -21,6 +21,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.linear_methods.ddp_backward import _is_negative
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -382,3 +383,19 @@ def test_entries_and_a_deviation_by_hand() -> None:
     assert answers == {"a": (2, 3), "b": 8, "c": (fmpq(15, 2), 4)}
     with pytest.raises(FileError, match="B has 2 rows and 1 columns"):
         solved("linearise", **system, entries={"B": [[1, 2]]})
+
+
+@given(st.lists(st.integers(-6, 2), min_size=6, max_size=6), st.integers(1, 3))
+def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(six: list[int], size: int) -> None:
+    a, b, c, d, e, f = six
+    full = np.array([[a, b, c], [b, d, e], [c, e, f]])[:size, :size]
+    eigenvalues = np.linalg.eigvalsh(full)
+    assume(min(abs(eigenvalues)) > 1e-9)
+    assert _is_negative(matrices.matrix([[fmpq(int(entry)) for entry in line] for line in full])) == bool(
+        max(eigenvalues) < 0
+    )
+
+
+def test_a_matrix_with_an_eigenvalue_of_zero_is_not_negative_definite() -> None:
+    for rows in ([[0]], [[-1, 0], [0, 0]], [[0, 0], [0, -1]], [[-1, 1], [1, -1]]):
+        assert not _is_negative(matrices.matrix([[fmpq(entry) for entry in line] for line in rows]))

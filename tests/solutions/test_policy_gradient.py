@@ -331,3 +331,11 @@ def test_wrong_givens_of_what_is_sought(name: str, given_: Any, fragment: str) -
     with pytest.raises(FileError) as error:
         family(name).read(given_)
     assert fragment in str(error.value)
+
+
+def test_the_entropy_of_a_policy_is_a_third_question_and_worth_two_points() -> None:
+    given = {"features": {"l": [1, 0], "r": [0, 1]}, "theta": [0, 0]}
+    question = rldrill.read({"family": "softmax-policy", "given": given | {"entropy": True}})
+    assert [part.points for part in question.parts] == [1, 2, 2]
+    assert question.solve()["c"] == sympy.log(2)  # both actions with 1/2
+    assert [part.points for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == [1, 2]
