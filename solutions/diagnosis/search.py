@@ -1,0 +1,593 @@
+"""The search: everything that is changed in a working, and what comes out of it, once for every problem."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations
+from time import perf_counter
+from typing import Any
+
+import sympy
+from flint import fmpq
+from sympy import Expr
+
+from rldrill.problems.parts import Matrix, Number, Part
+from rldrill.solutions.answers.judging import matches, wrong_cells
+from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis import weights
+from rldrill.solutions.diagnosis.arithmetic import slips
+from rldrill.solutions.diagnosis.givens import misread
+from rldrill.solutions.diagnosis.replay import (
+    UNDONE,
+    Application,
+    Change,
+    Recorder,
+    Replay,
+    recorded,
+    replayed,
+    with_givens,
+)
+from rldrill.solutions.exact import enclosure, is_rational
+from rldrill.solutions.formula.compiling import value_of
+from rldrill.solutions.formula.edits import SCALE, SHIFT, Edit, Probe, edits, element, probes
+from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
+from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.solution import Solution
+from rldrill.solutions.vector import Vector
+
+#: Where answers with an open parameter are compared at first.
+_POINT = fmpq(37, 101)
+#: No two answers that a marker takes for the same are further apart, by their size or near 0.
+_NEAR, _NEAR_ZERO = 0.012, 0.0011
+#: A place whose quantity has more values than this elsewhere is not tried with all of them.
+_ELSEWHERE = 12
+#: A sum of more terms than this is not edited term by term.
+_TERMS = 8
+_NOT_COMPUTED = float("nan")
+
+
+@dataclass(frozen=True, eq=False)
+class Cause:
+    """One way to err, at one place or everywhere.
+
+    Args:
+        kind: what was done, a name.
+        weight: how likely it is.
+        application: where it was done; None where it was done all along.
+        formula: the formula that it was done to, if any.
+        edit: how that was edited, if it was.
+        probe: the place in it whose value is another one, if there is one.
+        term: the term of a sum that it was done in alone, its letters' values.
+        was: the value that was right.
+        became: the value that was taken.
+        what: of what else is said what it was.
+        mistake: the listed mistake that it is, if it is one.
+        then: what was done besides.
+    """
+
+    kind: str
+    weight: float
+    application: Application | None = None
+    formula: Formula | None = None
+    edit: Edit | None = None
+    probe: Probe | None = None
+    term: tuple[Any, ...] = ()
+    was: Any = None
+    became: Any = None
+    what: str = ""
+    mistake: Misconception | None = None
+    then: "Cause | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A cause, and the answers that it leads to."""
+
+    cause: Cause
+    answers: Mapping[str, Any]
+
+
+@dataclass
+class Typed:
+    """What was typed for a part, beside what is right."""
+
+    part: Part
+    cells: Mapping[str, Cell]
+    key: Mapping[str, Any]
+
+    @cached_property
+    def wrong(self) -> tuple[str, ...]:
+        """The cells that are wrong."""
+        return wrong_cells(self.cells, self.key)
+
+    @cached_property
+    def sizes(self) -> dict[str, float]:
+        """What the typed cells are worth, roughly; words are left out."""
+        return {name: approximate(cell.value) for name, cell in self.cells.items() if isinstance(cell, Reading)}
+
+    def near(self, values: Mapping[str, Any]) -> bool:
+        """Whether an answer is roughly what was typed, so that it is worth a proof."""
+        return all(near(approximate(values[name]), size) for name, size in self.sizes.items())
+
+
+def near(one: float, two: float) -> bool:
+    """Whether two numbers could be the same, rounded; what could not be computed could."""
+    if one != one or two != two:
+        return True
+    return abs(one - two) <= _NEAR * abs(one) + _NEAR_ZERO
+
+
+def approximate(value: Any) -> float:
+    """What a value is worth, roughly; nan where that is not known."""
+    if is_rational(value):
+        try:
+            return int(value.p) / int(value.q)
+        except OverflowError:
+            return _NOT_COMPUTED
+    try:
+        return float(enclosure(value, _POINT).mid())
+    except (*UNDONE, NotImplementedError):
+        return _NOT_COMPUTED
+
+
+@dataclass
+class Clock:
+    """How long there is to search; without end where no time is given."""
+
+    seconds: float | None = None
+    _begun: float = field(default_factory=perf_counter)
+
+    @property
+    def over(self) -> bool:
+        """Whether the time is over."""
+        return self.seconds is not None and perf_counter() - self._begun > self.seconds
+
+
+class Search:
+    """All that can be changed in the working of one problem; made once, asked for every wrong answer."""
+
+    def __init__(self, solution: Solution, carried: Mapping[str, Any] | None = None) -> None:
+        self.solution = solution
+        self.problem = solution.problem
+        self.carried = dict(carried or {})
+        self._whole: list[Candidate] = []
+        self._unfinished: Iterator[Candidate] | None = None
+        self._alternatives: dict[int, list[Cause]] = {}
+        self._responses: dict[int, list[tuple[Any, Mapping[str, Any] | None]]] = {}
+
+    @cached_property
+    def work(self) -> Recorder:
+        """The right working."""
+        return recorded(self.problem, self.carried)
+
+    @property
+    def applications(self) -> Sequence[Application]:
+        """All applications of formulas in it."""
+        return self.work.applications
+
+    def replay(self, change: Change) -> Mapping[str, Any] | None:
+        """The answers of a changed working."""
+        return replayed(self.problem, change, self.carried, len(self.applications))
+
+    # The whole working ------------------------------------------------------------------------------
+    def whole(self, clock: Clock) -> list[Candidate]:
+        """What is done all along, with the answers; as much of it as there is time for, and the rest the next time."""
+        if self._unfinished is None:
+            self._unfinished = self._all()
+        while not clock.over:
+            candidate = next(self._unfinished, None)
+            if candidate is None:
+                break
+            self._whole.append(candidate)
+        return self._whole
+
+    def _all(self) -> Iterator[Candidate]:
+        for mistake, answers in self.solution.mistaken(self.carried):
+            yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers)
+        yield from self._ideas()
+        yield from self._habits()
+        yield from self._misread()
+        yield from self._equations()
+
+    def _candidate(self, cause: Cause, change: Change) -> Iterator[Candidate]:
+        answers = self.replay(change)
+        if answers is not None:
+            yield Candidate(cause, answers)
+
+    def _ideas(self) -> Iterator[Candidate]:
+        """Every edit of every formula, wherever it is read; an edit that several formulas have, in all of them."""
+        uses: dict[Expr, list[Application]] = defaultdict(list)
+        for application in self.applications:
+            uses[application.right].append(application)
+        alike: dict[Any, list[tuple[Expr, Edit]]] = defaultdict(list)
+        for right in uses:
+            for edit in edits(right):
+                alike[edit.kind, edit.part, edit.instead].append((right, edit))
+        groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
+        for group in groups:
+            for chosen in ([group] if len(group) == 1 else [group, *([one] for one in group)]):
+                right, edit = chosen[0]
+                places = [application for each, _ in chosen for application in uses[each]]
+                weight = weights.IDEAS[edit.kind]
+                cause = Cause(
+                    edit.kind,
+                    weight,
+                    places[0] if len(places) == 1 else None,
+                    uses[right][0].formula,
+                    edit,
+                )
+                yield from self._candidate(cause, Change({each: one.right for each, one in chosen}))
+
+    def _habits(self) -> Iterator[Candidate]:
+        """Old tables kept, new values used too early, the last round left out."""
+        codes = {
+            application.formula.left.code
+            for application in self.applications
+            if isinstance(application.formula.left, Quantity) and application.formula.left.code in application.known
+        }
+        if not codes or len(self.applications) < 2:
+            return
+
+        def stale(replay: Replay, _: Formula, known: Mapping[str, Any]) -> Mapping[str, Any]:
+            return {name: replay.first.setdefault(name, value) if name in codes else value
+                    for name, value in known.items()}  # fmt: skip
+
+        def early(replay: Replay, _: Formula, known: Mapping[str, Any]) -> Mapping[str, Any]:
+            return {name: {**value, **replay.found.get(name, {})} if name in codes else value
+                    for name, value in known.items()}  # fmt: skip
+
+        yield from self._candidate(Cause("stale", weights.PROCEDURE["stale"]), Change(habit=stale))
+        yield from self._candidate(Cause("early", weights.PROCEDURE["early"]), Change(habit=early))
+        yield from self._rounds()
+
+    def _rounds(self) -> Iterator[Candidate]:
+        """The last or the first round of updates left out: every quantity keeps what it was."""
+        seen: dict[Any, list[Application]] = defaultdict(list)
+        for application in self.applications:
+            if application.old() is not None:
+                seen[application.formula.left.func.code, str(application.step.left.args)].append(application)
+        rounds = max(map(len, seen.values()), default=0)
+        if rounds < 2:
+            return
+        for which in (rounds - 1, 0):
+            left_out = [group[which] for group in seen.values() if len(group) > which]
+            if len(left_out) > 1:
+                cause = Cause("round-left-out", weights.PROCEDURE["round-left-out"], what="last" if which else "first")
+                values = {application.number: application.old() for application in left_out}
+                yield from self._candidate(cause, Change(values=values))
+
+    def _misread(self) -> Iterator[Candidate]:
+        for other in misread(self.problem.given):
+            answers = with_givens(self.problem, other.given, self.carried, len(self.applications))
+            if answers is not None and list(answers) == list(self.work.answers):
+                yield Candidate(Cause(other.kind, weights.PROCEDURE[other.kind], what=other.what), answers)
+
+    def _equations(self) -> Iterator[Candidate]:
+        """Edits of one equation of a system."""
+        equations = [application for application in self.applications if application.equation]
+        for application in equations:
+            for cause, right, letters in self._in_equation(application):
+                yield from self._candidate(cause, Change({application.right: right}, letters=letters))
+
+    def _in_equation(self, application: Application) -> Iterator[tuple[Cause, Expr, dict[str, Any]]]:
+        letters = [name for name, value in application.known.items() if isinstance(value, str)]
+        case = {f"case_{name}": application.known[name] for name in letters}
+        here = Indicator(*(sympy.Symbol(name) for letter in letters for name in (letter, f"case_{letter}")))
+        right = application.right
+        for edit in edits(right):
+            weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+            cause = Cause(edit.kind, weight, application, application.formula, edit)
+            yield cause, Cases(here, edit.right, right), case
+            if edit.once is not None:
+                once = Cases(here, edit.once, right)
+                for term, at in _terms(edit.within, application.known):
+                    yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
+        for probe in probes(right):
+            changed = Cases(here, probe.right, right)
+            for cause, letters_ in self._at(application, probe):
+                yield cause, changed, {**case, **letters_}
+
+    @property
+    def known_alternatives(self) -> Mapping[int, list[Cause]]:
+        """The alternatives that were looked at, by the numbers of their applications."""
+        return self._alternatives
+
+    # One application --------------------------------------------------------------------------------
+    def alternatives(self, application: Application) -> list[Cause]:
+        """What may come out of one application instead of its value, the likeliest first, each value once."""
+        number = application.number
+        if number not in self._alternatives:
+            found: dict[Any, Cause] = {}
+            for cause in sorted(self._at_one(application), key=lambda cause: -cause.weight):
+                key = _hashable(cause.became)
+                if key not in found:
+                    found[key] = cause
+            found.pop(_hashable(application.value), None)
+            self._alternatives[number] = list(found.values())
+        return self._alternatives[number]
+
+    def _at_one(self, application: Application) -> Iterator[Cause]:
+        formula, right, known, value = application.formula, application.right, application.known, application.value
+        base = Cause("", 0.0, application, formula, was=value)
+        for kind, other in slips(value):
+            yield replace(base, kind=kind, weight=weights.VALUES[kind], became=other)
+        if (old := application.old()) is not None and _same_form(old, value):
+            yield replace(base, kind="kept", weight=weights.VALUES["kept"], became=old)
+            yield from self._repeated(application, base)
+        if application.equation:
+            return
+        for edit in edits(right):
+            weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+            if (other := _value(edit.right, known)) is not None and _same_form(other, value):
+                yield replace(base, kind=edit.kind, weight=weight, edit=edit, became=other)
+            if edit.once is not None:
+                for term, at in _terms(edit.within, known):
+                    other = _value(edit.once, {**known, **at})
+                    if other is not None and _same_form(other, value):
+                        in_term = weight * weights.IN_ONE_TERM
+                        yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
+        for probe in probes(right):
+            for cause, letters in self._at(application, probe):
+                other = _value(probe.right, {**known, **letters})
+                if other is not None and _same_form(other, value):
+                    yield replace(cause, became=other)
+
+    def _repeated(self, application: Application, base: Cause) -> Iterator[Cause]:
+        """The same update once more, from the value that it gave."""
+        left, known = application.formula.left, application.known
+        try:
+            arguments = tuple(value_of(argument, known) for argument in left.args)
+        except UNDONE:
+            return
+        key = arguments[0] if len(arguments) == 1 else arguments
+        again = {**known, left.func.code: {**known[left.func.code], key: application.value}}
+        if (other := _value(application.right, again)) is not None:
+            yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
+
+    def _at(self, application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:
+        """What another value of one place in a formula could be."""
+        known = application.known
+        terms = list(_terms(probe.within, known)) if probe.within else [((), {})]
+        for term, at in terms:
+            here = {**known, **dict(zip((over.index.name for over in probe.within), term, strict=True))}
+            was = _value(probe.part, here)
+            if was is None or is_matrix(was) or isinstance(was, Vector) or not hasattr(was, "__add__"):
+                continue
+            for kind, other in self._others(probe.part, was, known):
+                weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(terms) > 1 else 1)
+                cause = Cause(
+                    kind, weight, application, application.formula, probe=probe, term=term, was=was, what=str(other)
+                )
+                yield cause, {**at, SCALE.name: fmpq(0), SHIFT.name: other}
+
+    def _others(self, part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+        leaf = isinstance(part, Quantity) or part.is_Symbol
+        for kind, other in slips(was):
+            lost = kind == "sign" and leaf and is_rational(was) and was < 0
+            yield "minus-lost" if lost else kind, other
+        if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
+            elsewhere = _distinct(known[part.code].values())
+            if len(elsewhere) <= _ELSEWHERE:
+                yield from (("elsewhere", other) for other in elsewhere if other != was)
+        if leaf:
+            scalars = _distinct(known.values())
+            yield from (("elsewhere", other) for other in scalars if other != was)
+
+    # How answers depend on one value ----------------------------------------------------------------
+    def responses(self, application: Application) -> list[tuple[Any, Mapping[str, Any] | None]]:
+        """The answers for a few other values of an application: how they depend on it."""
+        number = application.number
+        if number not in self._responses:
+            value = application.value
+            if _plain(value):
+                others = [value + 1, value - 3, value * 4 + 7]
+            elif is_matrix(value) or isinstance(value, Vector):
+                others = [value * 3]
+            else:
+                others = []
+            self._responses[number] = [(other, self.replay(Change(values={number: other}))) for other in others]
+        return self._responses[number]
+
+    def local(self, typed: Typed, clock: Clock, within: Callable[[set[str]], bool]) -> Iterator[Candidate]:
+        """What can be done at one application so that some of the wrong cells, those that depend on it, come out.
+
+        Args:
+            typed: what was typed.
+            clock: the time there is.
+            within: whether a cause that changes these cells is of interest.
+        """
+        kind = answer_kind(typed.part.kind)
+        label = typed.part.label
+        for application in self.applications:
+            if clock.over:
+                return
+            predicted = self._predicted(application, typed)
+            if predicted is None:
+                continue
+            changed, predict = predicted
+            if not within(changed):
+                continue
+            for cause in self.alternatives(application):
+                if clock.over:
+                    return
+                if predict is not None and not all(
+                    near(size, typed.sizes[name]) for name, size in predict(cause.became).items()
+                ):
+                    continue
+                answers = self.replay(Change(values={application.number: cause.became}))
+                if answers is None or label not in answers:
+                    continue
+                try:
+                    cells = kind.cells(answers[label])
+                except UNDONE:
+                    continue
+                if all(near(approximate(cells[name]), typed.sizes[name]) for name in changed & set(typed.sizes)):
+                    yield Candidate(cause, answers)
+
+    def _predicted(
+        self, application: Application, typed: Typed
+    ) -> tuple[set[str], Callable[[Any], dict[str, float]] | None] | None:
+        """The cells that depend on a value, and how, where it is a straight line; None where none of them is wrong."""
+        kind = answer_kind(typed.part.kind)
+        label = typed.part.label
+        points: list[tuple[float, dict[str, Any]]] = [(approximate(application.value), dict(typed.key))]
+        if not _plain(application.value):
+            points = [(_NOT_COMPUTED, dict(typed.key))]
+        for other, answers in self.responses(application):
+            if answers is not None and label in answers:
+                try:
+                    cells = kind.cells(answers[label])
+                except UNDONE:
+                    continue
+                points.append((approximate(other) if _plain(other) else _NOT_COMPUTED, cells))
+        changed = {
+            name for name in typed.key for _, cells in points[1:] if not _equal(cells.get(name), typed.key[name])
+        }
+        if len(points) > 1 and not changed & set(typed.wrong):
+            return None
+        if len(points) < 4 or any(x != x for x, _ in points) or set(typed.sizes) != set(typed.key):
+            return changed or set(typed.wrong), None
+        lines: dict[str, tuple[float, float]] = {}
+        start = points[0][0]
+        for name in changed:
+            heights = [approximate(cells[name]) for _, cells in points]
+            slope = (heights[1] - heights[0]) / (points[1][0] - start)
+            for (x, _), height in zip(points[2:], heights[2:], strict=True):
+                if not abs(heights[0] + slope * (x - start) - height) <= 1e-9 * (abs(height) + 1):
+                    return changed, None
+            lines[name] = heights[0], slope
+
+        def predict(value: Any) -> dict[str, float]:
+            by = approximate(value) - start
+            return {name: height + slope * by for name, (height, slope) in lines.items()}
+
+        return changed, predict
+
+    # The answer itself ------------------------------------------------------------------------------
+    def written_down(self, typed: Typed) -> Iterator[Candidate]:
+        """What can go wrong between the working and the answer."""
+        kind = answer_kind(typed.part.kind)
+        key = dict(typed.key)
+        if any(isinstance(value, tuple) for value in key.values()):
+            return
+
+        def made(name: str, cells: dict[str, Any], what: str = "", of: str = "") -> Iterator[Candidate]:
+            if typed.near(cells):
+                cause = Cause(of or name, weights.ANSWERS[of or name], what=what)
+                yield Candidate(cause, {typed.part.label: kind.value(cells)})
+
+        if len(key) > 1:
+            for one, two in combinations(typed.wrong, 2):
+                what = f"{one} and {two}"
+                yield from made("exchanged-cells", {**key, one: key[two], two: key[one]}, what)
+            yield from made("all-signs", {name: -value for name, value in key.items()})
+        for name, value in key.items():
+            if typed.wrong == (name,) or len(key) == 1:
+                for slip, other in slips(value):
+                    yield from made(slip, {**key, name: other}, name)
+        if len(key) == 1:
+            ((name, value),) = key.items()
+            yield from made("one-minus", {name: 1 - value})
+            yield from made("percent", {name: value * 100})
+            for application in self.applications:
+                if _plain(application.value):
+                    for candidate in made("another-quantity", {name: application.value}):
+                        yield replace(candidate, cause=replace(candidate.cause, application=application))
+        shape = typed.part.kind
+        if isinstance(shape, Matrix) and shape.rows == shape.columns > 1:
+            cells = {
+                f"row {row}, column {column}": key[f"row {column}, column {row}"]
+                for row in range(1, shape.rows + 1)
+                for column in range(1, shape.columns + 1)
+            }
+            yield from made("answer-transposed", cells)
+        if not isinstance(shape, Number) and len(key) > 2:
+            yield from self._scaled(typed, key)
+
+    def _scaled(self, typed: Typed, key: Mapping[str, Any]) -> Iterator[Candidate]:
+        """All entries by the same factor too large: not normalised."""
+        ratios = {
+            cell.value / key[name]
+            for name, cell in typed.cells.items()
+            if isinstance(cell, Reading) and key[name] != 0 and is_rational(cell.value) and is_rational(key[name])
+        }
+        if len(ratios) == 1 and all(value != 0 and is_rational(value) for value in key.values()):
+            factor = next(iter(ratios))
+            cells = {name: value * factor for name, value in key.items()}
+            yield Candidate(
+                Cause("answer-scaled", weights.ANSWERS["answer-scaled"], was=factor),
+                {typed.part.label: answer_kind(typed.part.kind).value(cells)},
+            )
+
+    def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
+        """Whether these answers are what was typed."""
+        label = typed.part.label
+        if label not in answers:
+            return False
+        try:
+            return typed.near(answer_kind(typed.part.kind).cells(answers[label])) and matches(
+                typed.part, typed.cells, answers
+            )
+        except (*UNDONE, NotImplementedError):
+            return False
+
+
+def _value(right: Expr, known: Mapping[str, Any]) -> Any:
+    try:
+        return value_of(right, known)
+    except UNDONE:
+        return None
+
+
+def _terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tuple[Any, ...], dict[str, Any]]]:
+    """The terms of sums in one another: the values of their letters, and what says so to an edit."""
+    found: list[tuple[Any, ...]] = [()]
+    names = [over.index.name for over in within]
+    try:
+        for depth, over in enumerate(within):
+            found = [
+                (*term, item)
+                for term in found
+                for item in value_of(over.domain, {**known, **dict(zip(names[:depth], term, strict=True))})
+            ]
+    except UNDONE:
+        return
+    if len(found) > _TERMS:
+        return
+    for term in found:
+        yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def _plain(value: Any) -> bool:
+    """Whether a value is one number, of any form."""
+    return is_rational(value) or (
+        not isinstance(value, str | int | tuple | Mapping | Vector) and not is_matrix(value) and hasattr(value, "__add__")
+    )
+
+
+def _distinct(values: Iterable[Any]) -> list[Any]:
+    """The numbers among some values, each once."""
+    return list({str(value): value for value in values if _plain(value)}.values())
+
+
+def _same_form(other: Any, value: Any) -> bool:
+    if is_matrix(value):
+        return is_matrix(other) and (other.nrows(), other.ncols()) == (value.nrows(), value.ncols())
+    if isinstance(value, tuple):
+        return isinstance(other, tuple)
+    return isinstance(other, Vector) if isinstance(value, Vector) else _plain(other)
+
+
+def _equal(one: Any, two: Any) -> bool:
+    try:
+        return bool(one == two)
+    except UNDONE:
+        return False
+
+
+def _hashable(value: Any) -> Any:
+    return tuple(map(str, value.entries())) if is_matrix(value) else str(value)
