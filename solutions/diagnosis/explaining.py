@@ -6,12 +6,13 @@ from itertools import combinations
 from typing import Any
 
 from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis.weights import ALIKE
 from rldrill.solutions.diagnosis.replay import Change
 from rldrill.solutions.diagnosis.search import Candidate, Cause, Clock, Search, Typed, approximate
 from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
-CHANCE = 0.25
+CHANCE = 10
 #: A cause so much less likely than the likeliest is not spoken of.
 NEAR = 0.4
 #: As many answers there must be that could have been typed, before two causes together are believed.
@@ -45,7 +46,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     if chance > CHANCE:
         return Explained((), 0.0)
     share = best.cause.weight / sum(cause.weight for cause in near)
-    return Explained(tuple(near), round(share * (1 - chance / 2), 2))
+    return Explained(tuple(near), round(share / (1 + chance), 2))
 
 
 def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
@@ -137,14 +138,20 @@ def _as_likely(search: Search, cause: Cause) -> float:
 
 
 def _distinct(causes: Sequence[Cause]) -> list[Cause]:
-    """The causes that differ in what is done or where."""
-    found: dict[Any, Cause] = {}
+    """The causes that differ in what is done or where: of those that say the same, the likeliest."""
+    found: list[Cause] = []
     for cause in causes:
-        where = None if cause.application is None else cause.application.number
-        what = cause.mistake.name if cause.mistake else cause.kind
-        part = str(cause.edit.part) if cause.edit else str(cause.probe.part) if cause.probe else cause.what
-        found.setdefault((where, what, part), cause)
-    return list(found.values())
+        if not any(_alike(cause, other) for other in found):
+            found.append(cause)
+    return found
+
+
+def _alike(one: Cause, two: Cause) -> bool:
+    if one.application is not two.application and None not in (one.application, two.application):
+        return False
+    if one.mistake or two.mistake:
+        return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
+    return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
 
 
 def typed_for(part: Any, cells: Mapping[str, Any], key: Mapping[str, Any]) -> Typed:

@@ -206,6 +206,8 @@ class Search:
         alike: dict[Any, list[tuple[Expr, Edit]]] = defaultdict(list)
         for right in uses:
             for edit in edits(right):
+                if edit.kind == "other-taken":
+                    continue
                 alike[edit.kind, edit.part, edit.instead].append((right, edit))
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
         for group in groups:
@@ -221,6 +223,21 @@ class Search:
                     edit,
                 )
                 yield from self._candidate(cause, Change({each: one.right for each, one in chosen}))
+        yield from self._in_terms(uses)
+
+    def _in_terms(self, uses: Mapping[Expr, Sequence[Application]]) -> Iterator[Candidate]:
+        """Every edit in the same term of a sum, wherever it is read."""
+        for right, places in uses.items():
+            if len(places) == 1 or any(place.equation for place in places):
+                continue
+            for edit in edits(right):
+                if edit.once is None:
+                    continue
+                weight = weights.IDEAS[edit.kind] * weights.IN_ONE_TERM
+                terms = {term: at for place in places for term, at in _terms(edit.within, place.known)}
+                for term, at in list(terms.items())[:_TERMS]:
+                    cause = Cause(edit.kind, weight, None, places[0].formula, edit, term=term)
+                    yield from self._candidate(cause, Change({right: edit.once}, letters=at))
 
     def _habits(self) -> Iterator[Candidate]:
         """Old tables kept, new values used too early, the last round left out."""
@@ -281,7 +298,8 @@ class Search:
         for edit in edits(right):
             weight = weights.IDEAS[edit.kind] * weights.AT_ONE
             cause = Cause(edit.kind, weight, application, application.formula, edit)
-            yield cause, Cases(here, edit.right, right), case
+            if edit.kind != "other-taken":
+                yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
                 for term, at in _terms(edit.within, application.known):

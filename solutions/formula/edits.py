@@ -83,6 +83,9 @@ def edits(right: Expr) -> tuple[Edit, ...]:
     right = flat(right)
     for path, part, within in _places(right):
         for kind, new, changed, instead in _changes(part):
+            if kind == "other-taken":  # which other one depends on the application
+                found[part] = _other_taken(right, path, part, within)
+                continue
             edited = _replaced(right, path, new)
             if edited == right or edited in found:
                 continue
@@ -92,6 +95,13 @@ def edits(right: Expr) -> tuple[Edit, ...]:
         if edited != right and edited not in found:
             found[edited] = Edit(kind, edited, changed, instead)
     return tuple(found.values())
+
+
+def _other_taken(right: Expr, path: tuple[int, ...], part: MaxOver, within: tuple[Over, ...]) -> Edit:
+    """Not the greatest is taken, but that of a certain element."""
+    body = _with(part.body, {part.index: sympy.Symbol(element(len(within)))})
+    once = _replaced(right, path, Cases(_here(within), body, part) if within else body)
+    return Edit("other-taken", right, part, None, (*within, part), once)
 
 
 @cache
@@ -194,9 +204,9 @@ def _changes(part: Expr) -> Iterator[Change]:
         yield from _of_set(part)
     elif isinstance(part, Counting):
         first, last, _ = part.args
-        yield "index", Counting(first, Add(last, 1, evaluate=False)), part, None
-        yield "index", Counting(first, Add(last, -1, evaluate=False)), part, None
-        yield "index", Counting(Add(first, 1, evaluate=False), last), part, None
+        yield "range", Counting(first, Add(last, 1, evaluate=False)), part, None
+        yield "range", Counting(first, Add(last, -1, evaluate=False)), part, None
+        yield "range", Counting(Add(first, 1, evaluate=False), last), part, None
     elif isinstance(part, Transposed):
         yield "transposed", part.args[0], part, part.args[0]
     elif isinstance(part, Cases):
@@ -256,11 +266,12 @@ def _of_product(part: Expr) -> Iterator[Change]:
         yield "factor-left-out", _product(_others(factors, place)), factor, None
         if scalar[place]:
             if not factor.is_Pow and not factor.is_Add:
-                yield "squared", _product([*factors, factor]), factor, None
-            if factor.is_Symbol or (isinstance(factor, Quantity) and len(factors) > 1):
+                kind = "squared" if factor.is_Symbol else "squared-value"
+                yield kind, _product([*factors, factor]), factor, None
+            if factor.is_Symbol or isinstance(factor, Quantity):
                 other = Add(sympy.S.One, Mul(sympy.S.NegativeOne, factor, evaluate=False), evaluate=False)
                 changed = _product([*factors[:place], other, *factors[place + 1 :]])
-                yield "complement", changed, factor, other
+                yield "complement" if factor.is_Symbol else "complement-of-value", changed, factor, other
             if factor.is_Symbol or isinstance(factor, Quantity):
                 added = Add(factor, _product(_others(factors, place)), evaluate=False)
                 yield "added", added, part, None
@@ -311,7 +322,7 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
         if argument.is_Symbol and argument.name in TWINS:
             twin = sympy.Symbol(TWINS[argument.name])
             other = part.func(*part.args[:place], twin, *part.args[place + 1 :])
-            yield "index", other, part, other
+            yield "twin", other, part, other
         if isinstance(argument, Quantity):
             for kind, inner, _, _ in _of_quantity(argument):
                 other = part.func(*part.args[:place], inner, *part.args[place + 1 :])
@@ -332,7 +343,9 @@ def _of_set(part: Over) -> Iterator[Change]:
     mine = {MaxOver: "max", MeanOver: "mean", SampleMean: "mean", SumOver: "sum", ProductOver: "product"}
     for name, other in others.items():
         if name != mine.get(type(part)):
-            yield f"{name}-taken", other, part, other
+            yield f"{name}-for-{mine.get(type(part), 'sum')}", other, part, other
+    if isinstance(part, MaxOver):
+        yield "other-taken", part, part, None
 
 
 def _of_choice(part: Node) -> Iterator[Change]:
