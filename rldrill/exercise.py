@@ -4,10 +4,12 @@ import reprlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from numbers import Integral
 from pathlib import Path
 from typing import Any
 
+from rldrill.diagnosis import Diagnosing, Diagnosis
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
 from rldrill.model_file import MODEL_SUFFIXES
@@ -110,6 +112,51 @@ class Exercise:
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
         return grade(self.solution, texts)
+
+    @cached_property
+    def diagnosing(self) -> Diagnosing:
+        """What diagnoses the wrong answers; it keeps what it finds out."""
+        return Diagnosing(self.solution)
+
+    def diagnose(
+        self,
+        answer: object,
+        part: str = "a",
+        earlier: Mapping[str, object] | None = None,
+        seconds: float | None = None,
+    ) -> Diagnosis:
+        """What a wrong answer comes from: a typical mistake, or one thing changed in the working.
+
+        Args:
+            answer: what was typed.
+            part: the part that it answers.
+            earlier: what was answered to earlier parts, for somebody who went on from there.
+            seconds: the time to search; without end if None.
+
+        Raises:
+            UsageError: the problem has no such part, or an answer is nothing that could be typed.
+        """
+        label = self._part(part).label
+        verdicts = {each.part: each.verdict for each in self.grade({**(earlier or {}), label: answer}).parts}
+        if (verdict := verdicts[label]) is None:
+            raise UsageError("The answer is missing; give a text or a number.")
+        return self.diagnosed(label, typed(answer, "The answer"), verdict, verdicts, seconds)
+
+    def diagnosed(
+        self,
+        label: str,
+        text: str,
+        verdict: Verdict,
+        verdicts: Mapping[str, Verdict | None],
+        seconds: float | None = None,
+    ) -> Diagnosis:
+        """What a wrong answer comes from that was judged already, as the earlier ones were."""
+        before = {
+            other: judged.value
+            for other, judged in verdicts.items()
+            if judged is not None and judged.value is not None and other < label and not judged.accepted
+        }
+        return self.diagnosing.diagnose(label, text, verdict, before, seconds)
 
     def _part(self, label: str) -> Part:
         for part in self.parts:

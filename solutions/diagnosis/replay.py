@@ -24,13 +24,13 @@ UNDONE = (NoSolution, NotGiven, NotReal, TooLong, ArithmeticError, LookupError, 
 
 @dataclass(frozen=True, eq=False)
 class Application:
-    """One application of a formula in the right working; ``line`` is its place there.
+    """One application of a formula in the right working; ``nth`` says which of all its steps it is, from 0.
 
     The equations of a system are applications, too, each with the value that the solution gives its unknown.
     """
 
     number: int
-    line: int
+    nth: int
     step: Step
     value: Any
     known: Mapping[str, Any]
@@ -82,7 +82,8 @@ class Recorder(Work):
     def _take_down(self, line: int, value: Any, known: Mapping[str, Any], *, equation: bool) -> None:
         step = self.lines[line]
         assert isinstance(step, Step)
-        self.applications.append(Application(len(self.applications), line, step, value, known, equation))
+        nth = sum(isinstance(each, Step) for each in self.lines[:line])
+        self.applications.append(Application(len(self.applications), nth, step, value, known, equation))
 
 
 def _key(case: Mapping[str, Any]) -> Any:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
+from threading import Event
 from time import perf_counter
 from typing import Any
 
@@ -62,8 +63,9 @@ class Cause:
         edit: how that was edited, if it was.
         probe: the place in it whose value is another one, if there is one.
         term: the term of a sum that it was done in alone, its letters' values.
-        was: the value that was right.
-        became: the value that was taken.
+        was: the value that was right, of the place in the formula if there is one, else of the application.
+        other: the value that was put in for it.
+        became: the value that came out of the application.
         what: of what else is said what it was.
         mistake: the listed mistake that it is, if it is one.
         then: what was done besides.
@@ -77,6 +79,7 @@ class Cause:
     probe: Probe | None = None
     term: tuple[Any, ...] = ()
     was: Any = None
+    other: Any = None
     became: Any = None
     what: str = ""
     mistake: Misconception | None = None
@@ -136,14 +139,17 @@ def approximate(value: Any) -> float:
 
 @dataclass
 class Clock:
-    """How long there is to search; without end where no time is given."""
+    """How long there is to search: some seconds, or until somebody says stop; without either, without end."""
 
     seconds: float | None = None
+    stop: Event | None = None
     _begun: float = field(default_factory=perf_counter)
 
     @property
     def over(self) -> bool:
         """Whether the time is over."""
+        if self.stop is not None and self.stop.is_set():
+            return True
         return self.seconds is not None and perf_counter() - self._begun > self.seconds
 
 
@@ -378,7 +384,7 @@ class Search:
             for kind, other in self._others(probe.part, was, known):
                 weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(terms) > 1 else 1)
                 cause = Cause(
-                    kind, weight, application, application.formula, probe=probe, term=term, was=was, what=str(other)
+                    kind, weight, application, application.formula, probe=probe, term=term, was=was, other=other
                 )
                 yield cause, {**at, SCALE.name: fmpq(0), SHIFT.name: other}
 

@@ -281,7 +281,7 @@ def rewritten(line: Any, rewrite: Rewrite, depth: int = 0) -> Iterator[tuple[tup
             continue
         for path, other in rewritten(part, rewrite, depth + 1):
             arguments = [*line.args[:place], other, *line.args[place + 1 :]]
-            if line.is_Add or line.is_Mul or line.is_Pow:
+            if line.is_Add or line.is_Mul or line.is_Pow or isinstance(line, sympy.exp | sympy.log):
                 yield (place, *path), line.func(*arguments, evaluate=False)
             else:
                 yield (place, *path), line.func(*arguments)

@@ -1,5 +1,6 @@
 """Measures the diagnosis over all families: ``python tests/diagnosis/measure.py [--seeds N] [family ...]``."""
 
+import random
 import sys
 import time
 from collections import Counter, defaultdict
@@ -109,6 +110,11 @@ def main() -> None:
         at = arguments.index("--budget")
         budget = float(arguments[at + 1])
         del arguments[at : at + 2]
+    sample = 0
+    if "--sample" in arguments:
+        at = arguments.index("--sample")
+        sample = int(arguments[at + 1])
+        del arguments[at : at + 2]
     verbose = "-v" in arguments
     arguments = [a for a in arguments if a != "-v"]
     total, kinds, families, times = Counter(), defaultdict(Counter), defaultdict(Counter), defaultdict(list)
@@ -128,7 +134,10 @@ def main() -> None:
                     cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
                     return Typed(part, cells, kind.cells(solution.answers[label]))
                 begun = time.perf_counter()
-                for error in erroneous(solution, seed):
+                errors = erroneous(solution, seed)
+                if sample:
+                    errors = random.Random(seed).sample(errors, min(sample, len(errors)))
+                for error in errors:
                     t = typed(error.part, error.text)
                     if not t.wrong:
                         continue
@@ -152,7 +161,7 @@ def main() -> None:
                 for part in solution.problem.parts:
                     if not numeric(solution, part.label):
                         continue
-                    for n in range(6):
+                    for n in range(3):
                         text = random_wrong(solution, part.label, n)
                         if text is None:
                             continue
