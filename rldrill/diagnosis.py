@@ -61,6 +61,12 @@ class Diagnosis:
         """Whether it says anything that the verdict does not."""
         return self.kind not in ("right", "unreadable", "unexplained")
 
+    def of(self, verdict: Verdict) -> str:
+        """What is said of an answer that was judged so: which entries are wrong, and what they come from."""
+        if self.sentence == verdict.says or verdict.outcome is Outcome.CLOSE or not verdict.wrong_cells:
+            return self.sentence
+        return f"{verdict.says} {self.sentence}"
+
     def to_json(self) -> dict[str, Any]:
         """The diagnosis as JSON has it."""
         where = None if self.place is None else {"formula": self.place.formula, "step": self.place.step}

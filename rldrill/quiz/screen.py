@@ -117,6 +117,7 @@ class Screen:
             self._print(asked(part.part, only=only))
             self._print(words((f"  {answer_kind(part.part.kind).how_to_type()}", "dim")))
             self._print(words((f"  {KEYS}", "dim")))
+            record.exercise.diagnosing.begin()
             then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
             if then is not Then.NEXT:
                 return then
@@ -163,7 +164,7 @@ class Screen:
                 case _:
                     verdict = record.answer(part, text).verdict
                     if verdict is not None:
-                        self._verdict(verdict, record.exercise, part)
+                        self._verdict(verdict, record, part)
         self._print()
         return Then.NEXT
 
@@ -174,17 +175,18 @@ class Screen:
             return self._after(record)
         return {"v": Then.VARIANT, "r": Then.RESTART, "q": Then.QUIT}.get(text, Then.NEXT)
 
-    def _verdict(self, verdict: Verdict, exercise: Exercise, part: PartRecord) -> None:
-        style = _STYLES[verdict.outcome]
+    def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
+        diagnosis = record.diagnosis(part)
+        explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
+        outcome = Outcome.WRONG if explained else verdict.outcome
+        says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
         read = f"  (read as {verdict.read})" if verdict.read else ""
-        self._print(words("  ", (_WORDS[verdict.outcome], f"bold {style}"), f" {verdict.says}", (read, "dim")))
-        for misconception in verdict.told:
-            for formula in exercise.formulas(part.part.label):
-                if misconception in formula.misread:
-                    self._print(Text("  Your answer comes from this:", style="dim"))
-                    self._indented(renderable(formula.equation(formula.misread[misconception])))
-                    self._print(Text("  The formula is:", style="dim"))
-                    self._indented(renderable(formula.equation(formula.right)))
+        self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
+        if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
+            self._print(Text("  Your answer comes from this:", style="dim"))
+            self._indented(renderable(diagnosis.wrong))
+            self._print(Text("  The formula is:", style="dim"))
+            self._indented(renderable(diagnosis.right))
         if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
             self._print(Text("  Try again, or h for a hint, w for the working, s to go on.", style="dim"))
 

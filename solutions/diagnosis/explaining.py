@@ -27,6 +27,8 @@ class Explained:
 
     causes: tuple[Cause, ...]
     confidence: float
+    chance: float = 0.0
+    every: tuple[Cause, ...] = ()
 
 
 def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
@@ -34,7 +36,9 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     room = _room(typed, exact=True)
     found = [*_single(search, typed, clock)]
     if not found and room >= ROOM_FOR_TWO:
-        found = [*_apart(search, typed, clock)] or [*_one_after_the_other(search, typed, clock)]
+        found = [*_apart(search, typed, clock)] or [
+            each for each in search.in_turn(typed, clock) if search.fits(typed, each.answers)
+        ]
     if not found:
         return Explained((), 0.0)
     found.sort(key=lambda candidate: -candidate.cause.weight)
@@ -43,10 +47,11 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     chance = _as_likely(search, best.cause) / room
     near = [each.cause for each in found if each.cause.weight >= NEAR * best.cause.weight]
     near = _distinct(near)
+    every = tuple(_distinct([each.cause for each in found]))
     if chance > CHANCE:
-        return Explained((), 0.0)
+        return Explained((), 0.0, chance, every)
     share = best.cause.weight / sum(cause.weight for cause in near)
-    return Explained(tuple(near), round(share / (1 + chance), 2))
+    return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)
 
 
 def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
@@ -91,11 +96,6 @@ def _together(first: Cause, second: Cause) -> Cause:
     weight = first.weight * second.weight / 100
     one, two = sorted((first, second), key=lambda cause: cause.application.number if cause.application else -1)
     return replace(one, weight=weight, then=two)
-
-
-def _one_after_the_other(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
-    """Two causes, the second one in a working that goes on from the first."""
-    return iter(())
 
 
 def _room(typed: Typed, *, exact: bool) -> float:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy import Expr
 
@@ -111,12 +111,17 @@ class Change:
     habit: Habit | None = None
 
 
+#: An application in a changed working: its number, the right side, what was known, and its value.
+Traced: TypeAlias = tuple[int, Expr, Mapping[str, Any], Any]
+
+
 class Replay(Work):
     """A notebook in which the change is made, and nothing is written down."""
 
-    def __init__(self, change: Change, carried: Mapping[str, Any], limit: int) -> None:
+    def __init__(self, change: Change, carried: Mapping[str, Any], limit: int, trace: list[Traced] | None = None) -> None:
         super().__init__(carried=carried)
         self.change = change
+        self.trace = trace
         self.limit = limit
         self.number = 0
         self.found: dict[str, dict[Any, Any]] = {}
@@ -139,6 +144,8 @@ class Replay(Work):
         if self.change.habit:
             known = dict(self.change.habit(self, formula, known))
         value = _bounded(tidy(value_of(right, {**known, **self.change.letters})))
+        if self.trace is not None:
+            self.trace.append((number, right, known, value))
         if self.change.habit:
             left = formula.left
             if isinstance(left, Quantity) and left.code in known:
@@ -188,9 +195,11 @@ def recorded(problem: Problem, carried: Mapping[str, Any]) -> Recorder:
     return work
 
 
-def replayed(problem: Problem, change: Change, carried: Mapping[str, Any], steps: int) -> Mapping[str, Any] | None:
-    """The answers of the changed working; None where it leads to none."""
-    work = Replay(change, carried, _LONGER * steps + 100)
+def replayed(
+    problem: Problem, change: Change, carried: Mapping[str, Any], steps: int, trace: list[Traced] | None = None
+) -> Mapping[str, Any] | None:
+    """The answers of the changed working; None where it leads to none. Its applications are added to ``trace``."""
+    work = Replay(change, carried, _LONGER * steps + 100, trace)
     try:
         solver(problem.family).solve(problem.given, work)
     except UNDONE:

@@ -22,6 +22,7 @@ Words: TypeAlias = tuple[str | Math, ...]
 _EDITS = {
     "term-left-out": "{part} is missing",
     "factor-left-out": "the factor {part} is missing",
+    "bracket-left-out": "the factor {part} is missing",
     "sign": "{part} has the wrong sign",
     "twice": "{part} is counted twice",
     "difference": "{part} is taken with the opposite sign",

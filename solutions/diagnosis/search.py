@@ -26,6 +26,7 @@ from rldrill.solutions.diagnosis.replay import (
     Change,
     Recorder,
     Replay,
+    Traced,
     recorded,
     replayed,
     with_givens,
@@ -48,6 +49,10 @@ _NEAR, _NEAR_ZERO = 0.012, 0.0011
 _ELSEWHERE = 12
 #: A sum of more terms than this is not edited term by term.
 _TERMS = 8
+#: Two slips are each of at least this weight, and the first is one of so many.
+_LIKELY, _FIRST = 1.5, 12
+#: So many pairs of places are tried.
+_TRIES = 300
 _NOT_COMPUTED = float("nan")
 
 
@@ -175,9 +180,9 @@ class Search:
         """All applications of formulas in it."""
         return self.work.applications
 
-    def replay(self, change: Change) -> Mapping[str, Any] | None:
+    def replay(self, change: Change, trace: list[Traced] | None = None) -> Mapping[str, Any] | None:
         """The answers of a changed working."""
-        return replayed(self.problem, change, self.carried, len(self.applications))
+        return replayed(self.problem, change, self.carried, len(self.applications), trace)
 
     # The whole working ------------------------------------------------------------------------------
     def whole(self, clock: Clock) -> list[Candidate]:
@@ -491,6 +496,68 @@ class Search:
 
         return changed, predict
 
+    def in_turn(self, typed: Typed, clock: Clock) -> Iterator[Candidate]:
+        """Two slips, the second one in a working that goes on from the first."""
+        bearing = [each for each in self.applications if self._predicted(each, typed) is not None]
+        numbers = {each.number for each in bearing}
+        tries = _TRIES
+        for application in bearing:
+            for first in self.alternatives(application)[:_FIRST]:
+                if clock.over or tries < 0:
+                    return
+                if first.weight < _LIKELY:
+                    break
+                trace: list[Traced] = []
+                if self.replay(Change(values={application.number: first.became}), trace) is None:
+                    continue
+                for traced in trace:
+                    if traced[0] > application.number and traced[0] in numbers and _plain(traced[3]):
+                        tries -= 1
+                        yield from self._then(typed, application, first, traced)
+
+    def _then(self, typed: Typed, application: Application, first: Cause, traced: Traced) -> Iterator[Candidate]:
+        number, right, known, value = traced
+        values = {application.number: first.became}
+        wanted = self._wanted(typed, values, number, value)
+        if wanted is None:
+            return
+        second = self.applications[number] if number < len(self.applications) else None
+        for kind, weight, edit, other in _likely(right, known, value):
+            if near(approximate(other), wanted):
+                answers = self.replay(Change(values={**values, number: other}))
+                if answers is not None:
+                    formula = second.formula if second else None
+                    then = Cause(kind, weight, second, formula, edit, was=value, became=other)
+                    yield Candidate(replace(first, weight=first.weight * weight / 100, then=then), answers)
+
+    def _wanted(self, typed: Typed, values: Mapping[int, Any], number: int, value: Any) -> float | None:
+        """What a later value would have to be for the typed answer to come out, if a straight line leads there."""
+        kind, label = answer_kind(typed.part.kind), typed.part.label
+        heights = []
+        for other in (value, value + 1, value - 3):
+            answers = self.replay(Change(values={**values, number: other}))
+            if answers is None or label not in answers:
+                return None
+            try:
+                cells = kind.cells(answers[label])
+                heights.append({name: approximate(cells[name]) for name in typed.sizes})
+            except UNDONE:
+                return None
+        wanted: float | None = None
+        for name, size in typed.sizes.items():
+            at, one, minus = (height[name] for height in heights)
+            slope = one - at
+            if not abs(at - 3 * slope - minus) <= 1e-9 * (abs(minus) + 1):
+                return None
+            if slope == 0:
+                if not near(at, size):
+                    return None
+            elif wanted is None:
+                wanted = (size - at) / slope
+            elif not near(at + slope * wanted, size):
+                return None
+        return None if wanted is None else approximate(value) + wanted
+
     # The answer itself ------------------------------------------------------------------------------
     def written_down(self, typed: Typed) -> Iterator[Candidate]:
         """What can go wrong between the working and the answer."""
@@ -558,6 +625,19 @@ class Search:
             )
         except (*UNDONE, NotImplementedError):
             return False
+
+
+def _likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:
+    """The likeliest other values of an application in a changed working."""
+    for kind, other in slips(value):
+        if (weight := weights.VALUES[kind]) >= _LIKELY:
+            yield kind, weight, None, other
+    for edit in edits(right):
+        weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+        if weight >= _LIKELY and edit.kind != "other-taken":
+            other = _value(edit.right, known)
+            if other is not None and _plain(other) and other != value:
+                yield edit.kind, weight, edit, other
 
 
 def _value(right: Expr, known: Mapping[str, Any]) -> Any:

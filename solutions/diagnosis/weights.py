@@ -31,6 +31,7 @@ IDEAS = {
     "max-for-mean": 1.5,
     "power-as-product": 2.0,
     "confused": 1.8,
+    "bracket-left-out": 1.7,
     "squared": 1.6,
     "twice": 1.4,
     "twin": 1.3,

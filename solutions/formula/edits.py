@@ -263,7 +263,8 @@ def _of_product(part: Expr) -> Iterator[Change]:
         if factor == -1:
             yield "sign", _product(_others(factors, place)), _unsigned(part), None
             continue
-        yield "factor-left-out", _product(_others(factors, place)), factor, None
+        kind = "bracket-left-out" if factor.is_Add or isinstance(factor, Over) else "factor-left-out"
+        yield kind, _product(_others(factors, place)), factor, None
         if scalar[place]:
             if not factor.is_Pow and not factor.is_Add:
                 kind = "squared" if factor.is_Symbol else "squared-value"

@@ -78,6 +78,8 @@ def _worth(expression: Any) -> Any:
         if is_matrix(base):
             return base.inv() if power == -1 else _fail()
         return base**power if power >= 0 else 1 / base**-power
+    if isinstance(expression, sympy.Abs):
+        return abs(_worth(expression.args[0]))
     if isinstance(expression, sympy.exp):
         inner = _worth(expression.args[0])
         return sympy.exp(sympy.sympify(inner)) if is_rational(inner) and inner else _fail()
@@ -281,7 +283,7 @@ def rewritten(line: Any, rewrite: Rewrite, depth: int = 0) -> Iterator[tuple[tup
             continue
         for path, other in rewritten(part, rewrite, depth + 1):
             arguments = [*line.args[:place], other, *line.args[place + 1 :]]
-            if line.is_Add or line.is_Mul or line.is_Pow or isinstance(line, sympy.exp | sympy.log):
+            if line.is_Add or line.is_Mul or line.is_Pow or isinstance(line, sympy.exp | sympy.log | sympy.Abs):
                 yield (place, *path), line.func(*arguments, evaluate=False)
             else:
                 yield (place, *path), line.func(*arguments)

@@ -20,8 +20,8 @@ from rldrill.solutions.drawing import draw
 #: What may be said of an error, by the names of the program's causes.
 TERM = {"term-left-out", "factor-left-out", "case"}
 ACCEPTED = {
-    "term_lost": {"term-left-out", "factor-left-out", "index", "range", "twin", "case", "choice", "elsewhere", "confused"},
-    "factor_lost": {"factor-left-out", "term-left-out", "doubled", "halved", "tenfold", "power", "inverse", "elsewhere", "index", "sign"},
+    "term_lost": {"bracket-left-out", "term-left-out", "factor-left-out", "index", "range", "twin", "case", "choice", "elsewhere", "confused"},
+    "factor_lost": {"bracket-left-out", "factor-left-out", "term-left-out", "doubled", "halved", "tenfold", "power", "inverse", "elsewhere", "index", "sign"},
     "sign_turned": {"sign", "minus-lost", "difference", "twice"},
     "bracket_lost": {"bracket"},
     "bracket_widened": {"bracket"},
@@ -62,7 +62,7 @@ ACCEPTED = {
 }
 
 
-def right(error: Erroneous, causes, solution) -> str:
+def right(error: Erroneous, causes, solution, steps) -> str:
     """right, place (only), kind (only) or wrong."""
     best = "wrong"
     for cause in causes:
@@ -73,8 +73,9 @@ def right(error: Erroneous, causes, solution) -> str:
                 return "listed"
             continue
         if error.twofold:
+            at = None if error.place is None else steps[error.place]
             places = {c.application.number for c in (cause, cause.then) if c and c.application}
-            if error.place in places or cause.then is not None:
+            if at in places or cause.then is not None:
                 return "right"
             continue
         kinds = ACCEPTED[error.kind]
@@ -86,7 +87,7 @@ def right(error: Erroneous, causes, solution) -> str:
             place = cause.application is None and cause.formula is not None and cause.formula.key == error.formula
             place = place or (cause.application is not None and cause.formula is not None and cause.formula.key == error.formula)
         else:
-            place = error.place in numbers or (
+            place = steps[error.place] in numbers or (
                 cause.application is None and (cause.formula is None or cause.formula.key == error.formula)
             )
         if kind and place:
@@ -128,6 +129,7 @@ def main() -> None:
             for seed in range(100, 100 + seeds):
                 solution = draw(family.name, level, seed)
                 search = Search(solution)
+                steps = [each.number for each in search.applications if not each.equation]
                 keys = {p.label: (p, answer_kind(p.kind)) for p in solution.problem.parts}
                 def typed(label, text):
                     part, kind = keys[label]
@@ -145,9 +147,12 @@ def main() -> None:
                     result = explained(search, t, Clock(budget))
                     spent = (time.perf_counter() - begun) * 1000
                     times[family.name].append(spent)
-                    verdict = "none" if not result.causes or len(result.causes) > 2 else right(error, result.causes, solution)
+                    verdict = "none" if not result.causes or len(result.causes) > 2 else right(error, result.causes, solution, steps)
                     if verdict == "none" and len(result.causes) > 2:
                         verdict = "many"
+                    if verbose:
+                        ok = [c.kind for c in result.every if right(error, [c], solution, steps) in ("right", "listed")]
+                        print("REC", family.name, verdict, error.kind, f"{result.chance:.4g}", [(c.kind, round(c.weight, 3), c.kind in ok) for c in result.every])
                     total[verdict] += 1
                     kinds[error.kind if not error.twofold else "two slips"][verdict] += 1
                     families[family.name][verdict] += 1
@@ -170,6 +175,8 @@ def main() -> None:
                             continue
                         result = explained(search, t, Clock(budget))
                         tried[family.name] += 1
+                        if verbose:
+                            print("REC", family.name, "RANDOM", "-", f"{result.chance:.4g}", [(c.kind, round(c.weight, 3), False) for c in result.every])
                         if result.causes and len(result.causes) <= 2:
                             accused[family.name] += 1
                             if verbose:
