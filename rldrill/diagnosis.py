@@ -10,6 +10,7 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.diagnosis.explaining import Explained, explained
+from rldrill.solutions.diagnosis.following import Line, Standing, follow
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
 from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed
@@ -203,3 +204,67 @@ def _place(cause: Cause) -> Place | None:
 
 def _sentence(words: Words) -> str:
     return "".join(word if isinstance(word, str) else unicode(word) for word in words)
+
+
+@dataclass(frozen=True, slots=True)
+class FollowedLine:
+    """One line of somebody's own working.
+
+    Args:
+        text: what was written.
+        standing: ``right``; ``follows`` from a line that departed; ``miscalculated`` where its own sides are not equal;
+            ``departs`` from the working; ``unread``.
+        sentence: what is said of it; empty where all is well.
+        step: the number of the step that it gives, among all steps of the working, from 0.
+        kind: what it comes from, where it departs and that is known.
+    """
+
+    text: str
+    standing: str
+    sentence: str = ""
+    step: int | None = None
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """Somebody's own working, held against the right one; ``first`` is the number of the first line that departs."""
+
+    lines: tuple[FollowedLine, ...]
+
+    @property
+    def first(self) -> int | None:
+        """The number of the first line that goes wrong, from 0; None where none does."""
+        wrong = (Standing.DEPARTS.value, Standing.MISCALCULATED.value)
+        return next((number for number, line in enumerate(self.lines) if line.standing in wrong), None)
+
+    @property
+    def sentence(self) -> str:
+        """What is said of the whole."""
+        if self.first is not None:
+            return self.lines[self.first].sentence
+        if all(line.standing == Standing.UNREAD.value for line in self.lines):
+            return "No line of this could be read; write lines such as “V1 = 8 + 1/2*4 = 10”."
+        return "All of this is right as far as it goes."
+
+
+def followed(search: Search, texts: Sequence[str]) -> Followed:
+    """Each line of a working, held against the right one."""
+    return Followed(tuple(_followed(line, search.applications) for line in follow(search, texts)))
+
+
+def _followed(line: Line, applications: Sequence[Application]) -> FollowedLine:
+    step = None if line.application is None else line.application.nth
+    where = "" if line.application is None else _sentence(place(line.application, applications))
+    said, kind = "", ""
+    if line.standing is Standing.UNREAD:
+        said = "This line was not understood, and is passed over."
+    elif line.standing is Standing.MISCALCULATED:
+        one, two = line.sides
+        said, kind = f"{one.echo} is not {two.echo}: a slip of arithmetic{where}.", "arithmetic"
+    elif line.standing is Standing.DEPARTS:
+        said = f"Here the working goes wrong{where}."
+        if line.causes:
+            causes = ", or ".join(_sentence(saying(cause, applications)) for cause in line.causes)
+            said, kind = f"Here it goes wrong: it looks as if {causes}.", line.causes[0].kind
+    return FollowedLine(line.text, line.standing.value, said, step, kind)

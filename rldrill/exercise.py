@@ -1,7 +1,7 @@
 """The library: a problem with its solution, drawn or of your own, that can be shown, solved, checked and graded."""
 
 import reprlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -9,7 +9,7 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any
 
-from rldrill.diagnosis import Diagnosing, Diagnosis
+from rldrill.diagnosis import Diagnosing, Diagnosis, Followed, followed
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
 from rldrill.model_file import MODEL_SUFFIXES
@@ -157,6 +157,15 @@ class Exercise:
             if judged is not None and judged.value is not None and other < label and not judged.accepted
         }
         return self.diagnosing.diagnose(label, text, verdict, before, seconds)
+
+    def follow(self, lines: Iterable[str] | str) -> Followed:
+        """Somebody's own working held against the right one: where it departs, and what follows from there.
+
+        Args:
+            lines: as a person writes them, such as ``V1 = 8 + 1/2*4 = 10`` or a bare number; steps may be left out.
+        """
+        texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
+        return followed(self.diagnosing.search({}), texts)
 
     def _part(self, label: str) -> Part:
         for part in self.parts:

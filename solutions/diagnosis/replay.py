@@ -139,6 +139,8 @@ class Replay(Work):
         if number in self.change.values:
             self._count()
             self._again[_same(formula, known)] = value = self.change.values[number]
+            if self.trace is not None:
+                self.trace.append((number, formula.right, known, value))
             return value
         right = self.reading(formula) if right is None else self.change.rights.get(right, right)
         if self.change.habit:
@@ -168,6 +170,8 @@ class Replay(Work):
         for case in cases:
             if self.number in self.change.values:
                 solution[_key(case)] = self.change.values[self.number]
+            if self.trace is not None:
+                self.trace.append((self.number, formula.right, named, solution[_key(case)]))
             self.number += 1
         return solution
 
