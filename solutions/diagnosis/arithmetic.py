@@ -47,6 +47,7 @@ def _of_rational(value: fmpq) -> Iterator[Slip]:
         yield "denominator", fmpq(top, bottom + 1)
         if bottom > 2:
             yield "denominator", fmpq(top, bottom - 1)
+    if abs(top) != bottom:
         yield "inverse", fmpq(bottom, top)
     for other in _digits_swapped(abs(top)):
         yield "digits", fmpq(other if top > 0 else -other, bottom)

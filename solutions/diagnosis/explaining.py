@@ -44,7 +44,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
     room = _room(typed, exact=_exactly(typed, best))
-    chance = _as_likely(search, best.cause) / room
+    chance = _as_likely(search, typed, best.cause) / room
     near = [each.cause for each in found if each.cause.weight >= NEAR * best.cause.weight]
     near = _distinct(near)
     every = tuple(_distinct([each.cause for each in found]))
@@ -126,15 +126,11 @@ def _exactly(typed: Typed, candidate: Candidate) -> bool:
     )
 
 
-def _as_likely(search: Search, cause: Cause) -> float:
-    """How many causes are as likely as this one, or likelier."""
+def _as_likely(search: Search, typed: Typed, cause: Cause) -> float:
+    """How many causes are as likely as this one, or likelier, of those that spoil the same cells and no others."""
     if cause.then is not None:
-        return 20_000
-    count = sum(each.cause.weight >= cause.weight for each in search.whole(Clock(0)))
-    for application in search.applications:
-        if application.number in search.known_alternatives:
-            count += sum(each.weight >= cause.weight for each in search.alternatives(application))
-    return max(1, count)
+        return ROOM_FOR_TWO
+    return max(1, sum(weight >= cause.weight for weight in search.rivals(typed)))
 
 
 def _distinct(causes: Sequence[Cause]) -> list[Cause]:

@@ -101,13 +101,13 @@ class Change:
     Args:
         rights: right sides that are exchanged for others, wherever they are read.
         values: for the numbers of applications, other values that come out.
-        letters: what the exchanged right sides need besides.
+        letters: what the exchanged right sides need besides; or what gives that for what is known.
         habit: what is done with what is known before every application.
     """
 
     rights: Mapping[Expr, Expr] = field(default_factory=dict)
     values: Mapping[int, Any] = field(default_factory=dict)
-    letters: Mapping[str, Any] = field(default_factory=dict)
+    letters: Mapping[str, Any] | Callable[[Mapping[str, Any]], Mapping[str, Any]] = field(default_factory=dict)
     habit: Habit | None = None
 
 
@@ -145,7 +145,7 @@ class Replay(Work):
         right = self.reading(formula) if right is None else self.change.rights.get(right, right)
         if self.change.habit:
             known = dict(self.change.habit(self, formula, known))
-        value = _bounded(tidy(value_of(right, {**known, **self.change.letters})))
+        value = _bounded(tidy(value_of(right, {**known, **self._letters(known)})))
         if self.trace is not None:
             self.trace.append((number, right, known, value))
         if self.change.habit:
@@ -161,12 +161,12 @@ class Replay(Work):
         same = _same(formula, known)
         if same in self._again:
             return self._again[same]
-        return _bounded(super().value(formula, **known, **self.change.letters))
+        return _bounded(super().value(formula, **known, **self._letters(known)))
 
     def system(self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any) -> Any:
         """The solution, changed where its values are."""
         cases = list(cases)
-        solution = super().system(formula, unknown, cases, **named, **self.change.letters)
+        solution = super().system(formula, unknown, cases, **named, **self._letters(named))
         for case in cases:
             if self.number in self.change.values:
                 solution[_key(case)] = self.change.values[self.number]
@@ -174,6 +174,10 @@ class Replay(Work):
                 self.trace.append((self.number, formula.right, named, solution[_key(case)]))
             self.number += 1
         return solution
+
+    def _letters(self, known: Mapping[str, Any]) -> Mapping[str, Any]:
+        letters = self.change.letters
+        return letters(known) if callable(letters) else letters
 
     def _count(self) -> None:
         self.limit -= 1

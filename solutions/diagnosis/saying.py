@@ -48,6 +48,8 @@ _EDITS = {
     "case": "the wrong case is taken in {part}",
     "choice": "{instead} is taken without the choice",
     "function": "{instead} stands where {part} belongs",
+    "summand-left-out": "the term is missing",
+    "summand-sign": "the term has the wrong sign",
     "smallest": "the smallest is taken, not the greatest",
     "other-taken": "the value of another action than the best is taken",
     "mean-for-max": "the mean is taken, not the maximum",
@@ -72,6 +74,7 @@ _INSIDE = {
     "elsewhere": "{became} is put in for {part}, which is {was}",
     "digits": "the digits of {part} = {was} are exchanged: {became}",
     "inverse": "{part} = {was} is upside down",
+    "crosswise": "the fractions of {part} are added top to top and bottom to bottom",
     "": "{became} is put in for {part}, which is {was}",
 }
 #: What happened to the value that a step gives.
@@ -199,6 +202,8 @@ GLYPHS_T = next((glyph for symbol, glyph in GLYPHS.items() if symbol.name == "t"
 
 def _term(cause: Cause) -> Words:
     within = cause.edit.within if cause.edit is not None else cause.probe.within if cause.probe is not None else ()
+    if not cause.term and cause.nth is not None:
+        return (f" in the {_ordinal(cause.nth)} term of the sum",)
     if not cause.term:
         return ()
     pairs = [

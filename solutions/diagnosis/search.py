@@ -33,7 +33,7 @@ from rldrill.solutions.diagnosis.replay import (
 )
 from rldrill.solutions.exact import enclosure, is_rational
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.edits import SCALE, SHIFT, Edit, Probe, edits, element, probes
+from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.formula.nodes.sets import Over
@@ -68,6 +68,7 @@ class Cause:
         edit: how that was edited, if it was.
         probe: the place in it whose value is another one, if there is one.
         term: the term of a sum that it was done in alone, its letters' values.
+        nth: the number of that term, from 0, where it was done in every sum.
         was: the value that was right, of the place in the formula if there is one, else of the application.
         other: the value that was put in for it.
         became: the value that came out of the application.
@@ -87,6 +88,7 @@ class Cause:
     other: Any = None
     became: Any = None
     what: str = ""
+    nth: int | None = None
     mistake: Misconception | None = None
     then: "Cause | None" = None
 
@@ -168,6 +170,7 @@ class Search:
         self._whole: list[Candidate] = []
         self._unfinished: Iterator[Candidate] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
+        self._rivals: dict[Any, list[float]] = {}
         self._responses: dict[int, list[tuple[Any, Mapping[str, Any] | None]]] = {}
 
     @cached_property
@@ -217,7 +220,7 @@ class Search:
         alike: dict[Any, list[tuple[Expr, Edit]]] = defaultdict(list)
         for right in uses:
             for edit in edits(right):
-                if edit.kind == "other-taken":
+                if edit.kind in IN_ONE_TERM:
                     continue
                 alike[edit.kind, edit.part, edit.instead].append((right, edit))
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
@@ -245,10 +248,12 @@ class Search:
                 if edit.once is None:
                     continue
                 weight = weights.IDEAS[edit.kind] * weights.IN_ONE_TERM
-                terms = {term: at for place in places for term, at in _terms(edit.within, place.known)}
-                for term, at in list(terms.items())[:_TERMS]:
-                    cause = Cause(edit.kind, weight, None, places[0].formula, edit, term=term)
-                    yield from self._candidate(cause, Change({right: edit.once}, letters=at))
+                terms = [[term for term, _ in _terms(edit.within, place.known)] for place in places]
+                for nth in range(max(map(len, terms))):
+                    same = {each[nth] for each in terms if len(each) > nth}
+                    term = next(iter(same)) if len(same) == 1 else ()
+                    cause = Cause(edit.kind, weight, None, places[0].formula, edit, term=term, nth=nth)
+                    yield from self._candidate(cause, Change({right: edit.once}, letters=_nth(edit.within, nth)))
 
     def _habits(self) -> Iterator[Candidate]:
         """Old tables kept, new values used too early, the last round left out."""
@@ -309,7 +314,7 @@ class Search:
         for edit in edits(right):
             weight = weights.IDEAS[edit.kind] * weights.AT_ONE
             cause = Cause(edit.kind, weight, application, application.formula, edit)
-            if edit.kind != "other-taken":
+            if edit.kind not in IN_ONE_TERM:
                 yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
@@ -351,13 +356,15 @@ class Search:
             return
         for edit in edits(right):
             weight = weights.IDEAS[edit.kind] * weights.AT_ONE
-            if (other := _value(edit.right, known)) is not None and _same_form(other, value):
-                yield replace(base, kind=edit.kind, weight=weight, edit=edit, became=other)
+            if edit.kind in IN_ONE_TERM:
+                pass
+            elif (other := _value(edit.right, known)) is not None and _same_form(other, value):
+                yield replace(base, kind=edit.kind, weight=weight * _likely_there(edit, (), known), edit=edit, became=other)
             if edit.once is not None:
-                for term, at in _terms(edit.within, known):
+                for term, at in list(_terms(edit.within, known))[:_TERMS]:
                     other = _value(edit.once, {**known, **at})
                     if other is not None and _same_form(other, value):
-                        in_term = weight * weights.IN_ONE_TERM
+                        in_term = weight * weights.IN_ONE_TERM * _likely_there(edit, term, known)
                         yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
         for probe in probes(right):
             for cause, letters in self._at(application, probe):
@@ -386,7 +393,7 @@ class Search:
             was = _value(probe.part, here)
             if was is None or is_matrix(was) or isinstance(was, Vector) or not hasattr(was, "__add__"):
                 continue
-            for kind, other in self._others(probe.part, was, known):
+            for kind, other in self._others(probe.part, was, here):
                 weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(terms) > 1 else 1)
                 cause = Cause(
                     kind, weight, application, application.formula, probe=probe, term=term, was=was, other=other
@@ -395,6 +402,8 @@ class Search:
 
     def _others(self, part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         leaf = isinstance(part, Quantity) or part.is_Symbol
+        if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
+            yield "crosswise", crosswise
         for kind, other in slips(was):
             lost = kind == "sign" and leaf and is_rational(was) and was < 0
             yield "minus-lost" if lost else kind, other
@@ -558,6 +567,30 @@ class Search:
                 return None
         return None if wanted is None else approximate(value) + wanted
 
+    def rivals(self, typed: Typed) -> list[float]:
+        """How likely the causes are that spoil just the cells that are wrong, one for each answer that they give."""
+        spoilt = frozenset(typed.wrong)
+        key = typed.part.label, spoilt
+        if key not in self._rivals:
+            kind = answer_kind(typed.part.kind)
+            found: dict[str, float] = {}
+            for candidate in self._whole:
+                if typed.part.label in candidate.answers:
+                    try:
+                        cells = kind.cells(candidate.answers[typed.part.label])
+                    except UNDONE:
+                        continue
+                    if {name for name in typed.key if not _equal(cells.get(name), typed.key[name])} == spoilt:
+                        answer = str([str(cells[name]) for name in typed.wrong])
+                        found[answer] = max(candidate.cause.weight, found.get(answer, 0.0))
+            rivals = list(found.values())
+            for application in self.applications:
+                predicted = self._predicted(application, typed)
+                if predicted is not None and predicted[0] == spoilt and application.number in self._alternatives:
+                    rivals += [cause.weight for cause in self.alternatives(application)]
+            self._rivals[key] = rivals
+        return self._rivals[key]
+
     # The answer itself ------------------------------------------------------------------------------
     def written_down(self, typed: Typed) -> Iterator[Candidate]:
         """What can go wrong between the working and the answer."""
@@ -634,10 +667,18 @@ def _likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple
             yield kind, weight, None, other
     for edit in edits(right):
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
-        if weight >= _LIKELY and edit.kind != "other-taken":
+        if weight >= _LIKELY and edit.kind not in IN_ONE_TERM:
             other = _value(edit.right, known)
             if other is not None and _plain(other) and other != value:
                 yield edit.kind, weight, edit, other
+
+
+def _crosswise(part: Expr, known: Mapping[str, Any]) -> fmpq | None:
+    """Two fractions added top to top and bottom to bottom."""
+    one, two = (_value(term, known) for term in part.args)
+    if not is_rational(one) or not is_rational(two) or 1 in (one.q, two.q) or one.q == two.q:
+        return None
+    return fmpq(one.p + two.p, one.q + two.q)
 
 
 def _value(right: Expr, known: Mapping[str, Any]) -> Any:
@@ -660,10 +701,29 @@ def _terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[t
             ]
     except UNDONE:
         return
-    if len(found) > _TERMS:
-        return
     for term in found:
         yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
+    """The letters of the nth term, whatever the application; of none where there are fewer."""
+
+    def letters(known: Mapping[str, Any]) -> Mapping[str, Any]:
+        for number, (_, at) in enumerate(_terms(within, known)):
+            if number == nth:
+                return at
+        return {element(depth): None for depth in range(len(within))}
+
+    return letters
+
+
+def _likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
+    """How likely an edit is for these values: 1 − x is taken for a share of 1."""
+    if edit.kind != "complement-of-value" or len(term) != len(edit.within):
+        return 1.0
+    here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
+    share = approximate(_value(edit.part, {**known, **here}))
+    return 1.0 if 0 < share < 1 else weights.NO_SHARE
 
 
 def _plain(value: Any) -> bool:

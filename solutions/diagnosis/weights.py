@@ -32,12 +32,14 @@ IDEAS = {
     "power-as-product": 2.0,
     "confused": 1.8,
     "bracket-left-out": 1.7,
+    "summand-left-out": 14.0,
+    "summand-sign": 8.0,
     "squared": 1.6,
     "twice": 1.4,
     "twin": 1.3,
     "divided": 1.2,
     "added": 1.1,
-    "complement-of-value": 0.8,
+    "complement-of-value": 5.0,
     "squared-value": 0.6,
     "min-for-sum": 0.4,
     "min-for-mean": 0.4,
@@ -48,17 +50,19 @@ IDEAS = {
 }
 #: Causes that say the same, if they are made at the same place.
 ALIKE = (
-    {"sign", "difference", "all-signs", "minus-lost"},
+    {"sign", "summand-sign", "difference", "all-signs", "minus-lost"},
     {"squared", "squared-value", "power"},
     {"numerator", "one-off"},
     {"denominator", "one-off"},
     {"inverse", "upside-down"},
-    {"kept", "factor-left-out", "term-left-out"},
+    {"kept", "summand-left-out", "factor-left-out", "term-left-out"},
     {"halved", "doubled"},
     {"exchanged-cells", "rows-exchanged"},
     {"twin", "elsewhere", "index"},
     {"other-taken", "min-for-max", "elsewhere", "choice"},
 )
+#: How much less likely it is that somebody takes 1 − x for x where x is no share of 1.
+NO_SHARE = 0.05
 #: How much less likely an edit is at one application alone, and in one term of a sum alone.
 AT_ONE, IN_ONE_TERM = 0.5, 0.3
 
@@ -77,7 +81,7 @@ VALUES = {
     "repeated": 1.5,
 }
 #: Slips in a value that is put in, or found on the way.
-INSIDE = {"minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5, "digits": 0.6, "one-off": 0.5,
+INSIDE = {"crosswise": 1.5, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5, "digits": 0.6, "one-off": 0.5,
           "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4}  # fmt: skip
 
 #: What is done with the whole procedure.

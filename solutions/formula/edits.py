@@ -34,6 +34,8 @@ from rldrill.solutions.formula.nodes.sets import ArgMaxOver, Over, ProductOver, 
 COUNTING = frozenset("tnkiTj")
 #: Letters that are easily taken for one another.
 TWINS = {"s": "s1", "s1": "s", "a": "a1", "a1": "a", "h": "h1", "h1": "h"}
+#: Edits that are made in one term of a sum, or for one element of a set, or not at all.
+IN_ONE_TERM = frozenset(("other-taken", "summand-left-out", "summand-sign"))
 #: What a place is multiplied with, and what is added to it, when its value is another one.
 SCALE, SHIFT = sympy.Symbol("scale_"), sympy.Symbol("shift_")
 
@@ -83,8 +85,9 @@ def edits(right: Expr) -> tuple[Edit, ...]:
     right = flat(right)
     for path, part, within in _places(right):
         for kind, new, changed, instead in _changes(part):
-            if kind == "other-taken":  # which other one depends on the application
-                found[part] = _other_taken(right, path, part, within)
+            if kind in IN_ONE_TERM:
+                at = _in_one_term(right, path, part, within, kind)
+                found[at.once] = at
                 continue
             edited = _replaced(right, path, new)
             if edited == right or edited in found:
@@ -97,11 +100,17 @@ def edits(right: Expr) -> tuple[Edit, ...]:
     return tuple(found.values())
 
 
-def _other_taken(right: Expr, path: tuple[int, ...], part: MaxOver, within: tuple[Over, ...]) -> Edit:
-    """Not the greatest is taken, but that of a certain element."""
-    body = _with(part.body, {part.index: sympy.Symbol(element(len(within)))})
-    once = _replaced(right, path, Cases(_here(within), body, part) if within else body)
-    return Edit("other-taken", right, part, None, (*within, part), once)
+def _in_one_term(right: Expr, path: tuple[int, ...], part: Over, within: tuple[Over, ...], kind: str) -> Edit:
+    """What is done to one element of a set alone: which one depends on the application."""
+    inside = (*within, part)
+    if kind == "other-taken":  # not the greatest is taken, but that of a certain element
+        body = _with(part.body, {part.index: sympy.Symbol(element(len(within)))})
+        new = Cases(_here(within), body, part) if within else body
+    else:
+        factor = sympy.S.Zero if kind == "summand-left-out" else sympy.S.NegativeOne
+        changed = Cases(_here(inside), Mul(factor, part.body, evaluate=False), part.body)
+        new = part.func(changed, part.index, part.domain)
+    return Edit(kind, right, part, None, inside, _replaced(right, path, new))
 
 
 @cache
@@ -347,6 +356,9 @@ def _of_set(part: Over) -> Iterator[Change]:
             yield f"{name}-for-{mine.get(type(part), 'sum')}", other, part, other
     if isinstance(part, MaxOver):
         yield "other-taken", part, part, None
+    elif isinstance(part, SumOver):
+        yield "summand-left-out", part, part, None
+        yield "summand-sign", part, part, None
 
 
 def _of_choice(part: Node) -> Iterator[Change]:

@@ -20,12 +20,12 @@ from rldrill.solutions.drawing import draw
 #: What may be said of an error, by the names of the program's causes.
 TERM = {"term-left-out", "factor-left-out", "case"}
 ACCEPTED = {
-    "term_lost": {"bracket-left-out", "term-left-out", "factor-left-out", "index", "range", "twin", "case", "choice", "elsewhere", "confused"},
+    "term_lost": {"summand-left-out", "kept", "bracket-left-out", "term-left-out", "factor-left-out", "index", "range", "twin", "case", "choice", "elsewhere", "confused"},
     "factor_lost": {"bracket-left-out", "factor-left-out", "term-left-out", "doubled", "halved", "tenfold", "power", "inverse", "elsewhere", "index", "sign"},
-    "sign_turned": {"sign", "minus-lost", "difference", "twice"},
+    "sign_turned": {"summand-sign", "all-signs", "sign", "minus-lost", "difference", "twice"},
     "bracket_lost": {"bracket"},
     "bracket_widened": {"bracket"},
-    "minus_lost": {"sign", "minus-lost", "difference", "twice"},
+    "minus_lost": {"summand-sign", "sign", "minus-lost", "difference", "twice"},
     "power_off": {"power", "squared", "squared-value", "factor-left-out", "index"},
     "power_as_product": {"power-as-product"},
     "square_forgotten": {"power", "squared", "squared-value", "factor-left-out", "index"},
@@ -43,7 +43,7 @@ ACCEPTED = {
     "added_for_multiplied": {"added"},
     "point_shifted": {"tenfold"},
     "fractions_added_crosswise": {"crosswise"},
-    "numbers_exchanged": {"difference", "sign", "exchanged"},
+    "numbers_exchanged": {"all-signs", "difference", "sign", "exchanged"},
     "value_sign": {"sign", "difference", "all-signs", "minus-lost"},
     "value_tenfold": {"tenfold"},
     "value_one_off": {"one-off", "numerator"},
