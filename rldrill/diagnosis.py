@@ -158,7 +158,13 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     where = None if formula is None else Place(formula.key, None)
     wrong = None if formula is None else formula.equation(formula.misread[first])
     return Diagnosis(
-        "listed", verdict.says, where, (), 1.0 if len(verdict.told) == 1 else 0.5, wrong, formula and formula.equation(formula.right)
+        "listed",
+        verdict.says,
+        where,
+        (),
+        1.0 if len(verdict.told) == 1 else 0.5,
+        wrong,
+        formula and formula.equation(formula.right),
     )
 
 
@@ -172,9 +178,7 @@ def _told(found: Explained, applications: Sequence[Application], verdict: Verdic
         said = causes[0].mistake.says
     else:
         said = f"It looks as if {said}."
-    return Diagnosis(
-        first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right
-    )
+    return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
 
 
 def _located(causes: Sequence[Cause], applications: Sequence[Application]) -> Diagnosis | None:
@@ -183,7 +187,9 @@ def _located(causes: Sequence[Cause], applications: Sequence[Application]) -> Di
     where = causes[0].application
     if len(places) != 1 or where is None:
         return None
-    return Diagnosis("located", f"Something is wrong{_sentence(place(where, applications))}.", _place(causes[0]), (), 0.5)
+    return Diagnosis(
+        "located", f"Something is wrong{_sentence(place(where, applications))}.", _place(causes[0]), (), 0.5
+    )
 
 
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:

@@ -1,14 +1,14 @@
 """What an answer comes from: the causes that give it, weighed against each other and against chance."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import Any
 
+from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.text import Reading
-from rldrill.solutions.diagnosis.weights import ALIKE
 from rldrill.solutions.diagnosis.replay import Change
 from rldrill.solutions.diagnosis.search import Candidate, Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.diagnosis.weights import ALIKE
 from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
@@ -84,11 +84,8 @@ def _apart(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
 
 def _explains(search: Search, typed: Typed, each: Candidate) -> set[str]:
     """The wrong cells that come out as typed, if no right one is spoilt."""
-    from rldrill.solutions.answers.judging import wrong_cells
-    from rldrill.solutions.answers.kinds import answer_kind
-
-    cells = answer_kind(typed.part.kind).cells(each.answers[typed.part.label])
-    still = set(wrong_cells(typed.cells, cells))
+    cells = typed.cells_of(each.answers)
+    still = set(wrong_cells(typed.cells, cells)) if cells is not None else set(typed.key)
     return set(typed.wrong) - still if still <= set(typed.wrong) else set()
 
 
@@ -118,9 +115,7 @@ def _room(typed: Typed, *, exact: bool) -> float:
 
 def _exactly(typed: Typed, candidate: Candidate) -> bool:
     """Whether what was typed is the candidate's answer to the last digit."""
-    from rldrill.solutions.answers.kinds import answer_kind
-
-    cells = answer_kind(typed.part.kind).cells(candidate.answers[typed.part.label])
+    cells = typed.cells_of(candidate.answers) or {}
     return all(
         bool(cell.value == cells[name]) for name in typed.wrong if isinstance(cell := typed.cells[name], Reading)
     )
@@ -148,8 +143,3 @@ def _alike(one: Cause, two: Cause) -> bool:
     if one.mistake or two.mistake:
         return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)
-
-
-def typed_for(part: Any, cells: Mapping[str, Any], key: Mapping[str, Any]) -> Typed:
-    """What was typed, beside the key."""
-    return Typed(part, cells, key)

@@ -70,7 +70,9 @@ class Recorder(Work):
         self._take_down(len(self.lines) - 1, value, self.lines[-1].known, equation=False)  # type: ignore[union-attr]
         return value
 
-    def system(self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any) -> Any:
+    def system(
+        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any
+    ) -> Any:
         """As in any working."""
         cases, start = list(cases), len(self.lines)
         solution = super().system(formula, unknown, cases, **named)
@@ -118,7 +120,9 @@ Traced: TypeAlias = tuple[int, Expr, Mapping[str, Any], Any]
 class Replay(Work):
     """A notebook in which the change is made, and nothing is written down."""
 
-    def __init__(self, change: Change, carried: Mapping[str, Any], limit: int, trace: list[Traced] | None = None) -> None:
+    def __init__(
+        self, change: Change, carried: Mapping[str, Any], limit: int, trace: list[Traced] | None = None
+    ) -> None:
         super().__init__(carried=carried)
         self.change = change
         self.trace = trace
@@ -163,7 +167,9 @@ class Replay(Work):
             return self._again[same]
         return _bounded(super().value(formula, **known, **self._letters(known)))
 
-    def system(self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any) -> Any:
+    def system(
+        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any
+    ) -> Any:
         """The solution, changed where its values are."""
         cases = list(cases)
         solution = super().system(formula, unknown, cases, **named, **self._letters(named))

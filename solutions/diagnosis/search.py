@@ -35,8 +35,8 @@ from rldrill.solutions.exact import enclosure, is_rational
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.vector import Vector
@@ -118,6 +118,16 @@ class Typed:
     def sizes(self) -> dict[str, float]:
         """What the typed cells are worth, roughly; words are left out."""
         return {name: approximate(cell.value) for name, cell in self.cells.items() if isinstance(cell, Reading)}
+
+    def cells_of(self, answers: Mapping[str, Any] | None) -> dict[str, Any] | None:
+        """The cells of this part among some answers; None where they have no such part, or another one."""
+        if answers is None or self.part.label not in answers:
+            return None
+        try:
+            cells = answer_kind(self.part.kind).cells(answers[self.part.label])
+        except UNDONE:
+            return None
+        return cells if cells.keys() == self.key.keys() else None
 
     def near(self, values: Mapping[str, Any]) -> bool:
         """Whether an answer is roughly what was typed, so that it is worth a proof."""
@@ -225,7 +235,7 @@ class Search:
                 alike[edit.kind, edit.part, edit.instead].append((right, edit))
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
         for group in groups:
-            for chosen in ([group] if len(group) == 1 else [group, *([one] for one in group)]):
+            for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
                 right, edit = chosen[0]
                 places = [application for each, _ in chosen for application in uses[each]]
                 weight = weights.IDEAS[edit.kind]
@@ -359,7 +369,9 @@ class Search:
             if edit.kind in IN_ONE_TERM:
                 pass
             elif (other := _value(edit.right, known)) is not None and _same_form(other, value):
-                yield replace(base, kind=edit.kind, weight=weight * _likely_there(edit, (), known), edit=edit, became=other)
+                yield replace(
+                    base, kind=edit.kind, weight=weight * _likely_there(edit, (), known), edit=edit, became=other
+                )
             if edit.once is not None:
                 for term, at in list(_terms(edit.within, known))[:_TERMS]:
                     other = _value(edit.once, {**known, **at})
@@ -438,8 +450,6 @@ class Search:
             clock: the time there is.
             within: whether a cause that changes these cells is of interest.
         """
-        kind = answer_kind(typed.part.kind)
-        label = typed.part.label
         for application in self.applications:
             if clock.over:
                 return
@@ -457,11 +467,8 @@ class Search:
                 ):
                     continue
                 answers = self.replay(Change(values={application.number: cause.became}))
-                if answers is None or label not in answers:
-                    continue
-                try:
-                    cells = kind.cells(answers[label])
-                except UNDONE:
+                cells = typed.cells_of(answers)
+                if answers is None or cells is None:
                     continue
                 if all(near(approximate(cells[name]), typed.sizes[name]) for name in changed & set(typed.sizes)):
                     yield Candidate(cause, answers)
@@ -470,17 +477,11 @@ class Search:
         self, application: Application, typed: Typed
     ) -> tuple[set[str], Callable[[Any], dict[str, float]] | None] | None:
         """The cells that depend on a value, and how, where it is a straight line; None where none of them is wrong."""
-        kind = answer_kind(typed.part.kind)
-        label = typed.part.label
         points: list[tuple[float, dict[str, Any]]] = [(approximate(application.value), dict(typed.key))]
         if not _plain(application.value):
             points = [(_NOT_COMPUTED, dict(typed.key))]
         for other, answers in self.responses(application):
-            if answers is not None and label in answers:
-                try:
-                    cells = kind.cells(answers[label])
-                except UNDONE:
-                    continue
+            if (cells := typed.cells_of(answers)) is not None:
                 points.append((approximate(other) if _plain(other) else _NOT_COMPUTED, cells))
         changed = {
             name for name in typed.key for _, cells in points[1:] if not _equal(cells.get(name), typed.key[name])
@@ -541,17 +542,12 @@ class Search:
 
     def _wanted(self, typed: Typed, values: Mapping[int, Any], number: int, value: Any) -> float | None:
         """What a later value would have to be for the typed answer to come out, if a straight line leads there."""
-        kind, label = answer_kind(typed.part.kind), typed.part.label
         heights = []
         for other in (value, value + 1, value - 3):
-            answers = self.replay(Change(values={**values, number: other}))
-            if answers is None or label not in answers:
+            cells = typed.cells_of(self.replay(Change(values={**values, number: other})))
+            if cells is None:
                 return None
-            try:
-                cells = kind.cells(answers[label])
-                heights.append({name: approximate(cells[name]) for name in typed.sizes})
-            except UNDONE:
-                return None
+            heights.append({name: approximate(cells[name]) for name in typed.sizes})
         wanted: float | None = None
         for name, size in typed.sizes.items():
             at, one, minus = (height[name] for height in heights)
@@ -572,15 +568,10 @@ class Search:
         spoilt = frozenset(typed.wrong)
         key = typed.part.label, spoilt
         if key not in self._rivals:
-            kind = answer_kind(typed.part.kind)
             found: dict[str, float] = {}
             for candidate in self._whole:
-                if typed.part.label in candidate.answers:
-                    try:
-                        cells = kind.cells(candidate.answers[typed.part.label])
-                    except UNDONE:
-                        continue
-                    if {name for name in typed.key if not _equal(cells.get(name), typed.key[name])} == spoilt:
+                if (cells := typed.cells_of(candidate.answers)) is not None:
+                    if {name for name in typed.key if not _equal(cells[name], typed.key[name])} == spoilt:
                         answer = str([str(cells[name]) for name in typed.wrong])
                         found[answer] = max(candidate.cause.weight, found.get(answer, 0.0))
             rivals = list(found.values())
@@ -649,13 +640,11 @@ class Search:
 
     def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
         """Whether these answers are what was typed."""
-        label = typed.part.label
-        if label not in answers:
+        cells = typed.cells_of(answers)
+        if cells is None or not typed.near(cells):
             return False
         try:
-            return typed.near(answer_kind(typed.part.kind).cells(answers[label])) and matches(
-                typed.part, typed.cells, answers
-            )
+            return matches(typed.part, typed.cells, answers)
         except (*UNDONE, NotImplementedError):
             return False
 
@@ -729,7 +718,9 @@ def _likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -
 def _plain(value: Any) -> bool:
     """Whether a value is one number, of any form."""
     return is_rational(value) or (
-        not isinstance(value, str | int | tuple | Mapping | Vector) and not is_matrix(value) and hasattr(value, "__add__")
+        not isinstance(value, str | int | tuple | Mapping | Vector)
+        and not is_matrix(value)
+        and hasattr(value, "__add__")
     )
 
 

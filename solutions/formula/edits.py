@@ -13,6 +13,8 @@ import sympy
 from sympy import Add, Expr, Mul, Pow
 
 from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.nodes.conditions import Condition
+from rldrill.solutions.formula.nodes.sets import ArgMaxOver, Over, ProductOver, Size
 from rldrill.solutions.formula.notation import (
     Cases,
     Clipped,
@@ -27,8 +29,6 @@ from rldrill.solutions.formula.notation import (
     SumOver,
     Transposed,
 )
-from rldrill.solutions.formula.nodes.conditions import Condition
-from rldrill.solutions.formula.nodes.sets import ArgMaxOver, Over, ProductOver, Size
 
 #: Letters that count, so that they can be one off.
 COUNTING = frozenset("tnkiTj")

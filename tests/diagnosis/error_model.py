@@ -132,8 +132,8 @@ def bracket_lost(line: Any) -> Iterator[Any]:
 
 
 def bracket_widened(line: Any) -> Iterator[Any]:
-    """a + b·c read as (a + c)·b."""
-    if line.is_Add:
+    """a + b·c read as (a + c)·b; with a product in the place of a nobody does."""
+    if line.is_Add and not any(term.is_Mul and term.args[0] != -1 for term in line.args[:1]):
         for place, term in enumerate(line.args):
             if term.is_Mul and len(term.args) == 2 and term.args[0] != -1:
                 yield _product([term.args[0], _sum([*_without(line.args, place), term.args[1]])])
@@ -309,12 +309,12 @@ SPOILT: dict[str, Spoil] = {
     "value_tenfold": lambda value, rng: value * 10 if rng.random() < 0.5 else value / 10,
     "value_one_off": lambda value, rng: value + rng.choice((-1, 1)),
     "value_digits_swapped": _digits_swapped,
-    "value_numerator_off": lambda value, rng: fmpq(int(value.p) + rng.choice((-1, 1)), int(value.q))
-    if value.q != 1
-    else None,
-    "value_denominator_off": lambda value, rng: fmpq(int(value.p), int(value.q) + rng.choice((-1, 1)))
-    if value.q > 2
-    else None,
+    "value_numerator_off": lambda value, rng: (
+        fmpq(int(value.p) + rng.choice((-1, 1)), int(value.q)) if value.q != 1 else None
+    ),
+    "value_denominator_off": lambda value, rng: (
+        fmpq(int(value.p), int(value.q) + rng.choice((-1, 1))) if value.q > 2 else None
+    ),
     "value_halved": lambda value, rng: value * 2 if rng.random() < 0.5 else value / 2,
 }
 
@@ -446,9 +446,9 @@ def _candidates(solution: Solution, rng: random.Random) -> Iterator[Erroneous]:
             if kind in IDEAS and times > 1:
                 idea = _answers(
                     solution,
-                    lambda _, step, f=formula, r=rewrite, p=path: _rewritten_value(step, r, p)
-                    if step.formula is f
-                    else None,
+                    lambda _, step, f=formula, r=rewrite, p=path: (
+                        _rewritten_value(step, r, p) if step.formula is f else None
+                    ),
                 )
                 yield from _made(solution, idea, rng, Erroneous(kind, "", "", formula.key, None, everywhere=True))
             break

@@ -4,15 +4,15 @@ import random
 import sys
 import time
 from collections import Counter, defaultdict
-from statistics import median
 from pathlib import Path
+from statistics import median
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from error_model import Erroneous, erroneous, random_wrong, numeric, steps_of
+from error_model import Erroneous, erroneous, numeric, random_wrong
+
 from rldrill.problems.catalogue import selection
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.diagnosis.explaining import explained
 from rldrill.solutions.diagnosis.search import Clock, Search, Typed
 from rldrill.solutions.drawing import draw
@@ -20,8 +20,33 @@ from rldrill.solutions.drawing import draw
 #: What may be said of an error, by the names of the program's causes.
 TERM = {"term-left-out", "factor-left-out", "case"}
 ACCEPTED = {
-    "term_lost": {"summand-left-out", "kept", "bracket-left-out", "term-left-out", "factor-left-out", "index", "range", "twin", "case", "choice", "elsewhere", "confused"},
-    "factor_lost": {"bracket-left-out", "factor-left-out", "term-left-out", "doubled", "halved", "tenfold", "power", "inverse", "elsewhere", "index", "sign"},
+    "term_lost": {
+        "summand-left-out",
+        "kept",
+        "bracket-left-out",
+        "term-left-out",
+        "factor-left-out",
+        "index",
+        "range",
+        "twin",
+        "case",
+        "choice",
+        "elsewhere",
+        "confused",
+    },
+    "factor_lost": {
+        "bracket-left-out",
+        "factor-left-out",
+        "term-left-out",
+        "doubled",
+        "halved",
+        "tenfold",
+        "power",
+        "inverse",
+        "elsewhere",
+        "index",
+        "sign",
+    },
     "sign_turned": {"summand-sign", "all-signs", "sign", "minus-lost", "difference", "twice"},
     "bracket_lost": {"bracket"},
     "bracket_widened": {"bracket"},
@@ -35,7 +60,7 @@ ACCEPTED = {
     "all_added": {"sum-for-max"},
     "first_taken": {"other-taken", "choice", "min-for-max", "elsewhere", "case"},
     "complement_taken": {"complement", "complement-of-value"},
-    "complement_forgotten": {"complement", "confused", "exchanged"},
+    "complement_forgotten": {"complement-of-value", "complement", "confused", "exchanged"},
     "inverse_forgotten": {"inverse", "upside-down", "divided", "factor-left-out"},
     "upside_down": {"inverse", "upside-down"},
     "transposition_forgotten": {"transposed", "order-of-factors", "answer-transposed"},
@@ -43,7 +68,7 @@ ACCEPTED = {
     "added_for_multiplied": {"added"},
     "point_shifted": {"tenfold"},
     "fractions_added_crosswise": {"crosswise"},
-    "numbers_exchanged": {"all-signs", "difference", "sign", "exchanged"},
+    "numbers_exchanged": {"summand-sign", "all-signs", "difference", "sign", "exchanged"},
     "value_sign": {"sign", "difference", "all-signs", "minus-lost"},
     "value_tenfold": {"tenfold"},
     "value_one_off": {"one-off", "numerator"},
@@ -79,13 +104,15 @@ def right(error: Erroneous, causes, solution, steps) -> str:
                 return "right"
             continue
         kinds = ACCEPTED[error.kind]
-        kind = cause.kind in kinds or cause.kind in {"elsewhere"} and error.kind == "first_taken"
+        kind = cause.kind in kinds or (cause.kind in {"elsewhere"} and error.kind == "first_taken")
         numbers = {c.application.number for c in (cause,) if c.application}
         if error.formula is None:
             place = True
         elif error.everywhere:
             place = cause.application is None and cause.formula is not None and cause.formula.key == error.formula
-            place = place or (cause.application is not None and cause.formula is not None and cause.formula.key == error.formula)
+            place = place or (
+                cause.application is not None and cause.formula is not None and cause.formula.key == error.formula
+            )
         else:
             place = steps[error.place] in numbers or (
                 cause.application is None and (cause.formula is None or cause.formula.key == error.formula)
@@ -131,10 +158,12 @@ def main() -> None:
                 search = Search(solution)
                 steps = [each.number for each in search.applications if not each.equation]
                 keys = {p.label: (p, answer_kind(p.kind)) for p in solution.problem.parts}
+
                 def typed(label, text):
                     part, kind = keys[label]
                     cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
                     return Typed(part, cells, kind.cells(solution.answers[label]))
+
                 begun = time.perf_counter()
                 errors = erroneous(solution, seed)
                 if sample:
@@ -147,12 +176,23 @@ def main() -> None:
                     result = explained(search, t, Clock(budget))
                     spent = (time.perf_counter() - begun) * 1000
                     times[family.name].append(spent)
-                    verdict = "none" if not result.causes or len(result.causes) > 2 else right(error, result.causes, solution, steps)
+                    verdict = (
+                        "none"
+                        if not result.causes or len(result.causes) > 2
+                        else right(error, result.causes, solution, steps)
+                    )
                     if verdict == "none" and len(result.causes) > 2:
                         verdict = "many"
                     if verbose:
                         ok = [c.kind for c in result.every if right(error, [c], solution, steps) in ("right", "listed")]
-                        print("REC", family.name, verdict, error.kind, f"{result.chance:.4g}", [(c.kind, round(c.weight, 3), c.kind in ok) for c in result.every])
+                        print(
+                            "REC",
+                            family.name,
+                            verdict,
+                            error.kind,
+                            f"{result.chance:.4g}",
+                            [(c.kind, round(c.weight, 3), c.kind in ok) for c in result.every],
+                        )
                     total[verdict] += 1
                     kinds[error.kind if not error.twofold else "two slips"][verdict] += 1
                     families[family.name][verdict] += 1
@@ -160,7 +200,22 @@ def main() -> None:
                     if verdict in ("wrong", "place", "kind"):
                         wrongs[error.kind][verdict + " " + " / ".join(c.kind for c in result.causes)] += 1
                         if verbose:
-                            print(verdict, solution.problem.identity, error, [(c.kind, c.weight, c.application and c.application.number, str(c.edit and c.edit.part or c.probe and c.probe.part), c.what) for c in result.causes], result.confidence)
+                            print(
+                                verdict,
+                                solution.problem.identity,
+                                error,
+                                [
+                                    (
+                                        c.kind,
+                                        c.weight,
+                                        c.application and c.application.number,
+                                        str((c.edit and c.edit.part) or (c.probe and c.probe.part)),
+                                        c.what,
+                                    )
+                                    for c in result.causes
+                                ],
+                                result.confidence,
+                            )
                     elif verbose and verdict in ("none", "many"):
                         print(verdict, solution.problem.identity, error)
                 for part in solution.problem.parts:
@@ -176,25 +231,51 @@ def main() -> None:
                         result = explained(search, t, Clock(budget))
                         tried[family.name] += 1
                         if verbose:
-                            print("REC", family.name, "RANDOM", "-", f"{result.chance:.4g}", [(c.kind, round(c.weight, 3), False) for c in result.every])
+                            print(
+                                "REC",
+                                family.name,
+                                "RANDOM",
+                                "-",
+                                f"{result.chance:.4g}",
+                                [(c.kind, round(c.weight, 3), False) for c in result.every],
+                            )
                         if result.causes and len(result.causes) <= 2:
                             accused[family.name] += 1
                             if verbose:
-                                print("ACCUSED", solution.problem.identity, part.label, text, [(c.kind, c.weight, c.application and c.application.number) for c in result.causes], result.confidence)
+                                print(
+                                    "ACCUSED",
+                                    solution.problem.identity,
+                                    part.label,
+                                    text,
+                                    [(c.kind, c.weight, c.application and c.application.number) for c in result.causes],
+                                    result.confidence,
+                                )
     n = sum(total.values())
     for name, row in families.items():
         m = sum(row.values())
         spent = times[name]
-        print(f"{name:30} n={m:4} right {100*(row['right']+row['listed'])/m:5.1f} many {100*row['many']/m:5.1f} none {100*row['none']/m:5.1f} "
-              f"wrong {100*(row['wrong'])/m:5.1f} place {100*row['place']/m:4.1f} kind {100*row['kind']/m:4.1f} accused {accused[name]}/{tried[name]} ms {median(spent):.1f} {max(spent):.0f}")
+        print(
+            f"{name:30} n={m:4} right {100 * (row['right'] + row['listed']) / m:5.1f} many {100 * row['many'] / m:5.1f} none {100 * row['none'] / m:5.1f} "
+            f"wrong {100 * (row['wrong']) / m:5.1f} place {100 * row['place'] / m:4.1f} kind {100 * row['kind'] / m:4.1f} accused {accused[name]}/{tried[name]} ms {median(spent):.1f} {max(spent):.0f}"
+        )
     print()
     for name, row in sorted(kinds.items()):
         m = sum(row.values())
-        print(f"{name:28} n={m:4} right {100*(row['right']+row['listed'])/m:5.1f} many {100*row['many']/m:5.1f} none {100*row['none']/m:5.1f} place {100*row['place']/m:4.1f} kind {100*row['kind']/m:4.1f} wrong {100*row['wrong']/m:5.1f} {wrongs[name].most_common(3)}")
+        print(
+            f"{name:28} n={m:4} right {100 * (row['right'] + row['listed']) / m:5.1f} many {100 * row['many'] / m:5.1f} none {100 * row['none'] / m:5.1f} place {100 * row['place'] / m:4.1f} kind {100 * row['kind'] / m:4.1f} wrong {100 * row['wrong'] / m:5.1f} {wrongs[name].most_common(3)}"
+        )
     every = [spent for row in times.values() for spent in row]
     print()
-    print("n", n, {k: f"{100*v/n:.1f}" for k, v in total.items()}, "random accused", sum(accused.values()), "of", sum(tried.values()),
-          f"ms median {median(every):.1f} worst {max(every):.0f}")
+    print(
+        "n",
+        n,
+        {k: f"{100 * v / n:.1f}" for k, v in total.items()},
+        "random accused",
+        sum(accused.values()),
+        "of",
+        sum(tried.values()),
+        f"ms median {median(every):.1f} worst {max(every):.0f}",
+    )
 
 
 if __name__ == "__main__":
