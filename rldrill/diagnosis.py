@@ -156,16 +156,11 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     first = verdict.told[0]
     formula = next((formula for formula in solution.work.read if first in formula.misread), None)
     where = None if formula is None else Place(formula.key, None)
-    wrong = None if formula is None else formula.equation(formula.misread[first])
-    return Diagnosis(
-        "listed",
-        verdict.says,
-        where,
-        (),
-        1.0 if len(verdict.told) == 1 else 0.5,
-        wrong,
-        formula and formula.equation(formula.right),
-    )
+    wrong = right = None
+    if formula is not None:
+        wrong, right = formula.equation(formula.misread[first]), formula.equation(formula.right)
+    confidence = 1.0 if len(verdict.told) == 1 else 0.5
+    return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right)
 
 
 def _told(found: Explained, applications: Sequence[Application], verdict: Verdict) -> Diagnosis:
@@ -174,10 +169,7 @@ def _told(found: Explained, applications: Sequence[Application], verdict: Verdic
         return _located(causes, applications) or Diagnosis("unexplained", verdict.says)
     first, *others = (_diagnosis(cause, applications, found.confidence) for cause in causes)
     said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
-    if causes[0].mistake is not None:
-        said = causes[0].mistake.says
-    else:
-        said = f"It looks as if {said}."
+    said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says
     return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
 
 

@@ -5,11 +5,11 @@ from typing import Any
 
 from flint import fmpq
 
-from rldrill.solutions.exact import Value, is_rational, is_zero
+from rldrill.solutions.exact import is_rational, is_zero
 from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.vector import Vector
 
-Slip = tuple[str, Value]
+Slip = tuple[str, Any]
 
 
 def slips(value: Any) -> Iterator[Slip]:

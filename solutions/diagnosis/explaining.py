@@ -70,7 +70,7 @@ def _apart(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
         return
     partly: dict[frozenset[str], Candidate] = {}
     for each in search.local(typed, clock, lambda changed: bool(changed & wrong) and not changed >= wrong):
-        cells = frozenset(_explains(search, typed, each))
+        cells = frozenset(_explains(typed, each))
         if cells and (cells not in partly or partly[cells].cause.weight < each.cause.weight):
             partly[cells] = each
     for (one, first), (two, second) in combinations(partly.items(), 2):
@@ -82,7 +82,7 @@ def _apart(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
             yield Candidate(_together(first.cause, second.cause), answers)
 
 
-def _explains(search: Search, typed: Typed, each: Candidate) -> set[str]:
+def _explains(typed: Typed, each: Candidate) -> set[str]:
     """The wrong cells that come out as typed, if no right one is spoilt."""
     cells = typed.cells_of(each.answers)
     still = set(wrong_cells(typed.cells, cells)) if cells is not None else set(typed.key)

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 from typing import Any
 from unicodedata import normalize
 
@@ -54,7 +55,7 @@ class Line:
 
 
 def follow(search: Search, texts: Sequence[str]) -> tuple[Line, ...]:
-    """Each line of a working, held against the right one; from the first that departs on, against what follows from it."""
+    """Each line of a working, held against the right one; behind one that departs, against what follows."""
     return tuple(_Follower(search).lines(texts))
 
 
@@ -75,7 +76,7 @@ class _Follower:
         label, sides = self._read(text)
         if not sides:
             return Line(text, Standing.UNREAD)
-        for one, two in zip(sides, sides[1:], strict=False):
+        for one, two in pairwise(sides):
             if not _same(two, one.value) and not _same(one, two.value):
                 return self._miscalculated(text, label, (one, two), sides[-1])
         return self._placed(text, label, sides)
@@ -115,7 +116,8 @@ class _Follower:
         last = sides[-1]
         numbers = list(named) or [number for number in self._order() if number > self.reached] or list(self._order())
         first_time = not self.values
-        where, causes = (numbers[0] if numbers else None), ()
+        where = numbers[0] if numbers else None
+        causes: tuple[Cause, ...] = ()
         if first_time:
             for number in numbers:
                 found = self._causes(number, last)
@@ -125,7 +127,7 @@ class _Follower:
         application = None if where is None else self.search.applications[where]
         if where is not None:
             self._go_on(where, last.value)
-        return Line(text, Standing.DEPARTS, application, tuple(causes), tuple(sides))
+        return Line(text, Standing.DEPARTS, application, causes, tuple(sides))
 
     def _miscalculated(self, text: str, label: str, sides: tuple[Reading, Reading], last: Reading) -> Line:
         named = self._named(label)

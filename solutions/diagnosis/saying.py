@@ -118,13 +118,13 @@ _WHOLE = {
 
 def saying(cause: Cause, applications: Sequence[Application]) -> Words:
     """What was done, and where, without a full stop."""
-    words = (*_what(cause, applications), *_where(cause, applications))
+    words = (*_what(cause), *_where(cause, applications))
     if cause.then is not None:
         words = (*words, ", and ", *saying(cause.then, applications))
     return words
 
 
-def _what(cause: Cause, applications: Sequence[Application]) -> Words:
+def _what(cause: Cause) -> Words:
     if cause.edit is not None:
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
         return _filled(_EDITS[cause.kind], part=_short(cause.edit.part), instead=instead)

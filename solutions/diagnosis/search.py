@@ -129,6 +129,10 @@ class Typed:
             return None
         return cells if cells.keys() == self.key.keys() else None
 
+    def differing(self, cells: Mapping[str, Any]) -> set[str]:
+        """The cells that are not those of the key."""
+        return {name for name, right in self.key.items() if not _equal(cells[name], right)}
+
     def near(self, values: Mapping[str, Any]) -> bool:
         """Whether an answer is roughly what was typed, so that it is worth a proof."""
         return all(near(approximate(values[name]), size) for name, size in self.sizes.items())
@@ -570,10 +574,10 @@ class Search:
         if key not in self._rivals:
             found: dict[str, float] = {}
             for candidate in self._whole:
-                if (cells := typed.cells_of(candidate.answers)) is not None:
-                    if {name for name in typed.key if not _equal(cells[name], typed.key[name])} == spoilt:
-                        answer = str([str(cells[name]) for name in typed.wrong])
-                        found[answer] = max(candidate.cause.weight, found.get(answer, 0.0))
+                cells = typed.cells_of(candidate.answers)
+                if cells is not None and typed.differing(cells) == spoilt:
+                    answer = str([str(cells[name]) for name in typed.wrong])
+                    found[answer] = max(candidate.cause.weight, found.get(answer, 0.0))
             rivals = list(found.values())
             for application in self.applications:
                 predicted = self._predicted(application, typed)

@@ -81,8 +81,10 @@ VALUES = {
     "repeated": 1.5,
 }
 #: Slips in a value that is put in, or found on the way.
-INSIDE = {"crosswise": 1.5, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5, "digits": 0.6, "one-off": 0.5,
-          "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4}  # fmt: skip
+INSIDE = {
+    "crosswise": 1.5, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5, "digits": 0.6, "one-off": 0.5,
+    "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
+}  # fmt: skip
 
 #: What is done with the whole procedure.
 PROCEDURE = {
