@@ -135,7 +135,11 @@ class Family:
             raise FileError(sentence(error, self.schema(), family=self.name, tagged=tagged)) from None
 
     def schema(self) -> dict[str, Any]:
-        """The JSON Schema of what a file gives."""
+        """The JSON Schema of what a file gives; it is made once, so nobody may change it."""
+        return self._schema
+
+    @cached_property
+    def _schema(self) -> dict[str, Any]:
         return self._reader.json_schema(schema_generator=_SchemaWriter)
 
     @cached_property
