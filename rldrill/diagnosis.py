@@ -96,6 +96,8 @@ class Diagnosing:
 
     def begin(self) -> None:
         """Search ahead, while the person types."""
+        if self._thread is not None and self._thread.is_alive():
+            return
         self._stop.clear()
         self._thread = Thread(target=self._ahead, daemon=True)
         self._thread.start()

@@ -13,6 +13,7 @@ from error_model import Erroneous, erroneous, numeric, random_wrong
 
 from rldrill.problems.catalogue import selection
 from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.text import Unreadable
 from rldrill.solutions.diagnosis.explaining import explained
 from rldrill.solutions.diagnosis.search import Clock, Search, Typed
 from rldrill.solutions.drawing import draw
