@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
 
+from rldrill.problems.angles import Angle
 from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
@@ -77,7 +78,8 @@ class Family:
     """One family: the module ``problems/<topic>/<name>.py`` as an object.
 
     ``given`` is a model; or, where the family has several kinds of problems, ``Annotated`` with the ``Discriminator``
-    that tells them apart, the union of their models, each with its ``Tag``.
+    that tells them apart, the union of their models, each with its ``Tag``. ``distractors`` are the places of givens
+    that need not matter, such as ``values.*``: what an exam would print, too.
     """
 
     name: str
@@ -90,6 +92,7 @@ class Family:
     draw: Callable[[int, Draws], Givens]
     question: Callable[[Any], Question]
     levels: tuple[int, ...] = LEVELS
+    distractors: tuple[str, ...] = ()
 
     @classmethod
     def load(cls, topic: str, name: str) -> "Family":
@@ -110,6 +113,7 @@ class Family:
             draw=_demanded(module, "draw"),
             question=_demanded(module, "question"),
             levels=getattr(module, "LEVELS", LEVELS),
+            distractors=getattr(module, "DISTRACTORS", ()),
         )
 
     @cached_property
@@ -156,7 +160,7 @@ class _SchemaWriter(GenerateJsonSchema):
 
     def encode_default(self, dft: Any) -> Any:
         """A default as files have it."""
-        return to_jsonable_python(dft, fallback=str)
+        return str(dft) if isinstance(dft, Angle) else to_jsonable_python(dft, fallback=str)
 
     def named_tuple_schema(self, schema: Any) -> dict[str, Any]:
         """The entries of a row, each with its name."""

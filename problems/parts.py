@@ -79,7 +79,7 @@ class Part:
     Args:
         ask: the sentence that asks, with its mathematics between ``$`` signs.
         kind: what kind of answer is wanted.
-        points: what a right answer earns.
+        points: what a right answer earns; they follow the minutes that it takes, when those are known.
         ties: whether several best actions may be right together (only where the question is about ties).
         zero: whether 0 is as good an answer as any other.
         label: the letter of the part, ``a``; its question gives it.
@@ -87,7 +87,7 @@ class Part:
 
     ask: str
     kind: Kind
-    points: int = 1
+    points: int = 0
     ties: bool = False
     zero: bool = False
     label: str = ""

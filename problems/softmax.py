@@ -99,7 +99,6 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
         Part(
             f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
-            points=3,
         ),
         Part(f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Numbers(names)),
     )

@@ -2,7 +2,7 @@
 
 import reprlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from numbers import Integral
@@ -27,12 +27,15 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
+from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.effort import points
 from rldrill.solutions.exact import NoSolution, TooLong
 from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
-from rldrill.solutions.work import Drawn, Note, Recalled, Result, Step
+from rldrill.solutions.work import Drawn, Elimination, Equality, Line, Note, Recalled, Result, Step
 from rldrill.typed import typed
 
 
@@ -57,10 +60,11 @@ class Exercise:
         """The problem's ID; None for a problem from outside."""
         return None if self.problem.identity is None else str(self.problem.identity)
 
-    @property
+    @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """What is asked."""
-        return self.problem.parts
+        """What is asked, with its points."""
+        worth = points(self.solution)
+        return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
 
     def __repr__(self) -> str:
         name = self.id or f"of the family {self.problem.family.name}"
@@ -188,21 +192,12 @@ class Exercise:
             return Page(
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
-        blocks: list[Block] = []
-        for line in abridged(self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)):
-            if isinstance(line, Step | Recalled):
-                blocks.append(line.equation())
-            elif isinstance(line, Note):
-                blocks.append(Paragraph(line.text))
-            elif isinstance(line, Drawn):
-                blocks.append(line.picture)
-            elif isinstance(line, Result):
-                blocks.extend(line.equations())
-        return Page(blocks)
+        lines = self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)
+        return Page(_written(abridged(lines)))
 
-    def answer(self, part: Part) -> Equation | Paragraph:
-        """The exact answer of a part, typeset, as a block; a table has a line for each of its keys."""
-        return answer_kind(part.kind).block(self.solution.answers[part.label])
+    def answer(self, part: Part) -> Equation:
+        """The answer of a part, exact and as a decimal, as a block; a table has a line for each of its keys."""
+        return answer_block(part, self.solution.answers[part.label])
 
     def formulas(self, part: str | None = None) -> tuple[Formula, ...]:
         """The formulas of the sheet that the working uses; their equations and hints are the hint.
@@ -248,11 +243,37 @@ class Exercise:
         return result
 
 
+def _written(lines: Iterable[Line]) -> Iterator[Block]:
+    """A working as blocks; each formula stands there as it is before its first step."""
+    stated: set[Formula] = set()
+    for line in lines:
+        if isinstance(line, Step) and line.formula not in stated:
+            stated.add(line.formula)
+            general, here = line.formula.equation(line.formula.right), line.equation()
+            if general.rights[0] not in here.rights:  # where nothing is put in, the step says it
+                yield general
+            yield here
+        elif isinstance(line, Step | Equality):
+            yield line.equation()
+        elif isinstance(line, Recalled):
+            stated.add(line.formula)
+            yield line.equation()
+        elif isinstance(line, Note):
+            yield Paragraph(line.text)
+        elif isinstance(line, Drawn):
+            yield line.picture
+        elif isinstance(line, Result):
+            yield from line.equations()
+        elif isinstance(line, Elimination):
+            yield from _written(line.lines())
+
+
 def _step(step: Step) -> dict[str, str]:
     equation = step.equation()
     return {
         "formula": step.formula.key,
-        "quantity": unicode(equation.left),
+        "general": unicode_text(step.formula.equation(step.formula.right)),
+        "quantity": unicode(typeset(step.left)),
         "put_in": unicode(equation.rights[0]),
         "value": unicode(equation.rights[-1]),
     }

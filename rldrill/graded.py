@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
+from rldrill.solutions.effort import points
 from rldrill.solutions.solution import Solution
 
 
@@ -70,10 +71,11 @@ def grade(solution: Solution, texts: Mapping[str, str]) -> Graded:
     """Judge the texts that were typed for the parts with these labels; blank ones are missing."""
     graded: list[GradedPart] = []
     earlier: dict[str, Any] = {}
+    worth = points(solution)
     for part in solution.problem.parts:
         text = texts.get(part.label, "")
         verdict = judge(solution, part.label, text, earlier) if text.strip() else None
         if verdict is not None and verdict.value is not None:
             earlier[part.label] = verdict.value
-        graded.append(GradedPart(part.label, text, verdict, part.points))
+        graded.append(GradedPart(part.label, text, verdict, worth[part.label]))
     return Graded(tuple(graded))

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from pydantic import ValidationError
@@ -47,7 +48,7 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
             continue
         flaw = next(flaws(solution), None)
         if flaw is None:
-            return solution
+            return replace(solution, attempts=attempt + 1)
         why[flaw] += 1
     reasons = "; ".join(f"{count} × {reason}" for reason, count in why.most_common(3))
     raise BrokenFamily(

@@ -1,5 +1,6 @@
-"""How long a problem takes by hand: estimated from its own steps, from operations and from digits."""
+"""How long a problem takes by hand, estimated from its own steps, operations and digits; and the points that follow."""
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 import sympy
@@ -8,29 +9,45 @@ from sympy import Expr
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.solution import Solution
-from rldrill.solutions.work import Result, Step
+from rldrill.solutions.work import Elimination, Line, Result, Step
 
 #: Seconds, as for somebody who knows the formula: to read a part, to write down a step, to do an
 #: operation, and to handle one digit of a number in it.
-PART, STEP, OPERATION, DIGIT = 30, 6, 3, Fraction(3, 2)
+PART, STEP, OPERATION, DIGIT = 40, 8, 3, Fraction(3, 2)
+#: Nobody reads, answers and checks a part in less than this.
+LEAST = Fraction(1)
 #: A letter left open is as much trouble as this many digits: its terms must be kept apart and collected.
 LETTER = 9
 
 
 def minutes(solution: Solution) -> Fraction:
     """The time that a problem takes by hand, in minutes."""
-    seconds = Fraction(PART * len(solution.problem.parts))
+    return sum((minutes_of(solution, part.label) for part in solution.problem.parts), Fraction(0))
+
+
+def minutes_of(solution: Solution, label: str) -> Fraction:
+    """The time that one part takes by hand, in minutes: what is written for it, and at least one minute."""
+    return max(LEAST, (PART + _seconds_of(solution.lines_of(label))) / Fraction(60))
+
+
+def points(solution: Solution) -> dict[str, int]:
+    """What every part earns: a point for a minute and a half, so that a point is never less than 1 or more than 2."""
+    return {part.label: int((minutes_of(solution, part.label) + 1) * 2 / 3) for part in solution.problem.parts}
+
+
+def _seconds_of(lines: Iterable[Line]) -> Fraction:
+    seconds = Fraction(0)
     unknowns = 0
-    for line in solution.lines:
+    for line in lines:
         if isinstance(line, Step):
             seconds += STEP + _seconds(line.put_in)
             unknowns += line.value is None
-        elif isinstance(line, Result):
-            # Elimination: about n³/3 operations, on numbers that grow to three or four digits.
+        elif isinstance(line, Result | Elimination):
+            # Elimination: about n³/3 operations, each written down, on numbers that grow to three or four digits.
             size = LETTER if any(map(parameters, line.values)) else 3
-            seconds += (OPERATION + size * DIGIT) * Fraction(unknowns**3 + 3 * unknowns**2, 3)
+            seconds += (2 * OPERATION + size * DIGIT) * Fraction(unknowns**3 + 3 * unknowns**2, 3)
             unknowns = 0
-    return seconds / 60
+    return seconds
 
 
 def whole(time: Fraction) -> int:

@@ -1,6 +1,5 @@
 """What problems give, as what formulas need: exact values by the formulas' letters."""
 
-from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
@@ -14,6 +13,13 @@ Key = TypeVar("Key")
 
 #: The one action of a terminal state, worth nothing; no action of a problem can have this name.
 NO_ACTION = "–"
+
+
+class Sparse(dict[Any, Value]):
+    """A table in which what is not there is 0, and leaves no place in a working."""
+
+    def __missing__(self, key: Any) -> Value:
+        return ZERO
 
 
 def values(numbers: Mapping[Key, Scalar]) -> dict[Key, Value]:
@@ -35,8 +41,8 @@ def discounts(gamma: Scalar | tuple[Scalar, ...]) -> dict[str, Any]:
 
 def model(given: Dynamics) -> dict[str, Any]:
     """A model as P, R, actions and successors; pairs of states without a transition have P = R = 0."""
-    P: dict[Any, Value] = defaultdict(_zero)
-    R: dict[Any, Value] = defaultdict(_zero)
+    P: dict[Any, Value] = Sparse()
+    R: dict[Any, Value] = Sparse()
     successors = {}
     for pair, outcomes in given.outcomes.items():
         successors[pair] = tuple(outcome.next for outcome in outcomes)
@@ -46,14 +52,10 @@ def model(given: Dynamics) -> dict[str, Any]:
     return {"P": P, "R": R, "actions": given.actions, "successors": successors}
 
 
-def _zero() -> Value:
-    return ZERO
-
-
 def policy(given: Policy) -> dict[tuple[str, str], Value]:
     """A policy as π(a|s), with the action first; actions that it does not name are never taken."""
     named = {(action, state): exact(chance) for state, chances in given.items() for action, chance in chances.items()}
-    return defaultdict(_zero, named)
+    return Sparse({pair: chance for pair, chance in named.items() if chance != 0})
 
 
 def model_and_policy(mdp: Model, chances: Policy, gamma: Scalar) -> dict[str, Any]:
@@ -64,8 +66,7 @@ def model_and_policy(mdp: Model, chances: Policy, gamma: Scalar) -> dict[str, An
 
 def motion(given: Motion) -> dict[tuple[str, str, str], Value]:
     """Where actions lead, as p(s′|s, a) with the next state first; what cannot be reached has 0."""
-    return defaultdict(
-        _zero,
+    return Sparse(
         {
             (target, state, action): exact(chance)
             for action, rows in given.items()

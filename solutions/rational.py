@@ -11,7 +11,7 @@ import sympy
 from flint import fmpq, fmpq_poly
 
 from rldrill.solutions.closed_forms import rational
-from rldrill.solutions.value import NotReal, Value
+from rldrill.solutions.value import NoSolution, NotReal, Value
 
 _ONE = fmpq_poly([1])
 _Operation: TypeAlias = Callable[["RationalFunction", "RationalFunction"], Value]
@@ -147,3 +147,14 @@ def _polynomial(parameter: str, poly: fmpq_poly) -> sympy.Expr:
 def generator(parameter: str) -> RationalFunction:
     """The open parameter itself, as a rational function."""
     return RationalFunction(parameter, fmpq_poly([0, 1]), _ONE)
+
+
+def linear(value: Value, parameter: str) -> tuple[Value, Value]:
+    """The a and b for which a·x + b = 0 where the value, a function of the parameter x, is zero.
+
+    Raises:
+        NoSolution: the value does not depend on the parameter, or not linearly.
+    """
+    if not isinstance(value, RationalFunction) or value.parameter != parameter or value.top.degree() != 1:
+        raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
+    return value.top[1], value.top[0]

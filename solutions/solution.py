@@ -19,13 +19,15 @@ class Solver:
     """The twin of a family: the module ``solutions/<topic>/<name>.py`` as an object.
 
     ``oracle`` gives the same answers by other means (numpy, simulation, brute force), in floating point,
-    as what ``numpy.asarray`` reads; tables and vectors in the order of the part's keys.
+    as what ``numpy.asarray`` reads; tables and vectors in the order of the part's keys. ``possible`` says, by other
+    means too, whether what is stated can be true together: that values printed as those of a policy are its values.
     """
 
     family: Family
     solve: Callable[[Any, Work], None]
     misconceptions: tuple[Misconception, ...]
     oracle: Callable[[Any], Sequence[Any]]
+    possible: Callable[[Any], bool]
 
 
 @cache
@@ -45,7 +47,13 @@ def solver(family: Family) -> Solver:
         _demanded(module, "solve"),
         tuple(_demanded(module, "MISCONCEPTIONS")),
         _demanded(module, "oracle"),
+        getattr(module, "possible", _anything),
     )
+
+
+def _anything(_: Any) -> bool:
+    """A family that states nothing but givens of its own choice."""
+    return True
 
 
 def _demanded(module: ModuleType, name: str) -> Any:
@@ -57,10 +65,11 @@ def _demanded(module: ModuleType, name: str) -> Any:
 
 @dataclass(frozen=True)
 class Solution:
-    """The solution of one problem."""
+    """The solution of one problem; ``attempts`` says how many draws it took to find a good one."""
 
     problem: Problem
     work: Work
+    attempts: int = 1
 
     @property
     def answers(self) -> Mapping[str, Any]:

@@ -1,40 +1,36 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, ValuesView
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import log2
-from typing import Any, TypeVar
+from typing import Any
 
 from sympy import Expr
 
 from rldrill.problems.document import Equation
-from rldrill.problems.mathematics import Math, listed, name
+from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, simplest, tidy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
+from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
+from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.vector import Vector
-
-Written = TypeVar("Written")
-
-#: The most decimal digits of a whole number in a working. Python writes no more than 4300, and what is written of a
-#: step may hold the products of two numbers.
-MOST_DIGITS = 2000
-_LONGEST = MOST_DIGITS * log2(10)
 
 
 @dataclass(frozen=True)
 class Step:
     """One application of a formula: what was put in, and the exact value that came out.
 
-    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's.
+    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's; ``label``
+    which of many steps it is, ``$t = 2$``.
     """
 
     formula: Formula
@@ -44,6 +40,7 @@ class Step:
     into: Expr
     sign: str
     own: bool = False
+    label: str = ""
 
     @cached_property
     def left(self) -> Expr:
@@ -65,7 +62,10 @@ class Step:
         if self.value is not None:  # an equation of a system has no value of its own
             rights += [typeset(reduced(written)), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
-        return Equation(typeset(self.left), distinct, (self.sign, *["="] * (len(distinct) - 1)))
+        left = typeset(self.left)
+        if self.label:
+            left = row(mathematics(self.label), punctuation(":"), left)
+        return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)))
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,38 @@ class Result:
         )
 
 
-Line = Step | Note | Recalled | Drawn | Result
+@dataclass(frozen=True)
+class Equality:
+    """An equation that follows from the ones before: both sides values, or expressions in what is not known yet."""
+
+    left: Any
+    rights: tuple[Any, ...]
+
+    def equation(self) -> Equation:
+        """The equation typeset, without what it repeats."""
+        left, *rights = dict.fromkeys(map(_side, (self.left, *self.rights)))
+        return Equation(left, tuple(rights), ("=",) * len(rights))
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """How a system of equations is solved by hand."""
+
+    names: Mapping[Hashable, Expr]
+    equations: Mapping[Hashable, Any]
+    values: tuple[Any, ...]
+
+    def lines(self) -> "Iterator[Note | Equality]":
+        """The lines of it."""
+        for line in elimination(self.names, self.equations):
+            yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
+
+
+def _side(value: Any) -> Math:
+    return typeset(value) if isinstance(value, Expr) else shown_value(value)
 
 
 def shown_value(value: Any) -> Math:
@@ -152,9 +183,10 @@ class Work:
         self,
         formula: Formula,
         *,
-        into: Any = None,  # these three are Any so that **known may come from a mapping of anything
+        into: Any = None,  # these four are Any so that **known may come from a mapping of anything
         sign: Any = None,
         right: Any = None,
+        label: Any = None,
         **known: Any,
     ) -> Any:
         """Apply a formula to known quantities; the value is exact, the writing is done when asked for.
@@ -165,6 +197,7 @@ class Work:
             sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
+            label: which of many steps this is, in mathematics (``i = 2``); an update that knows its t says it.
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
         own = right is not None
@@ -175,7 +208,9 @@ class Work:
             raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
         left = formula.left if into is None else into(*formula.left.args)
         sign = sign or (formula.sign if into is None else "=")
-        self.lines.append(Step(formula, right, known, value, left, sign, own))
+        if label is None:
+            label = f"t = {known['t']}" if sign == "←" and "t" in known else ""
+        self.lines.append(Step(formula, right, known, value, left, sign, own, label))
         return value
 
     def value(self, formula: Formula, **known: Any) -> Any:
@@ -218,9 +253,34 @@ class Work:
             self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, instead.left, "=")
         solution = bounded(solve_linear(equations))
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
-        self.lines.append(Note("Solving these equations:"))
-        self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
+        if len(keys) <= MOST_UNKNOWNS:
+            names = {key: left for (key, _), left in zip(keys, lefts, strict=True)}
+            self.lines.append(Elimination(names, equations, tuple(solution[key] for key, _ in keys)))
+        else:
+            self.lines.append(Note("Solving these equations:"))
+            self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
         return {**fixed, **solution}
+
+    def equate(self, letter: str, left: Any, right: Any) -> Value:
+        """Solve an equation that is linear in one letter, in front of the reader; the letter's value.
+
+        Args:
+            letter: the letter, ``gamma``; the sides were worked out with ``generator("gamma")`` in its place.
+            left: the one side, a value.
+            right: the other side.
+
+        Raises:
+            NoSolution: every value solves the equation, or none.
+        """
+        difference = left - right
+        slope, constant = linear(difference, letter)
+        value = bounded(simplest(ZERO - constant / slope))
+        symbol = to_sympy(generator(letter))
+        self.lines.append(Equality(left, (right,)))
+        if slope != 1 or constant != ZERO - right:
+            self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
+        self.lines.append(Equality(symbol, (value,)))
+        return value
 
     def recall(self, formula: Formula) -> None:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""
@@ -248,32 +308,6 @@ class Work:
         self.answers[label] = value
         self.ends[label] = len(self.lines)
         return self.carried.get(label, value)
-
-
-def bounded(value: Written) -> Written:
-    """A value, alone or in a vector, matrix or table, that can be written down.
-
-    Raises:
-        TooLong: a number in it has more digits than anybody writes, and than Python turns into text.
-    """
-    if any(length(number) > _LONGEST for number in _numbers(value)):
-        raise TooLong(
-            f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
-            "give shorter numbers, or fewer steps, sweeps or rewards"
-        )
-    return value
-
-
-def _numbers(value: Any) -> Iterator[Any]:
-    if isinstance(value, dict):
-        value = value.values()
-    elif is_matrix(value):
-        value = value.entries()
-    if isinstance(value, tuple | list | Vector | ValuesView):
-        for item in value:
-            yield from _numbers(item)
-    else:
-        yield value
 
 
 def _simplest(value: Any) -> Any:

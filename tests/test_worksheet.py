@@ -20,13 +20,14 @@ from rldrill.exam.manifest import manifest
 from rldrill.exam.planning import plan, version_code
 from rldrill.print.exam_files import write
 from rldrill.print.files import write_bytes_atomically
-from rldrill.print.key import answer_lines, key_source
+from rldrill.print.key import key_source
 from rldrill.print.paper import PAPERS, paper_of, pdf
 from rldrill.print.worksheet import worksheet_source
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
 
 A4, LETTER = PAPERS["a4"], PAPERS["letter"]

@@ -58,7 +58,7 @@ def question(given: Given) -> Question:
     return Question(
         (*model_blocks(given.mdp), Paragraph(discount(given.gamma))),
         (
-            Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states), points=2),
+            Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states)),
             Part("Which action is best in every state?", Policy(given.mdp.actions)),
             Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
         ),

@@ -99,10 +99,10 @@ def question(given: Given) -> Question:
         (f"${index}$", f"${text(link.theta)}$", f"${shown(link.d)}$", f"${shown(link.a)}$", f"${text(link.alpha)}$")
         for index, link in enumerate(given.links, 1)
     )
-    asks = [(f"What is the transform $T_{index}$ of link ${index}$?", 1) for index in range(1, count + 1)]
+    asks = [f"What is the transform $T_{index}$ of link ${index}$?" for index in range(1, count + 1)]
     for link in given.posed:
         product = " ".join((*(["T_b"] if given.base else []), *(f"T_{index}" for index in range(1, link + 1))))
-        asks.append((_pose(given, link, product), 2))
+        asks.append(_pose(given, link, product))
     several = {1: "The link", 2: "The first two links", 3: "The first three links"}.get(count, "The links")
     return Question(
         (
@@ -115,7 +115,7 @@ def question(given: Given) -> Question:
             ),
             *_base(given),
         ),
-        tuple(Part(ask, Matrix(4, 4), points=points) for ask, points in asks),
+        tuple(Part(ask, Matrix(4, 4)) for ask in asks),
     )
 
 

@@ -67,7 +67,7 @@ def question(given: Given) -> Question:
     for angle, end, entries in which:
         parts += [
             Part(f"What is the angle {angle} against the $x$ axis, in radians?", Number(), zero=True),
-            Part(f"Where is the end point {end}?", Numbers(entries), points=2, zero=given.frames),
+            Part(f"Where is the end point {end}?", Numbers(entries), zero=given.frames),
         ]
     return Question(_situation(given), tuple(parts))
 

@@ -65,7 +65,7 @@ def question(given: Given) -> Question:
     )  # fmt: skip
     velocity = tuple(f"v_{row}" for row in given.rows)
     parts = [
-        Part("What is $J$ at this configuration?", Matrix(m, n), points=3),
+        Part("What is $J$ at this configuration?", Matrix(m, n)),
         Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True),
     ]
     if given.square:

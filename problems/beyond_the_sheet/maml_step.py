@@ -83,6 +83,6 @@ def question(given: Given) -> Question:
                 Numbers(adapted) if count > 1 else Number(),
                 zero=True,
             ),
-            Part(f"What is $θ$ after the outer step{open_}?", Number(), points=2, zero=True),
+            Part(f"What is $θ$ after the outer step{open_}?", Number(), zero=True),
         ),
     )

@@ -233,7 +233,7 @@ def _exploration(given: Bounds) -> Block:
 
 def _bounds(given: Bounds) -> tuple[Part, ...]:
     return (
-        Part(f"What is the upper confidence bound $U(a)$ of {_pulled(given)}?", Values("U", given.tried), points=2),
+        Part(f"What is the upper confidence bound $U(a)$ of {_pulled(given)}?", Values("U", given.tried)),
         Part("Which arm does UCB pull next?", Policy({NEXT: given.every_arm})),
     )
 
@@ -258,5 +258,5 @@ def _gradient_step(given: Preferences) -> tuple[Part, ...]:
     last, arms = len(given.every_pull), given.every_arm
     return (
         Part(f"With which probability $π(a)$ was every arm chosen at pull ${last}$?", Values("π", arms)),
-        Part(f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", arms), points=2),
+        Part(f"What is the preference $H(a)$ of every arm after pull ${last}$?", Values("H", arms)),
     )

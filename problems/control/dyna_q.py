@@ -166,7 +166,7 @@ def question(given: Given) -> Question:
     if given.changed:
         ask = "Which reward $r̂(s, a)$ does the model hold after the run, for every pair in it?"
         parts.append(Part(ask, Values("r̂", tuple(given.learned))))
-    parts.append(Part(f"After planning, what is {planned}{in_open(given)}?", Values("Q", given.replayed), points=2))
+    parts.append(Part(f"After planning, what is {planned}{in_open(given)}?", Values("Q", given.replayed)))
     return Question(blocks, tuple(parts))
 
 

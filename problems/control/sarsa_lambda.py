@@ -103,7 +103,6 @@ def question(given: Given) -> Question:
             Part(
                 f"What is the action value of these pairs after the run{in_open(given)}?",
                 Values("Q", given.eligible),
-                points=2,
             ),
         ),
     )

@@ -100,5 +100,5 @@ def question(given: Given) -> Question:
     parts.append(Part(ask, Number()))
     if given.accuracy is not None:
         ask = f"What is the smallest $k$ for which this bound guarantees $‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$?"
-        parts.append(Part(ask, Number(), points=2))
+        parts.append(Part(ask, Number()))
     return Question(blocks, tuple(parts))

@@ -1,5 +1,6 @@
 """The optimal policy for given optimal action values, some of which may have to be found first."""
 
+from functools import cached_property
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -57,17 +58,18 @@ class Given(Givens):
             if state in self.terminal:
                 raise ValueError(f"values: {state!r} is terminal, so no action can be taken there")
 
-    @property
+    @cached_property
     def actions(self) -> dict[str, tuple[str, ...]]:
         """The actions of every state, those with a missing value among them, in the order of the table."""
         fullest = sorted(self.values.values(), key=len, reverse=True)
+        gaps = {*self.gaps}
         every = dict.fromkeys([action for row in fullest for action in row] + [action for _, action in self.gaps])
         return {
-            state: tuple(action for action in every if action in row or (state, action) in self.gaps)
+            state: tuple(action for action in every if action in row or (state, action) in gaps)
             for state, row in self.values.items()
         }
 
-    @property
+    @cached_property
     def gaps(self) -> tuple[tuple[str, str], ...]:
         """The pairs of state and action whose values are missing."""
         return self.missing.pairs if self.missing else ()
@@ -95,9 +97,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
-    best = Part(
-        "Which action does an optimal policy take in every state?", Policy(given.actions), points=len(given.actions)
-    )
+    best = Part("Which action does an optimal policy take in every state?", Policy(given.actions))
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
         return Question(tuple(known), (best,))
@@ -111,7 +111,7 @@ def question(given: Given) -> Question:
     ask = (
         "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
     )
-    return Question(blocks, (Part(ask, Values("Q^*", given.gaps), points=len(given.gaps)), best))
+    return Question(blocks, (Part(ask, Values("Q^*", given.gaps)), best))
 
 
 def _table(given: Given) -> Table:

@@ -50,4 +50,4 @@ def question(given: Given) -> Question:
         values_table(given.values, "V^*"),
     )
     ask = "Which action does an optimal policy take in every state?"
-    return Question(blocks, (Part(ask, Policy(given.mdp.actions), points=len(given.mdp.states)),))
+    return Question(blocks, (Part(ask, Policy(given.mdp.actions)),))

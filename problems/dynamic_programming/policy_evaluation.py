@@ -65,4 +65,4 @@ def question(given: Given) -> Question:
         Paragraph(f"{discount(given.gamma)} {in_place(given.mdp.states) if given.in_place else SYNCHRONOUS}"),
     )
     ask = f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}{in_open(given)}?"
-    return Question(blocks, (Part(ask, Values(f"V_{{{k}}}", given.mdp.states), points=len(given.mdp.states)),))
+    return Question(blocks, (Part(ask, Values(f"V_{{{k}}}", given.mdp.states)),))

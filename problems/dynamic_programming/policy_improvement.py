@@ -66,7 +66,7 @@ def question(given: Given) -> Question:
     blocks = (*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma)), *known)
     parts = (
         *asked,
-        Part("Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions), points=len(states)),
+        Part("Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions)),
         Part("Is $π$ an optimal policy?", YesNo()),
     )
     return Question(blocks, tuple(parts))

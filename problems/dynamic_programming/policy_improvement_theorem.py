@@ -82,7 +82,7 @@ def question(given: Given) -> Question:
     )
     parts = (
         *asked,
-        Part("What is $Q^π(s, π'(s))$ in every state?", Values("Q^π", given.pairs), points=len(states)),
+        Part("What is $Q^π(s, π'(s))$ in every state?", Values("Q^π", given.pairs)),
         Part("Does the policy improvement theorem show that $π'$ is at least as good as $π$?", YesNo()),
     )
     return Question(blocks, tuple(parts))

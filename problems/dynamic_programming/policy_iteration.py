@@ -62,8 +62,8 @@ def question(given: Given) -> Question:
     for number in range(given.rounds):
         of, after = f"V^{{π_{{{number}}}}}", f"π_{{{number + 1}}}"
         parts += [
-            Part(f"What is ${of}(s)$, the value of every state?", Values(of, states), points=len(states)),
-            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions), points=len(states)),
+            Part(f"What is ${of}(s)$, the value of every state?", Values(of, states)),
+            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions)),
         ]
     return Question(
         blocks,

@@ -107,10 +107,9 @@ def question(given: Given) -> Question:
         ),
     )
     asked = (
-        (f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(stacked), 1),
-        ("What is $Q̂(s, a)$ of every action?", Values("Q̂", tuple(("s", action) for action in given.actions)), 2),
-        ("Which action is greedy?", Policy({"s": given.actions}), 1),
+        (f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(stacked)),
+        ("What is $Q̂(s, a)$ of every action?", Values("Q̂", tuple(("s", action) for action in given.actions))),
+        ("Which action is greedy?", Policy({"s": given.actions})),
     )
-    for ask, kind, points in asked:
-        parts.append(Part(ask, kind, points=points, zero=True))
+    parts += [Part(ask, kind, zero=True) for ask, kind in asked]
     return Question(blocks, tuple(parts))

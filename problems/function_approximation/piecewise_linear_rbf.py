@@ -52,4 +52,4 @@ def question(given: Given) -> Question:
         *bumps(given, given.width, "tent"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order?"
-    return Question(blocks, (Part(ask, Numbers(names), points=2),))
+    return Question(blocks, (Part(ask, Numbers(names)),))

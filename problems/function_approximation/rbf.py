@@ -55,4 +55,4 @@ def question(given: Given) -> Question:
         *bumps(given, given.sigma, "gaussian"),
     )
     ask = f"What are the features ${', '.join(names)}$, in this order{in_open(given)}?"
-    return Question(blocks, (Part(ask, Numbers(names), points=2),))
+    return Question(blocks, (Part(ask, Numbers(names)),))

@@ -124,4 +124,4 @@ def question(given: Given) -> Question:
     first = f"What {'is the TD error' if steps == 1 else 'are the TD errors'} ${', '.join(errors)}${in_open(given)}?"
     second = f"What are the weights $θ$ after the run{in_open(given)}?"
     names = weight_names(range(size * max(1, len(given.actions))))
-    return Question(blocks, (Part(first, Numbers(errors)), Part(second, Numbers(names), points=2)))
+    return Question(blocks, (Part(first, Numbers(errors)), Part(second, Numbers(names))))

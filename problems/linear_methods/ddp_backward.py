@@ -68,8 +68,8 @@ def question(given: Given) -> Question:
     )
     first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
     wanted = (
-        ("Q_s", first, n, 1, 1), ("Q_a", first, m, 1, 1), ("Q_{s s}", then, n, n, 2), ("Q_{a s}", then, m, n, 2),
-        ("Q_{a a}", then, m, m, 2), ("k", "change of the action", m, 1, 1), ("K", "gain", m, n, 1),
+        ("Q_s", first, n, 1), ("Q_a", first, m, 1), ("Q_{s s}", then, n, n), ("Q_{a s}", then, m, n),
+        ("Q_{a a}", then, m, m), ("k", "change of the action", m, 1), ("K", "gain", m, n),
     )  # fmt: skip
     return Question(
         (
@@ -83,7 +83,7 @@ def question(given: Given) -> Question:
             ),
         ),
         tuple(
-            Part(f"What is the {what} ${head}$?", Matrix(rows, columns), points=points, zero=True)
-            for head, what, rows, columns, points in wanted
+            Part(f"What is the {what} ${head}$?", Matrix(rows, columns), zero=True)
+            for head, what, rows, columns in wanted
         ),
     )

@@ -29,7 +29,7 @@ def question(given: Given) -> Question:
     return Question(
         (*situation(given), *((discretised(given),) if given.step else ()), near),
         (
-            Part(f"What is the matrix ${A}$?", Matrix(n, n), points=2),
-            Part(f"What is the matrix ${B}$?", Matrix(n, m), points=2),
+            Part(f"What is the matrix ${A}$?", Matrix(n, n)),
+            Part(f"What is the matrix ${B}$?", Matrix(n, m)),
         ),
     )

@@ -44,8 +44,8 @@ def question(given: Given) -> Question:
             ),
         ),
         (
-            Part("What is $C$?", Matrix(n, 1), points=2),
-            Part("What is the matrix $Ã$?", Matrix(n + 1, n + 1), points=2),
+            Part("What is $C$?", Matrix(n, 1)),
+            Part("What is the matrix $Ã$?", Matrix(n + 1, n + 1)),
             Part("What is the matrix $B̃$?", Matrix(n + 1, m)),
         ),
     )

@@ -132,8 +132,8 @@ def question(given: Given) -> Question:
             ),
         ),
         (
-            Part(f"What is ${P}$?", Matrix(n, n), points=3),
-            Part(f"What is the gain ${L}$?", Matrix(m, n), points=2),
+            Part(f"What is ${P}$?", Matrix(n, n)),
+            Part(f"What is the gain ${L}$?", Matrix(m, n)),
             Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True),
         ),
     )

@@ -88,6 +88,6 @@ def question(given: Given) -> Question:
         (*blocks, *gains),
         (
             Part(f"What is the first reward $r(s_0, a_0)${in_open(given)}?", Number()),
-            Part(f"{total}{in_open(given)}?", Number(), points=2),
+            Part(f"{total}{in_open(given)}?", Number()),
         ),
     )

@@ -118,7 +118,6 @@ def question(given: Given) -> Question:
             Part(f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
                  Numbers(errors)),
             Part(f"{values} after the run{opened}?", Values("V", given.visited), zero=True),
-            Part(f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta)),
-                 points=3),
+            Part(f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta))),
         ),
     )  # fmt: skip

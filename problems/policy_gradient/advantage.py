@@ -218,6 +218,6 @@ def _along(given: AlongRun) -> Question:
     )
     ask = f"What are the estimates ${', '.join(estimates)}$, in this order{in_open(given)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
-        return Question(blocks, (Part(ask, Numbers(estimates), points=3),))
+        return Question(blocks, (Part(ask, Numbers(estimates)),))
     first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
-    return Question(blocks, (Part(first, Numbers(errors), zero=True), Part(ask, Numbers(estimates), points=2)))
+    return Question(blocks, (Part(first, Numbers(errors), zero=True), Part(ask, Numbers(estimates))))

@@ -56,7 +56,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part("What is $Q̂(s, a)$ of every action?", Values("Q̂", pairs), points=2, zero=True),
+            Part("What is $Q̂(s, a)$ of every action?", Values("Q̂", pairs), zero=True),
             Part(
                 "Which action does the policy take in each state?"
                 if len(given.features) > 1

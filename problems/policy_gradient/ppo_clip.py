@@ -134,7 +134,7 @@ def question(given: Given) -> Question:
         _asked("unclipped term", "u", times),
         _asked("clipped term", "c", times),
         Part("What is the objective $L$, the mean over the samples?" if len(times) > 1
-             else "What is the objective $L_0$?", Number(), points=2, zero=True),
+             else "What is the objective $L_0$?", Number(), zero=True),
     ]  # fmt: skip
     for time in times:
         ask = f"Does clipping cut off the gradient of $L_{{{time}}}$, so that it does not change $θ$?"

@@ -99,5 +99,5 @@ def question(given: Given) -> Question:
         )
     parts = [*probabilities]
     for text in wanted:
-        parts.append(Part(text, Numbers(names), points=2))
+        parts.append(Part(text, Numbers(names)))
     return Question(blocks, tuple(parts))

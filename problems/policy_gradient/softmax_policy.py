@@ -62,9 +62,9 @@ def question(given: Given) -> Question:
     left_open = in_open(given)
     parts = [
         Part(f"What is the preference $h(s, a)$ of every action{left_open}?", Values("h", actions), zero=True),
-        Part(f"With which probability $π(a|s)$ is every action taken{left_open}?", Values("π", actions), points=2),
+        Part(f"With which probability $π(a|s)$ is every action taken{left_open}?", Values("π", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"
-        parts.append(Part(f"{ask}{left_open}?", Number(), points=2))
+        parts.append(Part(f"{ask}{left_open}?", Number()))
     return Question(blocks, tuple(parts))

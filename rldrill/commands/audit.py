@@ -1,12 +1,17 @@
 """``rldrill audit``."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rldrill.commands.arguments import Json, Names
 
+if TYPE_CHECKING:
+    from rldrill.audit.checking import Finding
+
 NAME = "audit"
+_KEYS = ("Drawn", "Disagreements", "Refused", "Impossible", "Ties", "Mistakes recognised")
+_QUESTIONS = ("Idle givens", "Guessed", "Largest", "Min/point", "Different", "Structures", "Attempts")
 
 
 def command(
@@ -20,7 +25,9 @@ def command(
     """Hold the exact answers against independent solvers; exit 1 on any disagreement.
 
     Every problem's answers are compared with those of a second solver, written in numpy without the
-    formulas; every listed mistake is typed as an answer and must be recognised.
+    formulas; every listed mistake is typed as an answer and must be recognised. What the draws are like as
+    questions is told beside: givens that no answer depends on, what constant answers earn, how large the numbers are,
+    minutes a point, how many problems and structures differ, how many attempts a draw takes.
 
     Examples: rldrill audit -n 20 · rldrill audit bellman --json
     """
@@ -28,7 +35,7 @@ def command(
 
     from rich.progress import Progress
 
-    from rldrill.audit import audit
+    from rldrill.audit.checking import audit
     from rldrill.commands.output import print_json
     from rldrill.problems.catalogue import selection
     from rldrill.render.terminal import console, table
@@ -41,17 +48,30 @@ def command(
     if json:
         print_json([finding.data() for finding in findings])
     else:
-        header = ("Family", "Level", "Drawn", "Disagreements", "Refused", "Ties", "Mistakes recognised")
-        rows = []
-        for finding in findings:
-            share = f"{100 * finding.recognised / finding.made:.0f} % of {finding.made}" if finding.made else "–"
-            rows.append((
-                finding.family.name, str(finding.level), str(finding.drawn), str(len(finding.disagreements)),
-                str(len(finding.refused)), str(finding.ties), share,
-            ))  # fmt: skip
-        console().print(table(header, rows, right=header[1:]))
+        for header, row in ((_KEYS, _keys), (_QUESTIONS, _questions)):
+            rows = [(finding.family.name, str(finding.level), *row(finding)) for finding in findings]
+            console().print(table(("Family", "Level", *header), rows, right=("Level", *header)))
     for finding in findings:
-        for line in (*finding.disagreements, *finding.refused, *finding.unrecognised):
+        for line in (*finding.disagreements, *finding.refused, *finding.unrecognised, *finding.complaints):
             print(line, file=sys.stderr)
     if not all(finding.clean for finding in findings):
         raise typer.Exit(1)
+
+
+def _keys(finding: "Finding") -> tuple[str, ...]:
+    """How the keys fare."""
+    share = f"{100 * finding.recognised / finding.made:.0f} % of {finding.made}" if finding.made else "–"
+    found = (finding.disagreements, finding.refused, finding.impossible)
+    return (str(finding.drawn), *(str(len(each)) for each in found), str(finding.ties), share)
+
+
+def _questions(finding: "Finding") -> tuple[str, ...]:
+    """What the questions are like."""
+    from statistics import median
+
+    figures = finding.figures
+    return (
+        f"{100 * len(figures.idle) / figures.drawn:.0f} %", f"{100 * figures.guesses.share:.0f} %",
+        f"{median(figures.largest):g}", f"{min(figures.rates):.1f}–{max(figures.rates):.1f}",
+        str(len(figures.problems)), str(len(figures.structures)), f"{median(figures.attempts):g}",
+    )  # fmt: skip

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -113,10 +113,17 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The judgement of some files."""
+    """The judgement of some files.
+
+    Args:
+        files: those that could be judged.
+        failures: those that could not.
+        notes: by problem file, what was read in it otherwise than it is written, such as 0.3333333333333333 as 1/3.
+    """
 
     files: tuple[FileReport, ...]
     failures: tuple[Failure, ...] = ()
+    notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def parts(self) -> tuple[MarkedPart, ...]:
@@ -161,6 +168,7 @@ class Report:
                 {"file": failure.path, "says": failure.says, "exit_code": failure.exit_code}
                 for failure in self.failures
             ],
+            "notes": {problem: list(notes) for problem, notes in self.notes.items()},
             "points": self.score.to_json(),
             "exit_code": self.exit_code,
         }
@@ -176,7 +184,7 @@ def verify(paths: Iterable[str | Path]) -> Report:
             files.append(FileReport(shown(path), tuple(_students(read_answers(path), problems))))
         except (FileError, NothingToGrade) as error:
             failures.append(Failure(shown(path), str(error), error.exit_code))
-    return Report(tuple(files), tuple(failures))
+    return Report(tuple(files), tuple(failures), problems.notes)
 
 
 class _Problems:
@@ -184,6 +192,11 @@ class _Problems:
 
     def __init__(self) -> None:
         self._loaded: dict[str, Exercise] = {}
+
+    @property
+    def notes(self) -> dict[str, tuple[str, ...]]:
+        """By problem file, what was read otherwise than it is written."""
+        return {shown(name): exercise.notes for name, exercise in self._loaded.items() if exercise.notes}
 
     def of(self, entry: Entry) -> Exercise:
         """The problem that an answer is for.

@@ -72,7 +72,7 @@ def _part(exercise: Exercise, part: Part, space: float) -> str:
     several = len(exercise.parts) > 1
     return (
         f"(label: [{text(f'({part.label})') + '#h(0.5em)' if several else ''}], ask: [{text(part.ask)}], "
-        f"points: [{text(written_points(part.points)) if several else ''}], space: {space:.1f}cm, "
+        f"points: [{text(written_points(part.points))}], space: {space:.1f}cm, "
         f"field: [{_field(exercise, part)}])"
     )
 

@@ -7,7 +7,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
+from rldrill.problems.expressions import GREEK
+from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable
@@ -16,6 +17,8 @@ from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
+#: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
+_NAMED_LINE = re.compile(r"\s*([^\W\d_]+)[^=:≈\n]*[=:≈]")
 
 
 class Outcome(Enum):
@@ -77,12 +80,30 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     kind = answer_kind(part.kind)
     try:
+        if isinstance(part.kind, Number):
+            _refuse_other_quantity(text, part.ask)
         cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
     read = ", ".join(f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items()))
     return _judge(solution, part, cells, value, read, dict(earlier or {}))
+
+
+def _refuse_other_quantity(text: str, ask: str) -> None:
+    """Refuse lines of a working of which an earlier one, not the last, names what is asked for.
+
+    Raises:
+        Unreadable: so it is.
+    """
+    *earlier, last = [_NAMED_LINE.match(line) for line in text.strip().split("\n")]
+    asked = [line[1] for line in earlier if line and _is_named(line[1], ask)]
+    if asked and last and not _is_named(last[1], ask):
+        raise Unreadable(f"The last line gives {last[1]}, but {asked[-1]} is asked for; type its value alone.")
+
+
+def _is_named(name: str, ask: str) -> bool:
+    return re.search(rf"(?<![^\W_]){re.escape(GREEK.get(name, name))}(?![^\W_])", ask) is not None
 
 
 def part_of(solution: Solution, label: str) -> Part:
@@ -110,19 +131,33 @@ def _judge(
             Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
         )
     made = _made(solution, part, cells, earlier)
-    credit = Fraction(len(key) - len(wrong), len(key)) if len(key) > 1 else Fraction(0)
+    earned = credit(part.kind, len(key), len(wrong))
     named = tuple(name for name in wrong if name)
     if told := _told(part.kind, made):
         says = " Or: ".join(dict.fromkeys(misconception.says for misconception in told))
-        return Verdict(Outcome.MISCONCEPTION, says, credit, read, made, named, value, told)
+        return Verdict(Outcome.MISCONCEPTION, says, earned, read, made, named, value, told)
     if all(_is_close(cells[name], key[name]) for name in wrong):
         cut = all(_is_cut_off(cells[name], key[name]) for name in wrong)
         says = _CUT_OFF if cut else "Right idea; give an exact value or three digits."
-        return Verdict(Outcome.CLOSE, says, credit, read, (), named, value)
+        return Verdict(Outcome.CLOSE, says, earned, read, (), named, value)
     says = "Not right."
     if named and len(named) < len(key):
         says = f"Not right at {'; '.join(named)}; the rest is right."
-    return Verdict(Outcome.WRONG, says, credit, read, made, named, value)
+    return Verdict(Outcome.WRONG, says, earned, read, made, named, value)
+
+
+def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
+    """The share of the points that an answer with some wrong cells earns.
+
+    Cells of a policy earn what is beyond guessing: with two actions everywhere, half of the states right is nothing.
+    """
+    if cells == 1:
+        return Fraction(0)
+    share = Fraction(cells - wrong, cells)
+    if isinstance(kind, Policy):
+        chance = sum((Fraction(1, len(possible)) for possible in kind.actions.values()), Fraction(0)) / cells
+        return max(Fraction(0), (share - chance) / (1 - chance)) if chance < 1 else Fraction(0)
+    return share
 
 
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:

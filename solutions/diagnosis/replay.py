@@ -137,8 +137,10 @@ class Replay(Work):
         self._count()
         return self.change.rights.get(formula.right, formula.right)
 
-    def step(self, formula: Formula, *, into: Any = None, sign: Any = None, right: Any = None, **known: Any) -> Any:  # noqa: ARG002
+    def step(self, formula: Formula, *, right: Any = None, **known: Any) -> Any:
         """The value alone."""
+        for written in ("into", "sign", "label"):
+            known.pop(written, None)
         number, self.number = self.number, self.number + 1
         if number in self.change.values:
             self._count()

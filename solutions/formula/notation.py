@@ -1,6 +1,6 @@
 """The vocabulary of the formulas: letters, quantities such as V(s), and all kinds of nodes, by one name."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cache
 from typing import Any, ClassVar
@@ -64,8 +64,15 @@ class Quantity(Node, sympy.Function):
     def _put_in(self, put_in: PutIn) -> Expr:
         if self.code in put_in.known:
             with suppress(NotGiven):  # an unknown of a system, among values that are fixed
-                return leaf(put_in.value(self))
+                value = put_in.value(self)
+                return leaf(value) if self._is_there(put_in) else sympy.S.Zero
         return indexed(self, put_in.known)
+
+    def _is_there(self, put_in: PutIn) -> bool:
+        """Whether the table has an entry for these arguments; where it has none there is nothing to write."""
+        table = put_in.known[self.code]
+        place = tuple(map(put_in.value, self.args))
+        return not isinstance(table, Mapping) or (place if len(place) > 1 else place[0]) in table
 
 
 def quantity(code: str, layout: Callable[..., Math], *, matrix: bool = False) -> type[Quantity]:

@@ -11,7 +11,16 @@ from sympy import Add, Expr, Mul, Pow
 from rldrill.solutions.exact import NotGiven, ordered
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Negative, VectorLeaf, computed, leaf, put_in_name
+from rldrill.solutions.formula.nodes.leaves import (
+    Leaf,
+    MatrixLeaf,
+    Negative,
+    Slot,
+    VectorLeaf,
+    computed,
+    leaf,
+    put_in_name,
+)
 
 Known = Mapping[str, Any]
 
@@ -19,8 +28,9 @@ Known = Mapping[str, Any]
 class PutIn:
     """Puts what is known into an expression, unevaluated.
 
-    Sums and maxima are written out over their sets; terms that are zero are dropped. What is not known
-    (the unknowns of a system) stays a quantity, with its indices put in.
+    Sums and maxima are written out over their sets. A 0 or 1 that is given keeps its place in the rule; terms that
+    are zero because nothing is there (a transition that does not exist) are dropped. What is not known (the unknowns
+    of a system) stays a quantity, with its indices put in.
     """
 
     def __init__(self, known: Known) -> None:
@@ -84,6 +94,8 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 def sum_of(terms: Iterable[Expr]) -> Expr:
     """A sum, unevaluated: without terms that are zero."""
     kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
+    if any(not _is_nothing(term) for term in kept):
+        kept = [term for term in kept if not _is_nothing(term)]
     if not kept:
         return sympy.S.Zero
     if len(kept) == 1:  # what is left of 0 − 5 is −5, not (−1)·5; and of 0 − (−5) it is 5
@@ -92,6 +104,11 @@ def sum_of(terms: Iterable[Expr]) -> Expr:
             return leaf(-rest[0].args[0])
         return Negative(-rest[0]) if sign == -1 and len(rest) == 1 and rest[0].is_Number else kept[0]
     return Add(*kept, evaluate=False)
+
+
+def _is_nothing(term: Expr) -> bool:
+    """Whether a term is a multiple of a matrix or vector of zeros, which only fills the line."""
+    return any(isinstance(f, MatrixLeaf) and not f.scalar and f.args[0].is_zero_matrix for f in Mul.make_args(term))
 
 
 def product_of(factors: Iterable[Expr]) -> Expr:
@@ -118,6 +135,8 @@ def power_of(base: Expr, exponent: Expr) -> Expr:
     """A power, unevaluated, unless it is plain."""
     if 1 in (base, exponent):
         return base
+    if isinstance(base, Slot) and exponent.is_positive:
+        return base
     if exponent == 0 or base == 1:
         return sympy.S.One
     return Pow(base, exponent, evaluate=False)
@@ -137,8 +156,29 @@ def evaluated(expression: Expr) -> Any:
     return pow(*arguments) if expression.is_Pow else expression.func(*arguments)
 
 
+def without_slots(expression: Expr) -> Expr:
+    """The step without the zeros and ones that only keep a place."""
+    if isinstance(expression, Slot):
+        return expression.args[0]
+    if isinstance(expression, Leaf) or not expression.has(Slot):
+        return expression
+    arguments = map(without_slots, expression.args)
+    if expression.is_Add and not isinstance(expression, Node):
+        return sum_of(arguments)
+    if expression.is_Mul:
+        return product_of(arguments)
+    if expression.is_Pow:
+        return power_of(*arguments)
+    plain = expression.is_Function and not isinstance(expression, Node)
+    return expression.func(*arguments, evaluate=False) if plain else expression.func(*arguments)
+
+
 def reduced(expression: Expr) -> Expr:
     """The step with its inner brackets worked out: what one writes between putting in and the result."""
+    return _reduced(without_slots(expression))
+
+
+def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:

@@ -224,7 +224,7 @@ def _sum(terms: Sequence[Expr]) -> Math:
         if _negative(term):
             items += [_MINUS, _addend(_opposite(term))]
         else:
-            items += [_PLUS, _addend(term)] if position else [_addend(term)]
+            items += [_PLUS, _addend(term)] if position else [_first(term)]
     return row(*items)
 
 
@@ -239,6 +239,11 @@ def _parts(expression: Expr, kind: type[Expr]) -> Iterator[Expr]:
 
 def _addend(term: Expr) -> Math:
     return Fence(typeset(term)) if term.is_Add or _negative(term) else typeset(term)
+
+
+def _first(term: Expr) -> Math:
+    """What begins a sum; a negative number that was put in needs no brackets there."""
+    return alone(term) if look(term) is Look.NUMBER else _addend(term)
 
 
 def _product(factors: Sequence[Expr]) -> Math:

@@ -1,12 +1,12 @@
 """Conditional probabilities from the table, compared history by history."""
 
-from collections import defaultdict
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, where
+from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
@@ -62,7 +62,7 @@ def _matters(given: Given, chances: Chances) -> tuple[str, ...]:
 
 
 def _counts(given: Given) -> dict[tuple[str, str, str], Value]:
-    return defaultdict(lambda: ZERO, {row[:3]: exact(row.weight) for row in given.table})
+    return knowns.Sparse({row[:3]: exact(row.weight) for row in given.table})
 
 
 def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:

@@ -9,6 +9,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.problems.parts import Numbers, Policy, Values
@@ -367,3 +368,13 @@ def test_every_form_of_an_exponential_is_accepted(same: str) -> None:
 )
 def test_a_near_miss_of_an_exponential_is_not(other: str) -> None:
     assert judge(BUMP, "a", other).outcome is not Outcome.RIGHT
+
+
+def test_a_working_of_several_lines_is_worth_what_its_last_line_says_of_what_is_asked_for() -> None:
+    # R_0 = 3 + 1/2 · 1/4 = 25/8.
+    exercise = rldrill.load("return/1/7")
+    assert exercise.check("gamma = 1/2\nR_0 = 3 + 1/8 = 25/8", "b").accepted
+    assert exercise.check("R_0 = 3 + 1/8\n= 25/8", "b").accepted
+    verdict = exercise.check("R_0 = 25/8\ndelta = 1", "b")
+    assert verdict.says == "The last line gives delta, but R is asked for; type its value alone."
+    assert not verdict.accepted

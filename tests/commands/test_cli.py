@@ -161,7 +161,7 @@ def test_without_a_home_and_with_an_ascii_terminal() -> None:
 
 
 def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) -> None:
-    from rldrill.audit import audit
+    from rldrill.audit.checking import audit
     from rldrill.solutions import solution
 
     real = solution.solver
@@ -170,7 +170,7 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
     def broken(family):  # type: ignore[no-untyped-def]
         return replace(real(family), oracle=lambda _: ([1e9],))
 
-    monkeypatch.setattr("rldrill.audit.solver", broken)
+    monkeypatch.setattr("rldrill.audit.checking.solver", broken)
     (finding, *_) = audit(["td-zero"], number=2)
     assert len(finding.disagreements) == 2
     assert not finding.clean

@@ -26,7 +26,7 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, decimal, is_rational, parameters, simplest
 from rldrill.solutions.formula.nodes.choices import Choice, Greatest, Least
-from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Negative, VectorLeaf
+from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Negative, Slot, VectorLeaf
 from rldrill.solutions.formula.nodes.matrices import Transposed
 from rldrill.solutions.formula.nodes.sets import MaxOf
 from rldrill.solutions.matrices import is_matrix, matrix
@@ -56,7 +56,7 @@ def _worth(expression: Any) -> Any:
         return Vector(map(simplest, expression.args[0]))
     if isinstance(expression, MatrixLeaf):
         return matrix([[simplest(entry) for entry in row] for row in expression.args[0].tolist()])
-    if isinstance(expression, Negative):
+    if isinstance(expression, Negative | Slot):
         return _worth(expression.args[0])
     if isinstance(expression, Transposed):
         return _worth(expression.args[0]).transpose()
@@ -276,7 +276,7 @@ def rewritten(line: Any, rewrite: Rewrite, depth: int = 0) -> Iterator[tuple[tup
     """The line with one of its parts rewritten, and where."""
     for number, other in enumerate(rewrite(line)):
         yield (-1 - number,), other
-    if isinstance(line, MatrixLeaf | Negative) or not line.args:
+    if isinstance(line, MatrixLeaf | Negative | Slot) or not line.args:
         return
     for place, part in enumerate(line.args):
         if not isinstance(part, sympy.Basic):

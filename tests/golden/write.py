@@ -15,7 +15,7 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 from printing import page
-from rldrill.audit import agrees
+from rldrill.audit.checking import agrees
 from rldrill.exam.expected import FILE as MINUTES
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family

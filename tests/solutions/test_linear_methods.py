@@ -316,3 +316,31 @@ def test_sums_of_roots_calculate_as_sympys_do(first: Any, second: Any) -> None:
         inverse = surds.inverse(y)
         assert inverse is not None
         assert surds.multiply(y, inverse) == surds.read(simplest(1))
+
+
+@pytest.mark.parametrize(
+    ("more", "mistake", "gain"),
+    [
+        # γ = 1/2, A = B = Q = 1, R = 2, P₁ = −1: L₀ = (−1/2)/(−1/2 − 2) = 1/5; without R it is 1.
+        ({"gamma": "1/2"}, "forgot-r", 1),
+        # S₁ = 1: L₀ = 1/(2 + 1) = 1/3; without R it is 1, without the last cost 0.
+        ({"convention": "cost-to-go"}, "forgot-r-in-costs", 1),
+        ({"convention": "xuKP"}, "no-terminal-cost", 0),
+        # With N = 1: L₀ = (−1 − 1)/(−1 − 2) = 2/3; without R it is 2.
+        ({"N": [[1]]}, "forgot-r", 2),
+    ],
+)
+def test_misreadings_are_recognised_in_every_form_of_lqr(more: dict[str, Any], mistake: str, gain: int) -> None:
+    given_ = {"A": 1, "B": 1, "Q": 2 if "N" in more else 1, "R": 2, "start": [1], "horizon": 1, **more}
+    given_ |= {"Q_T": 1} if "N" in more else {}
+    exercise = rldrill.read({"family": "lqr-backward", "given": given_})
+    assert mistake in [made.name for made in exercise.check(str(gain), "a").misconceptions]
+
+
+def test_a_long_horizon_says_how_many_times_are_asked_for() -> None:
+    given_ = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 20}
+    page = str(rldrill.read({"family": "lqr-backward", "given": given_}).question())
+    assert "Only the first 12 of the 20 times are asked for; the recursion begins at the horizon" in page
+    assert "Only the first" not in str(
+        rldrill.read({"family": "lqr-backward", "given": given_ | {"horizon": 12}}).question()
+    )

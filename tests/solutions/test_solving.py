@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import solved
-from rldrill.audit import audit
+from rldrill.audit.checking import audit
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw

@@ -6,7 +6,7 @@ from typing import Any
 import sympy
 from sympy import Expr
 
-from rldrill.problems.mathematics import Fence, Math, name
+from rldrill.problems.mathematics import Fence, Math, name, number
 from rldrill.solutions.exact import ordered, to_sympy
 from rldrill.solutions.formula.node import Look, Node, Typeset
 from rldrill.solutions.formula.typesetting import tabular, typeset_value, vector
@@ -31,6 +31,15 @@ class PutInName(Leaf, sympy.Symbol):
 
     def _typeset(self, _: object) -> Math:
         return name(self.name)
+
+
+class Slot(Leaf):
+    """A 0 or 1 that was put in: it keeps its place in the rule until the next line."""
+
+    look = Look.NUMBER
+
+    def _typeset(self, _: object) -> Math:
+        return number(self.args[0])
 
 
 class Negative(Leaf):
@@ -106,7 +115,8 @@ def leaf(value: Any) -> Expr:
         return MatrixLeaf([[to_sympy(entry) for entry in line] for line in value.tolist()])
     if isinstance(value, Vector):
         return VectorLeaf(value.matrix())
-    return computed(ordered(to_sympy(value)))
+    number_ = to_sympy(value)
+    return Slot(number_) if number_ in (0, 1) else computed(ordered(number_))
 
 
 def computed(value: Any) -> Expr:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from rldrill import audit
-from rldrill.audit import Finding, agrees, examine
+from rldrill.audit import checking as audit
+from rldrill.audit.checking import Finding, agrees, examine
 from rldrill.problems.catalogue import family
 from rldrill.problems.parts import Number, Part, Policy
 from rldrill.solutions.answers.judging import Outcome, judge

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from rldrill.audit.figures import Figures
 from rldrill.exam.selection import MAX_DRAWN
 from rldrill.problems.catalogue import selection
 from rldrill.problems.draws import Draws
@@ -30,10 +31,12 @@ class Finding:
         drawn: how many problems were drawn.
         disagreements: IDs and parts where the two solvers differ, with both answers.
         refused: IDs and parts where the exact answer, typed, was not judged right.
+        impossible: IDs of problems that state what cannot be true together.
         ties: how many problems have tied best actions where the question assumes one.
         made: how many misconceptions were tried.
         recognised: how many of them, typed as answers, were recognised.
         unrecognised: IDs and names of those that were not.
+        figures: what the problems are like as questions.
     """
 
     family: Family
@@ -42,15 +45,22 @@ class Finding:
     disagreements: list[str] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)
     ties: int = 0
+    impossible: list[str] = field(default_factory=list)
     made: int = 0
     recognised: int = 0
     unrecognised: list[str] = field(default_factory=list)
     seen: set[str] = field(default_factory=set)
+    figures: Figures = field(default_factory=Figures)
 
     @property
     def clean(self) -> bool:
         """Whether nothing is wrong."""
-        return not (self.disagreements or self.refused or self.ties or self.unrecognised)
+        return not (self.disagreements or self.refused or self.ties or self.unrecognised or self.impossible)
+
+    @property
+    def complaints(self) -> list[str]:
+        """What an examiner would object to."""
+        return [f"{self.family.name}/{self.level}: {said}" for said in self.figures.complaints(self.level)]
 
     @property
     def never(self) -> tuple[str, ...]:
@@ -64,6 +74,7 @@ class Finding:
             "disagreements": self.disagreements, "refused": self.refused, "ties": self.ties,
             "misconceptions": {"made": self.made, "recognised": self.recognised,
                                "unrecognised": self.unrecognised, "never_applicable": list(self.never)},
+            "impossible": self.impossible, "question": self.figures.data(), "complaints": self.complaints,
         }  # fmt: skip
 
 
@@ -102,6 +113,9 @@ def examine(solution: Solution, finding: Finding) -> None:
             finding.ties += any(len(best) > 1 for best in other.values())
         if judge(solution, part.label, answer_kind(part.kind).write(answer)).outcome is not Outcome.RIGHT:
             finding.refused.append(where)
+    if not solver(problem.family).possible(problem.given):
+        finding.impossible.append(str(problem.identity))
+    finding.figures.add(solution)
     for misconception, answers in solution.mistakes:
         finding.made += 1
         finding.seen.add(misconception.name)
