@@ -1,25 +1,27 @@
 """Why an answer is wrong, in a sentence, and where in the working it went wrong."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import Event, Thread
 from typing import Any
 
 from rldrill.problems.document import Equation
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
-from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.diagnosis.explaining import Explained, explained
+from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis.explaining import MOST, Explained, explained
 from rldrill.solutions.diagnosis.following import Line, Standing, follow
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
-from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed
+from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.exact import is_rational
 from rldrill.solutions.solution import Solution
 
 #: The time that there is at a prompt, in seconds.
 AT_THE_PROMPT = 0.15
-#: More explanations than this are none.
-_MOST = 2
+#: A decimal of more places than this is no rounded one.
+_PLACES = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +119,25 @@ class Diagnosing:
             self._thread.join()
             self._thread = None
 
+    def unmasked(self, label: str, text: str, verdict: Verdict) -> Verdict:
+        """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
+        if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
+            return verdict
+        diagnosis = self.diagnose(label, text, verdict)
+        return replace(verdict, outcome=Outcome.WRONG, says=diagnosis.sentence) if diagnosis.explains else verdict
+
+    def _rounded(self, label: str, text: str) -> bool:
+        """Whether the wrong numbers are right ones with fewer digits than are asked for."""
+        typed = self._typed(label, text)
+        return all(_is_shorter(typed.cells[name], typed.key[name]) for name in typed.wrong)
+
+    def _typed(self, label: str, text: str) -> Typed:
+        part = part_of(self.solution, label)
+        kind = answer_kind(part.kind)
+        problem = self.solution.problem
+        cells = kind.read(text, problem.parameters, problem.given.terminal_states())
+        return Typed(part, cells, kind.cells(self.solution.answers[label]))
+
     def diagnose(
         self,
         label: str,
@@ -141,10 +162,7 @@ class Diagnosing:
         if verdict.told:
             return _listed(self.solution, verdict)
         self._finish()
-        part = part_of(self.solution, label)
-        kind = answer_kind(part.kind)
-        cells = kind.read(text, self.solution.problem.parameters, self.solution.problem.given.terminal_states())
-        typed = Typed(part, cells, kind.cells(self.solution.answers[label]))
+        typed = self._typed(label, text)
         clock = Clock(seconds)
         for carried in ({}, earlier) if earlier else ({},):
             search = self.search(carried)
@@ -152,6 +170,14 @@ class Diagnosing:
             if found.causes:
                 return _told(found, search.applications, verdict)
         return Diagnosis("unexplained", verdict.says)
+
+
+def _is_shorter(cell: Cell, key: Any) -> bool:
+    """Whether a number is the key, rounded or cut off where its own digits end."""
+    if not isinstance(cell, Reading) or not is_rational(cell.value):
+        return False
+    places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), None)
+    return places is not None and abs(approximate(cell.value) - approximate(key)) < 10.0**-places
 
 
 def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
@@ -167,7 +193,7 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
 
 def _told(found: Explained, applications: Sequence[Application], verdict: Verdict) -> Diagnosis:
     causes = found.causes
-    if len(causes) > _MOST:
+    if len(causes) > MOST:
         return _located(causes, applications) or Diagnosis("unexplained", verdict.says)
     first, *others = (_diagnosis(cause, applications, found.confidence) for cause in causes)
     said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)

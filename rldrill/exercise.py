@@ -99,7 +99,8 @@ class Exercise:
         label = self._part(part).label
         if answer is None:
             raise UsageError("The answer is missing; give a text or a number.")
-        return judge(self.solution, label, typed(answer, "The answer"))
+        text = typed(answer, "The answer")
+        return self.diagnosing.unmasked(label, text, judge(self.solution, label, text))
 
     def grade(self, answers: Mapping[str, object]) -> Graded:
         """Judge a whole submission; a later part is also judged with the person's own answers to earlier parts.
@@ -115,7 +116,15 @@ class Exercise:
         texts = {
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
-        return grade(self.solution, texts)
+        graded = grade(self.solution, texts)
+        return Graded(
+            tuple(
+                part
+                if part.verdict is None
+                else replace(part, verdict=self.diagnosing.unmasked(part.part, part.typed, part.verdict))
+                for part in graded.parts
+            )
+        )
 
     @cached_property
     def diagnosing(self) -> Diagnosing:

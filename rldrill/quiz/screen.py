@@ -22,12 +22,14 @@ KEYS = "h hint · w working · s skip · r restart · v variant · q quit · ? h
 HELP = (
     ("h", "hint: the formula that is needed, then what it means"),
     ("w", "working: show how this part is solved, and go on"),
+    ("m", "my working: type your own, line by line, to see where it goes wrong"),
     ("s", "skip this part"),
     ("r", "restart: begin this problem again from its first part"),
     ("v", "variant: another problem of the same kind"),
     ("q", "quit, with a summary (Ctrl-C and Ctrl-D do the same)"),
     ("?", "this help"),
 )
+_OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
 _STYLES = {
     Outcome.RIGHT: "green",
     Outcome.FOLLOW_THROUGH: "green",
@@ -43,6 +45,14 @@ _WORDS = {
     Outcome.MISCONCEPTION: "✗ A typical mistake:",
     Outcome.WRONG: "✗",
     Outcome.UNREADABLE: "? Not understood, and not counted:",
+}
+#: How a line of somebody's own working is marked.
+_STANDINGS = {
+    "right": ("✓", "green"),
+    "follows": ("✓", "green"),
+    "departs": ("✗", "red"),
+    "miscalculated": ("✗", "red"),
+    "unread": ("?", "yellow"),
 }
 
 
@@ -156,6 +166,8 @@ class Screen:
                     self._help()
                 case "h" | ":h":
                     self._hint(record, part)
+                case "m" | ":m":
+                    self._own_working(record)
                 case "s" | ":s":
                     part.state = State.SKIPPED
                 case "w" | ":w":
@@ -188,7 +200,7 @@ class Screen:
             self._print(Text("  The formula is:", style="dim"))
             self._indented(renderable(diagnosis.right))
         if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
-            self._print(Text("  Try again, or h for a hint, w for the working, s to go on.", style="dim"))
+            self._print(Text(f"  {_OR_ELSE}", style="dim"))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
         blocks = record.exercise.hint(part.part.label)
@@ -201,6 +213,23 @@ class Screen:
         self._indented(render(record.exercise.working(part.part.label)))
         self._print(Text("  The answer:", style="dim"))
         self._indented(renderable(record.exercise.answer(part.part)))
+
+    def _own_working(self, record: Record) -> None:
+        """Ask for the person's own working, and say where it goes wrong."""
+        self._print(Text("  Your working, a step a line (V = 8 + 1/2*4 = 10); an empty line ends it:", style="dim"))
+        lines: list[str] = []
+        while line := self._line("... ").strip():
+            lines.append(line)
+        if not lines:
+            return
+        followed = record.exercise.follow(lines)
+        for line in followed.lines:
+            mark, style = _STANDINGS[line.standing]
+            self._print(words("  ", (mark, f"bold {style}"), f" {line.text}"))
+            if line.sentence:
+                self._print(words("    ", (line.sentence, style)))
+        if followed.first is None:
+            self._print(words("  ", followed.sentence))
 
     def _help(self) -> None:
         grid = Table.grid(padding=(0, 2))

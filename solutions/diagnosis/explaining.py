@@ -13,8 +13,10 @@ from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
 CHANCE = 10
-#: A cause so much less likely than the likeliest is not spoken of.
-NEAR = 0.4
+#: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
+NEAR = (0.4, 0.65)
+#: More causes than this explain nothing.
+MOST = 2
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
 #: A decimal tells no more numbers apart than this, where it is a rounded one.
@@ -45,13 +47,22 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     best = found[0]
     room = _room(typed, exact=_exactly(typed, best))
     chance = _as_likely(search, typed, best.cause) / room
-    near = [each.cause for each in found if each.cause.weight >= NEAR * best.cause.weight]
-    near = _distinct(near)
+    near = _near(found)
     every = tuple(_distinct([each.cause for each in found]))
     if chance > CHANCE:
         return Explained((), 0.0, chance, every)
     share = best.cause.weight / sum(cause.weight for cause in near)
     return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)
+
+
+def _near(found: Sequence[Candidate]) -> list[Cause]:
+    """The causes that are about as likely as the likeliest; where they are many, only those that are nearly so."""
+    for bound in NEAR:
+        least = bound * found[0].cause.weight
+        near = _distinct([each.cause for each in found if each.cause.weight >= least])
+        if len(near) <= MOST:
+            break
+    return near
 
 
 def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:

@@ -21,8 +21,8 @@ Words: TypeAlias = tuple[str | Math, ...]
 #: What an edit does, by its kind; {part} is what was changed, {instead} what stands there.
 _EDITS = {
     "term-left-out": "{part} is missing",
-    "factor-left-out": "the factor {part} is missing",
-    "bracket-left-out": "the factor {part} is missing",
+    "factor-left-out": "{part} is missing",
+    "bracket-left-out": "the factor ({part}) is missing",
     "sign": "{part} has the wrong sign",
     "twice": "{part} is counted twice",
     "difference": "{part} is taken with the opposite sign",

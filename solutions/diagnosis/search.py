@@ -49,6 +49,8 @@ _NEAR, _NEAR_ZERO = 0.012, 0.0011
 _ELSEWHERE = 12
 #: A sum of more terms than this is not edited term by term.
 _TERMS = 8
+#: So many causes of the same value are told apart.
+_ALIKE = 4
 #: Two slips are each of at least this weight, and the first is one of so many.
 _LIKELY, _FIRST = 1.5, 12
 #: So many pairs of places are tried.
@@ -346,16 +348,17 @@ class Search:
 
     # One application --------------------------------------------------------------------------------
     def alternatives(self, application: Application) -> list[Cause]:
-        """What may come out of one application instead of its value, the likeliest first, each value once."""
+        """What may come out of one application instead of its value, the likeliest first."""
         number = application.number
         if number not in self._alternatives:
-            found: dict[Any, Cause] = {}
+            found: dict[Any, list[Cause]] = defaultdict(list)
             for cause in sorted(self._at_one(application), key=lambda cause: -cause.weight):
-                key = _hashable(cause.became)
-                if key not in found:
-                    found[key] = cause
+                alike = found[_hashable(cause.became)]
+                if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
+                    alike.append(cause)
             found.pop(_hashable(application.value), None)
-            self._alternatives[number] = list(found.values())
+            every = (cause for alike in found.values() for cause in alike)
+            self._alternatives[number] = sorted(every, key=lambda cause: -cause.weight)
         return self._alternatives[number]
 
     def _at_one(self, application: Application) -> Iterator[Cause]:
@@ -463,6 +466,7 @@ class Search:
             changed, predict = predicted
             if not within(changed):
                 continue
+            done: dict[Any, Mapping[str, Any] | None] = {}
             for cause in self.alternatives(application):
                 if clock.over:
                     return
@@ -470,7 +474,10 @@ class Search:
                     near(size, typed.sizes[name]) for name, size in predict(cause.became).items()
                 ):
                     continue
-                answers = self.replay(Change(values={application.number: cause.became}))
+                same = _hashable(cause.became)
+                if same not in done:
+                    done[same] = self.replay(Change(values={application.number: cause.became}))
+                answers = done[same]
                 cells = typed.cells_of(answers)
                 if answers is None or cells is None:
                     continue
