@@ -123,10 +123,10 @@ def _judge(
 ) -> Verdict:
     label = part.label
     key = answer_kind(part.kind).cells(solution.answers[label])
-    wrong = _wrong_cells(cells, key)
+    wrong = wrong_cells(cells, key)
     if not wrong:
         return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
-    if earlier and _matches(part, cells, solution.following(earlier)):
+    if earlier and matches(part, cells, solution.following(earlier)):
         return Verdict(
             Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
         )
@@ -163,7 +163,7 @@ def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
     """The misconceptions that give this answer, from the start or from the person's earlier answers."""
     for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):
-        made = tuple(misconception for misconception, answers in mistakes if _matches(part, cells, answers))
+        made = tuple(misconception for misconception, answers in mistakes if matches(part, cells, answers))
         if made:
             return made
     return ()
@@ -176,12 +176,12 @@ def _told(kind: Kind, made: tuple[Misconception, ...]) -> tuple[Misconception, .
     return made[:1] if isinstance(kind, Choice | Policy) else made
 
 
-def _matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:
+def matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:
     """Whether what was typed is the answer that a mistake, or somebody's earlier answer, leads to."""
     if part.label not in answers:
         return False
     try:
-        return not _wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
+        return not wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
     except NotReal:
         return False  # an odd earlier answer leads to what is no real number: nobody can have typed it
 
@@ -196,7 +196,8 @@ def _echo(cell: Cell) -> str:
     return cell if isinstance(cell, str) else " or ".join(cell)
 
 
-def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
+def wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of the cells that are not right."""
     return tuple(name for name, content in key.items() if not _cell_is_right(cells[name], content))
 
 
