@@ -283,8 +283,8 @@ def test_a_part_has_room_for_each_line_of_its_working_and_a_problem_at_most_nine
 
     one_line = read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})  # R₁ = 4
     first, second = _spaces(one_line)
-    assert first == pytest.approx(1.2 + 0.6)
-    assert second == pytest.approx(1.2 + 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
+    assert first == pytest.approx(1.2 + 2 * 0.6)  # the formula, then its numbers
+    assert second == pytest.approx(1.2 + 2 * 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
     many = draw("value-iteration", 3, 0)
     assert sum(_spaces(many)) == pytest.approx(9)
 

@@ -188,7 +188,7 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7",
         hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
         note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     NOT_INVERTED = Misconception(
         "not-inverted",
@@ -201,7 +201,7 @@ with evaluate(False):
         title="A point in the next frame",
         source="Siciliano et al. 2009, section 2.7",
         hint="Take the origin off, then undo the rotation: its inverse is its transpose.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
         misread={
             NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),
         },
