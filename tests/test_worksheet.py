@@ -61,6 +61,13 @@ def test_a_version_repeats_no_problem() -> None:
     assert len({json.dumps(item.problem.data()) for item in version.exercises}) == 40
 
 
+def test_versions_earn_the_same_place_by_place() -> None:
+    versions = plan(["control", "bellman"], 5, 2, 8, 3).versions
+    earned = [[points_of(exercise) for exercise in version.exercises] for version in versions]
+    assert earned[0] == earned[1] == earned[2]
+    assert len({exercise.id for version in versions for exercise in version.exercises}) == 15
+
+
 def test_versions_are_lettered() -> None:
     assert [version_code(index) for index in (0, 25, 26, 27, 199)] == ["A", "Z", "AA", "AB", "GR"]
 
