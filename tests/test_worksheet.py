@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from printed import poppler, words
 from rldrill import load, read
 from rldrill.commands import worksheet as worksheet_command
-from rldrill.exam.exam import Exam, Version
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exam.manifest import manifest
 from rldrill.exam.planning import plan, version_code
 from rldrill.print.exam_files import write
