@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
@@ -37,7 +37,13 @@ class Mixed(NamedTuple):
 
 
 def draw_valued(
-    rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, others: tuple[int, int], *, forked: bool = True
+    rng: Draws,
+    setting: Setting,
+    shape: Shape,
+    gamma: Fraction,
+    others: tuple[int, int],
+    *,
+    forked: Literal["all", "own", "others"] = "all",
 ) -> Valued:
     """Draw a model in which a policy has whole values.
 
@@ -49,7 +55,7 @@ def draw_valued(
         shape: how large the model is; its ``reward`` is not used.
         gamma: one of ``UNITS``.
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
-        forked: whether those may have several outcomes, too.
+        forked: which actions may have several outcomes: all, the policy's own, or only the others.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     surplus = [number for number in range(others[0], others[1] + 1) if number]
@@ -59,7 +65,8 @@ def draw_valued(
         better = iter(rng.shuffled(surplus))
         for action in setting.actions[: shape.actions]:
             worths[state, action] = value + (0 if action == policy[state] else next(better))
-    sure = () if forked else tuple(pair for pair in worths if policy[pair[0]] != pair[1])
+    own = [(policy[state] == action) for state, action in worths]
+    sure = [pair for pair, mine in zip(worths, own, strict=True) if forked == ("others" if mine else "own")]
     return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values)
 
 
