@@ -36,6 +36,7 @@ from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
 from rldrill.problems.readings import Note, distribution, note_of, told
+from rldrill.problems.recurrence import end_components
 
 Chance = TypeVar("Chance")
 
@@ -320,6 +321,22 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
     """
     check_keys(chances, actions, f"{of} in {state!r}", needed=())
     check_sum(chances.values(), f"{of}'s probabilities in {state!r}")
+
+
+def never_left(model: Model, policy: Policy) -> list[tuple[str, ...]]:
+    """The sets of states in which a policy goes round for ever: the recurrent classes, terminal states left out."""
+    ahead = {
+        state: [
+            row.next
+            for action, chance in row_of.items()
+            if chance != 0
+            for row in model.outcomes[state, action]
+            if row.probability != 0
+        ]
+        for state, row_of in policy.items()
+    }
+    ways = {state: [(None, to)] for state, to in ahead.items() if not set(to) & set(model.terminal)}
+    return [tuple(component) for component in end_components(ways)]
 
 
 class ModelAndPolicy(Givens):

@@ -3,12 +3,13 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain
 from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import dot
-from rldrill.problems.models import Dynamics, Model, Policy, Transition, policy_table, values_table
+from rldrill.problems.models import Dynamics, Model, Policy, Transition, never_left, policy_table, values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
 
@@ -181,8 +182,11 @@ def worth(model: Dynamics, pair: tuple[str, str], values: Mapping[str, Fraction]
     )  # fmt: skip
 
 
-def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: Dynamics, gamma: Fraction) -> None:
+def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: Model, gamma: Fraction) -> None:
     """Demand that values are those of the policy: one step of it must give them back.
+
+    Without discount that does not settle the values of states in which the policy goes round for ever: they are
+    expected totals, 0 where no step there earns anything (Puterman 1994, section 7.1).
 
     Raises:
         ValueError: a state has another value.
@@ -191,6 +195,19 @@ def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: D
         total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in row.items())
         if total != values[state]:
             raise ValueError(f"values: {state!r} is given as {values[state]}, but one step of the policy gives {total}")
+    for state in chain.from_iterable(never_left(model, policy) if gamma == 1 else ()):
+        nothing = dict.fromkeys(values, Fraction(0))
+        pay = sum(Fraction(p) * worth(model, (state, action), nothing, gamma) for action, p in policy[state].items())
+        if pay != 0:
+            raise ValueError(
+                f"values: with γ = 1 {state!r} has no value, for the policy comes back to it for ever and earns {pay} "
+                "on average there each time; let that step pay nothing, or take gamma below 1"
+            )
+        if values[state] != 0:
+            raise ValueError(
+                f"values: {state!r} is given as {values[state]}, but its value under the policy is 0: with γ = 1 it is "
+                "the sum of all rewards, and the policy goes round there for ever and earns nothing; give 0"
+            )
 
 
 def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma: Fraction) -> None:

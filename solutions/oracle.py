@@ -12,7 +12,6 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from rldrill.problems.beliefs import Motion
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.problems.models import Dynamics, Model, ModelAndPolicy, Policy
 
@@ -55,11 +54,6 @@ def tensors(model: Dynamics, states: tuple[str, ...], left_open: float = float(O
         P[cell] = at(row.probability, left_open)
         R[cell] = at(row.reward, left_open)
     return P, R
-
-
-def motion_array(motion: Motion, action: str, states: tuple[str, ...]) -> Array:
-    """Where one action leads, as an array of shape (states, next states)."""
-    return np.array([[at(motion[action][state].get(target, 0)) for target in states] for state in states])
 
 
 def lookahead(P: Array, R: Array, V: Array, gamma: float) -> Array:

@@ -3,14 +3,22 @@
 from fractions import Fraction
 from typing import Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.model_forms import ALONE
-from rldrill.problems.models import Model, ModelAndPolicy, Process, Transition, model_blocks, policy_blocks
+from rldrill.problems.models import (
+    Model,
+    ModelAndPolicy,
+    Process,
+    Transition,
+    model_blocks,
+    never_left,
+    policy_blocks,
+)
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting
@@ -27,7 +35,18 @@ class Given(ModelAndPolicy):
     A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
     """
 
+    # The average reward needs no discount, values do.
+    model_config = ConfigDict(
+        json_schema_extra={
+            "required": ["mdp"],
+            "if": {"properties": {"average": {"const": True}}, "required": ["average"]},
+            "then": {},
+            "else": {"required": ["gamma"]},
+        }
+    )
+
     mdp: Process
+    gamma: Discount = Field(description="The discount; left out where the average reward is asked for.")
     average: bool = Field(
         default=False,
         exclude_if=lambda average: not average,
@@ -49,6 +68,13 @@ class Given(ModelAndPolicy):
         if self.average and self.gamma != 1:
             raise ValueError(
                 "average: all steps count alike, so γ plays no part; leave out gamma, or give 1, or leave out average"
+            )
+        if self.average and len(classes := never_left(self.mdp, self.chances)) > 1:
+            first, second, *_ = (f"{joined([*states[:4]])}{' and others' * (len(states) > 4)}" for states in classes)
+            raise ValueError(
+                f"average: it depends on the first state, for whoever comes to {first} stays there for ever, and so "
+                f"does whoever comes to {second}; rldrill asks for it only where it is the same from every state: "
+                "write a problem for each of them, without the states of the other, or let the one lead to the other"
             )
         return self
 
