@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import dot
+from rldrill.problems.exact import Scalar, dot
 from rldrill.problems.models import Dynamics, Model, Policy, Transition, never_left, policy_table, values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
@@ -33,7 +33,7 @@ class Mixed(NamedTuple):
     """A model, the probabilities with which a policy chooses in it, and the policy's values."""
 
     mdp: Model
-    policy: dict[str, dict[str, Fraction]]
+    policy: dict[str, dict[str, Scalar]]
     values: dict[str, Fraction]
 
 
@@ -82,7 +82,8 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
         denominators: of the policy's probabilities; each action has one above 0.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
-    policy, worths = {}, {}
+    policy: dict[str, dict[str, Scalar]] = {}
+    worths = {}
     for state, value in values.items():
         actions = setting.actions[: shape.actions]
         chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
@@ -158,7 +159,10 @@ def draw_paying(
         if rewards is None or max(map(abs, rewards)) > _LARGEST_REWARD:
             continue
         if len({reward + after for reward, after in zip(rewards, ahead, strict=True)}) == len(targets):
-            return [Transition(*pair, *row) for row in zip(targets, chances, rewards, strict=True)]
+            return [
+                Transition(*pair, target, chance, reward)
+                for target, chance, reward in zip(targets, chances, rewards, strict=True)
+            ]
     target = next(place for place in setting.reached(places, *pair) if place != barred)
     return [Transition(*pair, target, Fraction(1), worth - gamma * values.get(target, Fraction(0)))]
 

@@ -58,11 +58,13 @@ def draw(level: int, rng: Draws) -> Given:
     places = (*setting.states[:states], setting.terminal)
     actions = (ALONE,) if alone else setting.actions[:2]
     rows: list[Transition] = []
-    for state in setting.states[:states]:
-        found = _even(rng, setting, places, state, actions, shape)
-        while not tells_apart(found, start, gamma):
+    while not rows or (started and not _used(rows, setting.states[:states], in_place=in_place)):
+        rows = []
+        for state in setting.states[:states]:
             found = _even(rng, setting, places, state, actions, shape)
-        rows += found
+            while not tells_apart(found, start, gamma):
+                found = _even(rng, setting, places, state, actions, shape)
+            rows += found
     mdp = Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,))
     open_gamma = level == 3 and (alone or rng.chance(Fraction(1, 2)))
     policy: PolicyField | None = None
@@ -81,6 +83,14 @@ def draw(level: int, rng: Draws) -> Given:
         sweeps=1 if started else 2,
         start=start if started else None,
         in_place=in_place,
+    )
+
+
+def _used(rows: list[Transition], states: tuple[str, ...], *, in_place: bool) -> bool:
+    """Whether each value to start from is used in the first sweep; in place, by a state that is not updated later."""
+    return all(
+        any(row.next == state and (not in_place or row.state in states[: index + 1]) for row in rows)
+        for index, state in enumerate(states)
     )
 
 

@@ -7,8 +7,7 @@ from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
 from rldrill.problems.models import Dynamics
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.formula.compiling import largest
+from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
