@@ -1,5 +1,7 @@
 """Section 4 of the sheet: temporal difference learning."""
 
+from typing import Any
+
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Script, variable
@@ -39,6 +41,12 @@ N = quantity("count", called("n"))
 Visits = quantity("visits", called("T"))
 Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
+
+
+def _discount_given(given: Any) -> bool:
+    """Whether γ is not what is asked for: without it an equation says nothing of it."""
+    return given.known is None or given.letter != "gamma"
+
 
 with evaluate(False):
     FORGOT_ALPHA = Misconception(
@@ -102,11 +110,14 @@ with evaluate(False):
     _REWARDS = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 
     BOOTSTRAP_UNDISCOUNTED = Misconception(
-        "bootstrap-not-discounted", "The value at the end of the n steps is discounted too, by γⁿ."
+        "bootstrap-not-discounted",
+        "The value at the end of the n steps is discounted too, by γⁿ.",
+        when=_discount_given,
     )
     BOOTSTRAP_ONE_SHORT = Misconception(
         "bootstrap-one-power-short",
         "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
+        when=_discount_given,
     )
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
