@@ -1,5 +1,6 @@
 """Section 4 of the sheet: temporal difference learning."""
 
+from collections.abc import Callable
 from typing import Any
 
 from sympy import Pow, evaluate
@@ -43,9 +44,9 @@ Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
 
 
-def _discount_given(given: Any) -> bool:
-    """Whether γ is not what is asked for: without it an equation says nothing of it."""
-    return given.known is None or given.letter != "gamma"
+def _given(letter: str) -> Callable[[Any], bool]:
+    """Whether a letter is not what is asked for: who forgets it has an equation that says nothing of it."""
+    return lambda given: getattr(given, "known", None) is None or given.letter != letter
 
 
 with evaluate(False):
@@ -112,12 +113,12 @@ with evaluate(False):
     BOOTSTRAP_UNDISCOUNTED = Misconception(
         "bootstrap-not-discounted",
         "The value at the end of the n steps is discounted too, by γⁿ.",
-        when=_discount_given,
+        when=_given("gamma"),
     )
     BOOTSTRAP_ONE_SHORT = Misconception(
         "bootstrap-one-power-short",
         "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
-        when=_discount_given,
+        when=_given("gamma"),
     )
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
@@ -153,8 +154,12 @@ with evaluate(False):
     _DECAYED = gamma * lam * e(s)
     _VISIT = Indicator(s, S(t))
 
-    DECAY_WITHOUT_GAMMA = Misconception("decay-without-gamma", "Traces decay by γλ, not by λ alone.")
-    DECAY_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by γλ, not by γ alone.")
+    DECAY_WITHOUT_GAMMA = Misconception(
+        "decay-without-gamma", "Traces decay by γλ, not by λ alone.", when=_given("gamma")
+    )
+    DECAY_WITHOUT_LAMBDA = Misconception(
+        "decay-without-lambda", "Traces decay by γλ, not by γ alone.", when=_given("lambda")
+    )
     REPLACING = Misconception(
         "replacing-trace",
         "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",
