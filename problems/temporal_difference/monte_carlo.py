@@ -79,6 +79,11 @@ class OfStates(Visits, ValueRun):
 class OfActions(Visits, ActionRun):
     """An episode with its actions, the action values before it, α and γ, and which visits of a pair count."""
 
+    trajectory: Episode = Field(
+        description="The episode, with the actions.",
+        examples=[{"states": ["A", "B", "end"], "actions": ["left", "right"], "rewards": [1, 2], "terminal": ["end"]}],
+    )
+
     @property
     def occasions(self) -> tuple[Visited, ...]:
         """What is visited at every time: the state with the action taken in it."""
