@@ -90,6 +90,12 @@ def says(folder: Path, name: str, content: str | bytes) -> tuple[str, int]:
     return failure.says, failure.exit_code
 
 
+@pytest.fixture(autouse=True)
+def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a part earns follows from its minutes, and is tested where these are; here it is one point."""
+    monkeypatch.setattr("rldrill.graded.points", lambda solution: {part.label: 1 for part in solution.problem.parts})
+
+
 # --- verdicts ---------------------------------------------------------------------------------------------
 
 
@@ -536,3 +542,18 @@ def test_the_examples_say_what_their_comments_say() -> None:
     ]
     verdicts = [row.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
     assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]
+
+
+def test_what_a_program_wrote_in_a_problem_file_is_told_once(folder: Path) -> None:
+    thirds = {"prior": dict.fromkeys("abc", 0.3333333333333333), "measurements": ["hit"]}
+    thirds |= {"likelihood": {"hit": dict.fromkeys("abc", "1/2"), "miss": dict.fromkeys("abc", "1/2")}}
+    (folder / "thirds.json").write_text(json.dumps({"family": "bayes-rule", "given": thirds}))
+    # Whatever is seen tells nothing, so that the prior is kept: 1/3 each.
+    lines = "".join(f"{student},thirds.json,a,a: 1/3 b: 1/3 c: 1/3\n" for student in ("Ann", "Bob"))
+    path = write(folder, "a.csv", HEAD + lines)
+    name = str(folder / "thirds.json")
+    code, _, told = run(path)
+    assert (code, told) == (0, f"rldrill: {name}: read 0.3333333333333333 as 1/3\n")
+    data = json.loads(run(path, "--json")[1])
+    assert data["notes"] == {name: ["read 0.3333333333333333 as 1/3"]}
+    assert "notes" not in str(data["files"])

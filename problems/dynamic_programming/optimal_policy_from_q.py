@@ -1,5 +1,6 @@
 """The optimal policy for given optimal action values, some of which may have to be found first."""
 
+from functools import cached_property
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -57,17 +58,18 @@ class Given(Givens):
             if state in self.terminal:
                 raise ValueError(f"values: {state!r} is terminal, so no action can be taken there")
 
-    @property
+    @cached_property
     def actions(self) -> dict[str, tuple[str, ...]]:
         """The actions of every state, those with a missing value among them, in the order of the table."""
         fullest = sorted(self.values.values(), key=len, reverse=True)
+        gaps = {*self.gaps}
         every = dict.fromkeys([action for row in fullest for action in row] + [action for _, action in self.gaps])
         return {
-            state: tuple(action for action in every if action in row or (state, action) in self.gaps)
+            state: tuple(action for action in every if action in row or (state, action) in gaps)
             for state, row in self.values.items()
         }
 
-    @property
+    @cached_property
     def gaps(self) -> tuple[tuple[str, str], ...]:
         """The pairs of state and action whose values are missing."""
         return self.missing.pairs if self.missing else ()

@@ -24,7 +24,7 @@ def idle(solution: Solution) -> tuple[str, ...]:
     found = [*_idle_numbers(solution, data), *_idle_rows(solution, data), *_unmentioned_ends(data)]
     declared = solution.problem.family.distractors
     paths = (".".join(map(str, place)) for place in found)
-    return tuple(path for path in paths if not any(fnmatchcase(path, pattern) for pattern in declared))
+    return tuple(dict.fromkeys(path for path in paths if not any(fnmatchcase(path, each) for each in declared)))
 
 
 def _idle_numbers(solution: Solution, data: Any) -> Iterator[Place]:

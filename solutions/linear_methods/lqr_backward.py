@@ -13,9 +13,11 @@ from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
+    FORGOT_R_IN_COSTS,
     IN_COSTS,
     LQR_GAIN,
     NO_TERMINAL,
+    NO_TERMINAL_COST,
     POSITIVE_S,
     TRANSPOSED_A,
     Quadratic,
@@ -47,7 +49,7 @@ def _formulas(given: Given) -> Quadratic:
 
 def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
     try:
-        gain: AnyMatrix = work.step(lqr.gain, t=time, **known)
+        gain: AnyMatrix = linear_quadratic.gain(work, lqr, t=time, **known)
     except NoSolution:
         raise NoSolution(
             f"at time {time} the matrix that is to be inverted for the gain is singular: some action costs nothing "
@@ -72,7 +74,16 @@ VALUES = slice(1, None, 2)
 #: As for a single gain, but here matrices are given by time.
 TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
 COST_TO_GO = linear_quadratic.cost_to_go(solve, VALUES)
-MISCONCEPTIONS = (POSITIVE_S, FORGOT_R, TRANSPOSED, NO_TERMINAL, same_time, COST_TO_GO)
+MISCONCEPTIONS = (
+    POSITIVE_S,
+    FORGOT_R,
+    FORGOT_R_IN_COSTS,
+    TRANSPOSED,
+    NO_TERMINAL,
+    NO_TERMINAL_COST,
+    same_time,
+    COST_TO_GO,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -12,6 +12,7 @@ from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
     SumOver,
+    Transposed,
     alpha,
     i,
     letter,
@@ -132,6 +133,8 @@ T_i = quantity("Ti", lambda below: Script(variable("T"), below), matrix=True)
 T_total = letter("Ttotal", "T", matrix=True)
 th, d, al = quantity("th", subscripted("θ")), quantity("d", subscripted("d")), quantity("al", subscripted("α"))
 a_link = quantity("alink", subscripted("a"))
+rotation = quantity("rotation", subscripted("R"), matrix=True)
+origin, point = quantity("origin", subscripted("o"), matrix=True), quantity("point", subscripted("p"), matrix=True)
 before, after = letter("before", "T", matrix=True), letter("after", Script(variable("T"), variable("i")), matrix=True)
 
 with evaluate(False):
@@ -175,6 +178,32 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             WRONG_ORDER: after * before,
+        },
+    )
+    FORWARD_POINT = Formula(
+        "frame-point",
+        point(i - 1),
+        rotation(i) * point(i) + origin(i),
+        title="A point in the frame before",
+        source="Siciliano et al. 2009, section 2.7",
+        hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
+        note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
+        place=Place.BEYOND,
+    )
+    NOT_INVERTED = Misconception(
+        "not-inverted",
+        "Outwards the transform is inverted: first the origin is taken off, then the transpose undoes the rotation.",
+    )
+    BACK_POINT = Formula(
+        "frame-point-back",
+        point(i),
+        Transposed(rotation(i)) * (point(i - 1) - origin(i)),
+        title="A point in the next frame",
+        source="Siciliano et al. 2009, section 2.7",
+        hint="Take the origin off, then undo the rotation: its inverse is its transpose.",
+        place=Place.BEYOND,
+        misread={
+            NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),
         },
     )
 

@@ -35,7 +35,8 @@ def test_denavit_and_hartenberg_agree_with_the_planar_arm(turns: list[str], long
 @given(st.integers(0, 10_000))
 @settings(deadline=None, max_examples=15)
 def test_a_transform_keeps_lengths_and_handedness(seed: int) -> None:
-    for transform in draw("denavit-hartenberg", 3, seed).answers.values():
+    links = draw("denavit-hartenberg", 3, seed).problem.data()["given"]["links"]
+    for transform in solved("denavit-hartenberg", links=links).values():
         turn = sympy.Matrix(3, 3, lambda i, j: to_sympy(transform[i, j]))  # noqa: B023
         assert sympy.simplify(turn.T * turn) == sympy.eye(3)
         assert sympy.simplify(turn.det()) == 1

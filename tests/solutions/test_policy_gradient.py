@@ -337,3 +337,11 @@ def test_an_entropy_with_long_numbers_is_not_factored() -> None:
     # h = 500 ln 2 and 500 ln 3: nobody takes 2^500 + 3^500 apart into primes.
     answers = solved("softmax-policy", theta=["ln 2", "ln 3"], features={"a": [500, 0], "b": [0, 500]}, entropy=True)
     assert rounded(answers["c"], 3) == "0.000"
+
+
+def test_the_entropy_of_a_policy_is_a_third_question_and_worth_two_points() -> None:
+    given = {"features": {"l": [1, 0], "r": [0, 1]}, "theta": [0, 0]}
+    question = rldrill.read({"family": "softmax-policy", "given": given | {"entropy": True}})
+    assert [part.points for part in question.parts] == [1, 2, 2]
+    assert question.solve()["c"] == sympy.log(2)  # both actions with 1/2
+    assert [part.points for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == [1, 2]

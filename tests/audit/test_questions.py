@@ -1,0 +1,107 @@
+"""What the audit says of questions: givens that do not matter, what guessing earns, minutes a point, variety."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from rldrill.audit.figures import Figures, largest, structure
+from rldrill.audit.givens import idle
+from rldrill.audit.guessing import Guesses
+from rldrill.problems.catalogue import family
+from rldrill.problems.family import Problem
+from rldrill.solutions.drawing import draw
+from rldrill.solutions.effort import points
+from rldrill.solutions.solution import Solution, solve
+
+
+def solution(name: str, **given: Any) -> Solution:
+    known = family(name)
+    return solve(Problem(known, known.read(given)))
+
+
+def td(states: list[str], values: dict[str, int]) -> Solution:
+    return solution(
+        "td-zero",
+        trajectory={"states": states, "rewards": [1] * (len(states) - 1)},
+        values=values,
+        alpha="1/2",
+        gamma="1/2",
+    )
+
+
+def test_every_given_of_one_update_matters() -> None:
+    assert idle(td(["a", "b"], {"a": 2, "b": 3})) == ()
+
+
+def test_a_discount_of_what_is_worth_nothing_does_not() -> None:
+    assert idle(td(["a", "b"], {"a": 2, "b": 0})) == ("gamma",)
+
+
+def mdp(*rows: list[Any], terminal: tuple[str, ...] = ("end",)) -> Solution:
+    return solution(
+        "policy-value",
+        mdp={"transitions": list(rows), "terminal": list(terminal)},
+        policy={"a": {"go": 1}},
+        gamma="1/2",
+    )
+
+
+def test_a_terminal_state_that_nothing_leads_to_is_found() -> None:
+    rows = (["a", "go", "a", "1/2", 3], ["a", "go", "end", "1/2", 3])
+    assert idle(mdp(*rows)) == ()
+    assert idle(mdp(*rows, terminal=("end", "other"))) == ("mdp.terminal.1",)
+
+
+def test_a_probability_whose_branches_are_worth_the_same_is_found() -> None:
+    same = mdp(["a", "go", "end", "1/2", 3], ["a", "go", "out", "1/2", 3], terminal=("end", "out"))
+    assert {"mdp.transitions.0.3", "mdp.transitions.1.3"} <= set(idle(same))
+    other = mdp(["a", "go", "end", "1/2", 3], ["a", "go", "out", "1/2", 5], terminal=("end", "out"))
+    assert idle(other) == ("gamma",)  # after one step all is over
+
+
+def test_zeros_and_printed_values_are_guesses() -> None:
+    # V(a) ← 2 + ½(1 + ½·2 − 2) = 2: the value that is printed, too.
+    guesses = Guesses()
+    guesses.add(td(["a", "b"], {"a": 2, "b": 2}))
+    assert guesses.share == 1
+    assert guesses.best == {"a": "as printed"}
+    guesses.add(td(["a", "b"], {"a": 2, "b": 6}))
+    assert guesses.share == 0.5
+
+
+def test_figures_of_sound_draws_bring_no_complaint_and_of_poor_ones_do() -> None:
+    figures = Figures()
+    figures.add(td(["a", "b"], {"a": 2, "b": 3}))
+    assert list(figures.complaints(2)) == []
+    figures.add(td(["a", "b"], {"a": 2, "b": 0}))
+    assert list(figures.complaints(2)) == ["no answer depends on None: gamma"]
+    assert figures.data()["different"] == 2
+
+
+def test_the_largest_number_stands_anywhere_in_an_answer() -> None:
+    # V(a) ← 2 + ½(1 + ½·40 − 2) = 23/2.
+    assert largest(td(["a", "b"], {"a": 2, "b": 40})) == 23
+    assert largest(td(["a", "b"], {"a": 2, "b": 3})) == 9  # 9/4
+
+
+def test_a_structure_is_free_of_numbers_and_names() -> None:
+    first = structure(td(["a", "b", "a"], {"a": 2, "b": 3}))
+    assert first == structure(td(["x", "y", "x"], {"x": 7, "y": -3}))
+    assert first != structure(td(["a", "b", "b"], {"a": 2, "b": 3}))
+
+
+@pytest.mark.parametrize(("name", "level"), [("td-zero", 2), ("optimal-value", 3), ("lqr-gain", 1)])
+def test_a_point_is_one_to_two_minutes(name: str, level: int) -> None:
+    figures = Figures()
+    for seed in range(3):
+        figures.add(draw(name, level, seed))
+    assert 1 <= min(figures.rates) <= max(figures.rates) <= 2
+
+
+def test_points_follow_minutes() -> None:
+    # One update: read (40 s), write (8 s), 4 operations and look-ups …: between one and two minutes, so one point.
+    assert points(td(["a", "b"], {"a": 2, "b": 3})) == {"a": 1}
+    long = td(["a", "b"] * 4, {"a": 2, "b": 3})
+    assert points(long)["a"] > 4
+    assert Fraction(points(long)["a"]).denominator == 1

@@ -1,0 +1,42 @@
+"""An equation in one letter is solved in front of the reader."""
+
+import pytest
+from flint import fmpq
+
+from rldrill.render.unicode import unicode_text
+from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.rational import generator
+from rldrill.solutions.work import Equality, Work
+
+gamma = generator("gamma")
+
+
+def written(work: Work) -> list[str]:
+    return [unicode_text(line.equation()) for line in work.lines if isinstance(line, Equality)]
+
+
+def test_the_discount_of_a_return() -> None:
+    # 4 + 6γ = 7 for γ = ½.
+    work = Work()
+    assert work.equate("gamma", 4 + 6 * gamma, fmpq(7)) == fmpq(1, 2)
+    assert written(work) == ["4 + 6γ = 7", "6γ = 3", "γ = 1/2"]
+
+
+def test_where_two_lines_cross() -> None:
+    # 1 + γ = 3 − γ for γ = 1.
+    work = Work()
+    assert work.equate("gamma", 1 + gamma, 3 - gamma) == 1
+    assert written(work) == ["1 + γ = 3 − γ", "2γ = 2", "γ = 1"]
+
+
+def test_a_quotient_is_multiplied_out() -> None:
+    # 2/(1 − γ) = 8 for γ = ¾.
+    work = Work()
+    assert work.equate("gamma", fmpq(2) / (1 - gamma), fmpq(8)) == fmpq(3, 4)
+    assert written(work)[-1] == "γ = 3/4"
+
+
+@pytest.mark.parametrize("left", [gamma * gamma, fmpq(3)])
+def test_what_is_not_linear_is_refused(left: object) -> None:
+    with pytest.raises(NoSolution, match="not linear in gamma"):
+        Work().equate("gamma", left, fmpq(4))
