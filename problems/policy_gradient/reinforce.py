@@ -23,14 +23,10 @@ class Given(Episode):
 def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
     episode = draw_episode(level, rng)
-    gamma = rng.fraction("1/2", "1/2", "1")
-    if level < 3 and 0 in returns(episode["trajectory"], gamma):  # then a step would not count
+    gamma = episode["gamma"]
+    if not isinstance(gamma, Parameter) and 0 in returns(episode["trajectory"], gamma):  # a step would not count
         return draw(level, rng)
-    return Given(
-        **episode,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else gamma,
-    )
+    return Given(**episode, alpha=rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5"))
 
 
 def question(given: Given) -> Question:
