@@ -1,5 +1,6 @@
 """Softmax policies that are linear in features, and runs of agents that follow them."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import prod
 from typing import Any, Self
@@ -140,6 +141,14 @@ def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:
     for reward in reversed(run.rewards):
         later.append(reward + gamma * later[-1])
     return tuple(later[:0:-1])
+
+
+def every_step_counts(run: Trajectory, weights: Sequence[Fraction]) -> bool:
+    """Whether the scores of no state and action that were taken cancel each other."""
+    total: dict[tuple[str, str], Fraction] = {}
+    for state, action, weight in zip(run.states, run.actions, weights, strict=False):
+        total[state, action] = total.get((state, action), Fraction(0)) + weight
+    return 0 not in weights and 0 not in total.values()
 
 
 def draw_run(
