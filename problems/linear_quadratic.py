@@ -237,5 +237,5 @@ def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
     A = rng.choice((((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)),
                     ((0, 1), (-1, 2)), ((1, -1), (1, 0))))  # fmt: skip
     B = rng.choice((((0,), (1,)), ((1,), (0,)), ((1,), (1,)), ((0,), (2,))))
-    Q = ((rng.whole(1, 3), 0), (0, rng.whole(0, 2)))
+    Q = ((rng.whole(1, 3), 0), (0, rng.whole(1, 2)))
     return {"A": A, "B": B, "Q": Q, "R": ((price,),)}

@@ -354,3 +354,9 @@ def test_entries_and_a_deviation_by_hand() -> None:
     assert answers == {"a": (2, 3), "b": 8, "c": (fmpq(15, 2), 4)}
     with pytest.raises(FileError, match="B has 2 rows and 1 columns"):
         solved("linearise", **system, entries={"B": [[1, 2]]})
+
+
+def test_the_price_of_a_rollout_by_hand() -> None:
+    # a₀ = −2, so r₀ = −(1 + 4ρ), and s₁ = 3 − 2 = 1, so r₁ = r₀: −2 − 8ρ = −18 for ρ = 2.
+    answers = solved("lqr-reward", A=3, B=1, Q=1, R="rho", L=2, start=[1], horizon=1, total=-18)
+    assert answers == {"a": 2, "b": -9}
