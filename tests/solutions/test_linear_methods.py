@@ -360,3 +360,9 @@ def test_the_price_of_a_rollout_by_hand() -> None:
     # a₀ = −2, so r₀ = −(1 + 4ρ), and s₁ = 3 − 2 = 1, so r₁ = r₀: −2 − 8ρ = −18 for ρ = 2.
     answers = solved("lqr-reward", A=3, B=1, Q=1, R="rho", L=2, start=[1], horizon=1, total=-18)
     assert answers == {"a": 2, "b": -9}
+
+
+def test_the_price_of_a_first_action_by_hand() -> None:
+    # P₁ = −2; a₀ = −3·2/(2 + ρ) = −3/2 for ρ = 2; L₀ = 3/2 (from the state 1), and P₀ = −2 − 2·9 + 2·3·3/2 = −11.
+    answers = solved("lqr-backward", A=3, B=1, Q=2, R="rho", start=[1], horizon=1, action="-3/2")
+    assert [answers["a"], answers["b"][0, 0], answers["c"][0, 0]] == [2, fmpq(3, 2), -11]
