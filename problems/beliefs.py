@@ -4,24 +4,35 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Annotated
 
-from pydantic import AfterValidator, ValidationInfo
+from pydantic import AfterValidator, Field, ValidationInfo
 
-from rldrill.problems.document import Table
-from rldrill.problems.exact import Probability, Scalar, shown
+from rldrill.problems.bars import belief_bars
+from rldrill.problems.document import Block, Table
+from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, shown
+from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.readings import distribution, note_of, told
 
-Likelihood = Mapping[str, Mapping[str, Fraction]]
+Likelihood = Mapping[str, Mapping[str, Scalar]]
 #: Where actions lead: for every action and state the probabilities of the next states.
 MotionField = dict[Name, dict[Name, OpenDistributionField]]
 Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
 
 #: What stands above the table of a motion, and above that of a sensor.
-MOTION_TOLD = "An action $a$ in state $s$ leads to the state $s'$ with the probability $p(s'|s, a)$:"
-SENSOR_TOLD = "In state $s$ the sensor reads $z$ with the probability $p(z|s)$:"
+MOTION_TOLD = "Taking action $a$ in state $s$ leads to the next state $s'$ with probability $p(s'|s, a)$:"
+SENSOR_TOLD = "In state $s$ the sensor reads $z$ with probability $p(z|s)$:"
+#: What stands above a first belief.
+BELIEF_TOLD = "The first belief $p(s)$ is:"
 
 
-def _turned(table: Likelihood) -> dict[str, dict[str, Fraction]]:
+class Outcome(Givens):
+    """What is known of the belief after a step, so that the letter left open can be found."""
+
+    state: Name = Field(description="The state or hypothesis whose probability is known.")
+    probability: Probability = Field(description="What its probability is then.")
+
+
+def _turned(table: Likelihood) -> dict[str, dict[str, Scalar]]:
     """A table with its rows as columns."""
     columns = dict.fromkeys(column for row in table.values() for column in row)
     return {column: {name: row[column] for name, row in table.items() if column in row} for column in columns}
@@ -39,7 +50,7 @@ def _by_reading(likelihood: Likelihood, info: ValidationInfo) -> Likelihood:
 
 
 #: What a sensor reads with which probability, by reading; written so, or by hypothesis, where these are told apart.
-LikelihoodField = Annotated[dict[Name, dict[Name, Probability]], AfterValidator(_by_reading)]
+LikelihoodField = Annotated[dict[Name, dict[Name, OpenProbability]], AfterValidator(_by_reading)]
 
 
 def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
@@ -51,6 +62,19 @@ def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
     check_sum(chances.values(), f"{what}: the probabilities")
 
 
+def check_outcome(outcome: Outcome | None, left_open: tuple[str, ...], states: tuple[str, ...]) -> None:
+    """Demand that an outcome is of a known state, and that there is one letter to find from it.
+
+    Raises:
+        ValueError: it is not, or there is none, or more than one.
+    """
+    if outcome is None:
+        return
+    if len(left_open) != 1:
+        raise ValueError("outcome: there must be one letter, such as q, among the probabilities that is found from it")
+    check_keys({outcome.state: None}, states, "the outcome", ())
+
+
 def check_likelihood(likelihood: Likelihood, known: tuple[str, ...]) -> None:
     """Demand a likelihood of every reading under every hypothesis, and at most 1 of all readings together.
 
@@ -60,11 +84,12 @@ def check_likelihood(likelihood: Likelihood, known: tuple[str, ...]) -> None:
     for reading, chances in likelihood.items():
         check_keys(chances, known, f"the likelihood of {reading!r}", needed=known)
     for hypothesis in known:
-        if (total := sum((chances[hypothesis] for chances in likelihood.values()), Fraction(0))) > 1:
+        every = [chances[hypothesis] for chances in likelihood.values()]
+        if (total := sum((chance for chance in every if isinstance(chance, Fraction)), Fraction(0))) > 1:
             raise ValueError(f"likelihood: the readings under {hypothesis!r} sum to {told(total)}, more than 1")
 
 
-def check_possible(believed: Iterable[str], likelihood: Mapping[str, Fraction], what: str) -> tuple[str, ...]:
+def check_possible(believed: Iterable[str], likelihood: Mapping[str, Scalar], what: str) -> tuple[str, ...]:
     """Demand that a measurement is possible under a belief; what it leaves possible.
 
     Args:
@@ -99,9 +124,7 @@ def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] 
             check_distribution(chances, f"motion of {action!r} in {state!r}")
 
 
-def likelihood_table(
-    likelihood: Mapping[str, Mapping[str, Fraction]], known: tuple[str, ...], letter: str = "s"
-) -> Table:
+def likelihood_table(likelihood: Likelihood, known: tuple[str, ...], letter: str = "s") -> Table:
     """What a sensor reads with which probability, one line for every reading."""
     return Table(
         header=(f"$p(z|{letter})$", *known),
@@ -123,3 +146,36 @@ def motion_table(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] 
             for state, chances in rows.items()
         ),
     )
+
+
+def predicted(
+    belief: Mapping[str, Fraction], rows: Mapping[str, Mapping[str, Scalar]], q: Fraction
+) -> dict[str, Fraction]:
+    """The belief after an action with these transition probabilities; what is left open in them is q."""
+    moved = dict.fromkeys(belief, Fraction(0))
+    for state, chances in rows.items():
+        for target, chance in chances.items():
+            moved[target] += belief[state] * filled(chance, q)
+    return moved
+
+
+def updated(belief: Mapping[str, Fraction], likelihood: Mapping[str, Scalar], q: Fraction) -> dict[str, Fraction]:
+    """The belief after a measurement with this likelihood in every state; what is left open in it is q."""
+    joint = {state: chance * filled(likelihood[state], q) for state, chance in belief.items()}
+    total = sum(joint.values())
+    return {state: chance / total for state, chance in joint.items()}
+
+
+def filled(chance: Scalar, q: Fraction) -> Fraction:
+    """A probability, with a number put in for what is left open."""
+    if isinstance(chance, Parameter):
+        return 1 - q if chance.complement else q
+    return chance
+
+
+def belief_shown(belief: Mapping[str, Scalar], letter: str = "s") -> Block:
+    """A belief as bars; as a table, where a probability in it is left open."""
+    if any(isinstance(chance, Parameter) for chance in belief.values()):
+        shares = (f"${shown(chance)}$" for chance in belief.values())
+        return Table(header=(f"${letter}$", *belief), rows=((f"$p({letter})$", *shares),))
+    return belief_bars(belief={state: filled(chance, Fraction(0)) for state, chance in belief.items()})

@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -19,6 +19,7 @@ from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
 from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import Math, mathematics, row, variable
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.pictures import Arm, Pendulum, Picture
 
 Letter = Annotated[
@@ -125,6 +126,7 @@ class Robot:
     constants: Mapping[str, tuple[Fraction, ...]]
     state: Mapping[str, tuple[Angle, ...]]
     action: Mapping[str, tuple[Angle, ...]]
+    varying: Mapping[str, tuple[tuple[int, int], ...]] = field(default_factory=dict)
     reward: str = ""
     picture: Look | None = None
 
@@ -148,6 +150,7 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
         constants={name: tuple(map(Fraction, texts)) for name, texts in row_["constants"].items()},
         state={name: tuple(map(read_angle, texts)) for name, texts in row_["state"].items()},
         action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
+        varying={name: tuple(map(tuple, places)) for name, places in row_.get("varying", {}).items()},
         reward=row_.get("reward", ""),
         picture=row_.get("picture"),
     )
@@ -160,7 +163,16 @@ def _fit(use: str, level: int) -> tuple[Robot, ...]:
 
 def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
     """A robot for that use and level, with values for its letters."""
-    robot = rng.choice(_fit(use, level))
+    return values_of(rng, drawn_robot(rng, use, level))
+
+
+def drawn_robot(rng: Draws, use: str, level: int) -> Robot:
+    """A robot for that use and level."""
+    return rng.choice(_fit(use, level))
+
+
+def values_of(rng: Draws, robot: Robot) -> dict[str, Any]:
+    """A robot with values for its letters."""
     return {
         **({"reward": robot.reward} if robot.reward else {}),
         "story": robot.story,
@@ -172,6 +184,38 @@ def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
             for field in ("constants", "state", "action")
         },
     }
+
+
+class Entries(Givens):
+    """Which entries of A and of B are asked for, each as its row and column, counted from 1."""
+
+    A: tuple[tuple[int, int], ...] = Field(default=(), description="The entries of A.", examples=[[[2, 1]]])
+    B: tuple[tuple[int, int], ...] = Field(default=(), description="The entries of B.", examples=[[[2, 1]]])
+
+    def check(self, rows: int, columns: int) -> None:
+        """Demand that there are some, and that matrices of these sizes have them.
+
+        Raises:
+            ValueError: they have not.
+        """
+        if not self.A and not self.B:
+            raise ValueError("entries: name one entry of A or B at least")
+        for name, places, width in (("A", self.A, rows), ("B", self.B, columns)):
+            if any(not (1 <= row <= rows and 1 <= column <= width) for row, column in places):
+                raise ValueError(f"entries: {name} has {rows} rows and {width} columns; name entries that it has")
+
+    def part(self, which: str, head: str) -> list[Part]:
+        """The part that asks for those of one matrix; none, if there are none."""
+        places = getattr(self, which)
+        names = tuple(f"{head}_{{{row} {column}}}" for row, column in places)
+        if not names:
+            return []
+        if len(names) == 1:
+            return [Part(f"What is the entry ${names[0]}$, in row ${places[0][0]}$ and column ${places[0][1]}$ of "
+                         f"${head}$?", Number())]  # fmt: skip
+        return [
+            Part(f"What are the entries ${', '.join(names)}$ of ${head}$ (row, column)?", Numbers(names), zero=True)
+        ]
 
 
 def situation(given: System) -> Iterator[Block]:

@@ -77,7 +77,7 @@ def episode_blocks(given: Episode) -> tuple[Block, ...]:
     """An episode, and the policy that was followed in it."""
     run = given.trajectory
     return (
-        Paragraph("In one episode an agent saw this (a reward stands at the time at which it is received):"),
+        Paragraph("An agent follows this trajectory (each reward stands at the time at which it is received):"),
         trajectory_table(run),
         Paragraph(f"The episode ends in {run.states[-1]}, at $T = {len(run.rewards)}$."),
         *policy_blocks(given.features, given.theta),
@@ -93,7 +93,7 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
         entries: the same as mathematics, for every step.
     """
     names = weight_names(given.theta)
-    asked = f"What are the {weighted} ${', '.join(entries)}$, in this order{in_open(given)}?"
+    asked = f"What are the {weighted} ${', '.join(entries)}${in_open(given)}?"
     return (
         Part(asked, Numbers(entries), zero=True),
         Part(
@@ -119,6 +119,14 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
     return {"trajectory": run, "theta": theta, "features": features}
 
 
+def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:
+    """The discounted return from every step on."""
+    later = [Fraction(0)]
+    for reward in reversed(run.rewards):
+        later.append(reward + gamma * later[-1])
+    return tuple(later[:0:-1])
+
+
 def draw_run(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], terminal: str) -> Trajectory:
     """A run through these states, its actions and rewards drawn."""
     return Trajectory(
@@ -133,7 +141,7 @@ def draw_log_policy(
     rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], size: int = 2
 ) -> tuple[tuple[Weight, ...], ActionFeatures]:
     """Weights that are logarithms and whole features, so that every e^h is a whole number."""
-    theta = tuple(Logarithm(f"ln {rng.choice((2, 2, 3))}") for _ in range(size))
+    theta = tuple(Logarithm(f"ln {base}") for base in sorted(rng.choice((2, 2, 3)) for _ in range(size)))
     return theta, _drawn(rng, states, actions, size, 1)
 
 

@@ -1,13 +1,18 @@
-"""Beliefs before and after a step as a picture, for workings."""
+"""Beliefs of workings: pictures before and after a step, and probabilities that are found."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Mapping
 from fractions import Fraction
+from typing import Any, TypeVar
 
 from flint import fmpq
 
 from rldrill.problems.bars import belief_bars
+from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.pictures import Bars
 from rldrill.solutions.exact import Value, is_rational
+from rldrill.solutions.rational import RationalFunction
+
+Key = TypeVar("Key", bound=Hashable)
 
 
 def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) -> tuple[Bars, ...]:
@@ -15,6 +20,32 @@ def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) ->
     if not all(is_rational(chance) and 0 <= chance <= 1 for chance in (*before.values(), *after.values())):
         return ()
     return (belief_bars(before=_fractions(before), after=_fractions(after)),)
+
+
+def put_in(values: dict[Key, Any], found: Value) -> dict[Key, Any]:
+    """Probabilities, with what was found put in for the letter left open."""
+    filled = {
+        key: chance.top[0] + chance.top[1] * found if isinstance(chance, RationalFunction) else chance
+        for key, chance in values.items()
+    }
+    return type(values)(filled)
+
+
+def number(chance: Scalar, q: float) -> float:
+    """A probability in floating point, if what is left open is q: for the independent solvers."""
+    if isinstance(chance, Parameter):
+        return 1 - q if chance.complement else q
+    return float(chance)
+
+
+def root(missed: Callable[[float], float]) -> float:
+    """Where a monotone function is 0 between 0 and 1, by bisection: for the independent solvers."""
+    low, high = 0.0, 1.0
+    rising = missed(high) > missed(low)
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (low, middle) if (missed(middle) > 0) == rising else (middle, high)
+    return (low + high) / 2
 
 
 def _fractions(belief: Mapping[str, fmpq]) -> dict[str, Fraction]:

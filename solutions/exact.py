@@ -137,6 +137,11 @@ def terms(value: Any) -> int:
     return max(sum(coefficient != 0 for coefficient in poly.coeffs()) for poly in (value.top, value.bottom))
 
 
+def told(value: Value) -> str:
+    """A rational number as mathematics, for a sentence."""
+    return str(value).replace("-", "−")
+
+
 @singledispatch
 def digits(value: Value) -> int:
     """How many digits a person must write for a number; closed forms count the longest that stands in them."""

@@ -99,7 +99,7 @@ def _quotient(expression: sympy.Expr) -> _Quotient:
     exponents = _exponents(expression)
     if len({letter for raised in exponents for letter in raised.free_symbols}) > 1:
         raise _UndecidedError
-    monomials, size = _monomials([_rational(raised) for raised in exponents])
+    monomials, size = _monomials([rational_function(raised) for raised in exponents])
     names = tuple(sorted(symbol.name for symbol in expression.free_symbols))
     context = fmpq_mpoly_ctx.get((*(f"x{n}" for n in range(len(names))), *(f"e{n}" for n in range(size))), Ordering.lex)
     letters = dict(zip(names, context.gens(), strict=False))
@@ -134,8 +134,8 @@ def _exponents(expression: sympy.Expr) -> Sequence[sympy.Expr]:
     return tuple(dict.fromkeys(raised for raised in found if raised is not None))
 
 
-def _rational(expression: sympy.Expr) -> RationalFunction:
-    """An exponent as a rational function of the parameter."""
+def rational_function(expression: sympy.Expr) -> RationalFunction:
+    """An expression in one parameter, without exponentials, as a rational function of it."""
 
     def leaf(part: sympy.Expr) -> Value:
         if part.is_Symbol:

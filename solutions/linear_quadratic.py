@@ -12,6 +12,7 @@ from rldrill.solutions import matrices
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.sheet.linear_methods import LQR_SOLVED, Quadratic
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
@@ -31,6 +32,17 @@ def known(given: LinearQuadratic) -> dict[str, Any]:
             for time in range(end)
         }
     return result
+
+
+def gain(work: Work, lqr: Quadratic, **known: Any) -> Any:
+    """The gain of a time; of matrices the one that is inverted and the one behind it come first."""
+    t = known["t"]
+    if known["Bt"][t].nrows() == known["Bt"][t].ncols() == 1 or work.misreads(lqr.gain):
+        return work.step(lqr.gain, **known)
+    work.recall(lqr.gain)
+    work.reading(lqr.gain)
+    H, G = work.step(lqr.bracket, **known), work.step(lqr.product, **known)
+    return work.step(lqr.gain, right=LQR_SOLVED, Ht={t: H}, Gt={t: G}, **known)
 
 
 def start(given: LinearQuadratic) -> matrices.AnyMatrix:

@@ -9,7 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.angles import Angle
 from rldrill.problems.expressions import letters
-from rldrill.problems.robots import System
+from rldrill.problems.robots import Entries, System
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
@@ -46,6 +46,29 @@ def linearised(given: System, work: Work, rule: Rule = dynamics.chained) -> Iter
     yield hold(given, A).state(work) if given.held else _euler(work, given, EULER_A, A)
     B = _jacobian(work, given, INPUT_JACOBIAN, known, rule)
     yield hold(given, A).action(work, B) if given.held else _euler(work, given, EULER_B, B)
+
+
+def answered(work: Work, entries: Entries | None, which: str, found: AnyMatrix) -> AnyMatrix:
+    """Answer with a matrix, or with those of its entries that are asked for; what to go on with."""
+    if entries is None:
+        whole: AnyMatrix = work.answer(found)
+        return whole
+    places = [(row - 1, column - 1) for row, column in getattr(entries, which)]
+    if not places:
+        return found
+    numbers = work.answer(tuple(found[place] for place in places) if len(places) > 1 else found[places[0]])
+    rows = found.tolist()
+    for (row, column), number in zip(places, numbers if len(places) > 1 else (numbers,), strict=True):
+        rows[row][column] = number
+    return matrices.matrix(rows)
+
+
+def chosen(entries: Entries | None, A: Array, B: Array) -> list[Any]:
+    """The answers about both matrices, for the independent solvers."""
+    if entries is None:
+        return [A, B]
+    places = [[(row - 1, column - 1) for row, column in asked] for asked in (entries.A, entries.B)]
+    return [[matrix[place] for place in asked] for matrix, asked in zip((A, B), places, strict=True) if asked]
 
 
 def hold(given: System, A: AnyMatrix) -> ZeroOrderHold:

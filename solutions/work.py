@@ -11,7 +11,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
@@ -55,12 +55,10 @@ class Step:
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
         written = self.put_in
-        if isinstance(written, Negative):  # a number that stands alone needs no brackets
-            written = written.args[0]
         rights = [typeset(self.right)] if self.own else []
-        rights.append(typeset(written))
+        rights.append(typeset(_alone(written)))
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [typeset(reduced(written)), shown_value(self.value)]
+            rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
         if self.label:
@@ -133,6 +131,11 @@ class Elimination:
         """The lines of it."""
         for line in elimination(self.names, self.equations):
             yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+def _alone(expression: Expr) -> Expr:
+    """A number that stands alone needs no brackets."""
+    return expression.args[0] if isinstance(expression, Negative) else expression
 
 
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
@@ -272,12 +275,13 @@ class Work:
         Raises:
             NoSolution: every value solves the equation, or none.
         """
-        difference = left - right
-        slope, constant = linear(difference, letter)
+        slope, constant = linear(left - right, letter)
+        if sign(slope) < 0:
+            slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
         symbol = to_sympy(generator(letter))
         self.lines.append(Equality(left, (right,)))
-        if slope != 1 or constant != ZERO - right:
+        if slope != 1 and left != generator(letter) * slope:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
         self.lines.append(Equality(symbol, (value,)))
         return value

@@ -90,6 +90,12 @@ def says(folder: Path, name: str, content: str | bytes) -> tuple[str, int]:
     return failure.says, failure.exit_code
 
 
+@pytest.fixture(autouse=True)
+def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a part earns follows from its minutes, and is tested where these are; here it is one point."""
+    monkeypatch.setattr("rldrill.graded.points", lambda solution: {part.label: 1 for part in solution.problem.parts})
+
+
 # --- verdicts ---------------------------------------------------------------------------------------------
 
 

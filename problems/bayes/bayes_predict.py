@@ -1,38 +1,52 @@
 """The belief over the states of a robot after one or several actions."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.bars import belief_bars
 from rldrill.problems.beliefs import (
+    BELIEF_TOLD,
     MOTION_TOLD,
     MotionField,
+    Outcome,
+    belief_shown,
     check_distribution,
     check_motion,
+    check_outcome,
+    filled,
     motion_table,
+    predicted,
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import DistributionField, Name, check_keys
-from rldrill.problems.parts import Part, Values
+from rldrill.problems.models import Name, OpenDistributionField, check_keys
+from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.scenes import SCENES, draw_motion
 
 TITLE = "Belief after an action"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
-    """A belief over states, where every action leads from every state, and the actions taken."""
+    """A belief over states, where every action leads from every state, and the actions taken.
 
-    belief: DistributionField = Field(min_length=2, description="The probability of every state beforehand.")
+    A probability may be left open; with ``outcome`` it is found from the belief after the first action.
+    """
+
+    belief: OpenDistributionField = Field(min_length=2, description="The probability of every state beforehand.")
     motion: MotionField = Field(description="For every action and state the probabilities of the next states.")
     actions: tuple[Name, ...] = Field(
         min_length=1, max_length=26, description="The actions in the order in which they are taken."
+    )
+    outcome: Outcome | None = Field(
+        default=None,
+        description="What is known of the belief after the first action, if a probability is to be found from it.",
+        examples=[{"state": "open", "probability": "3/4"}],
     )
     story: str = Field(
         default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
@@ -43,20 +57,50 @@ class Given(Givens):
         check_distribution(self.belief, "belief")
         check_motion(self.motion, tuple(self.belief))
         check_keys(dict.fromkeys(self.actions), tuple(self.motion), "an action", needed=())
+        check_outcome(self.outcome, self.left_open, states=tuple(self.belief))
         return self
+
+    @property
+    def left_open(self) -> tuple[str, ...]:
+        """The letters in what is given."""
+        return super().parameters()
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, where the letter is found."""
+        return self.left_open if self.outcome is None else ()
+
+
+_OPEN = Parameter("q")
+#: The greatest denominator of a belief on the way.
+_FINEST = {1: 16, 2: 36, 3: 80}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One action over two states; two actions over three; two over three with a probability left open."""
+    """One action over two states; two actions; two, with a probability left open or to be found."""
     scene = rng.choice(SCENES)
-    states = (scene.states[0], scene.states[-1]) if level == 1 else rng.sample(scene.states, 3)
-    chances = rng.fraction("1/2", "3/4", "4/5", "9/10"), rng.fraction("1/2", "3/4", "4/5", "9/10")
-    motion = draw_motion(scene, states, (Parameter("p"), Parameter("p")) if level == 3 else chances)
-    actions = rng.shuffled(tuple(motion)) if level == 2 else (rng.choice(tuple(motion)),) * (1 if level == 1 else 2)
+    states = (scene.states[0], scene.states[-1]) if level == 1 else rng.sample(scene.states, 2 + rng.below(2))
+    left_open = rng.choice(("motion", "motion", "belief")) if level == 3 else ""
+    found = left_open == "belief" or (level == 3 and rng.chance(Fraction(1, 2)))
+    if left_open == "belief":
+        states = (states[0], states[-1])
+    while True:
+        chances = rng.fraction("1/2", "1/4", "3/4"), rng.fraction("1/2", "1/4", "3/4")
+        motion = draw_motion(scene, states, (_OPEN, _OPEN) if left_open == "motion" else chances)
+        q = rng.fraction("1/4", "1/2", "3/4", "1/3", "2/3", "1/5", "4/5") if left_open else Fraction(0)
+        belief = (_OPEN, Parameter("1-q")) if left_open == "belief" else rng.split(len(states), (3, 4, 5))
+        actions = tuple(rng.choice(tuple(motion)) for _ in range(1 if level == 1 else 2))
+        start = {state: filled(chance, q) for state, chance in zip(states, belief, strict=True)}
+        beliefs = [start]
+        for action in actions:
+            beliefs.append(predicted(beliefs[-1], motion[action], q))
+        if max(chance.denominator for after in beliefs for chance in after.values()) <= _FINEST[level]:
+            break
+    state = rng.choice(states)
     return Given(
-        belief=dict(zip(states, rng.split(len(states), (4, 5, 10)), strict=True)),
+        belief=dict(zip(states, belief, strict=True)),
         motion={action: motion[action] for action in motion if action in actions},
         actions=actions,
+        outcome=Outcome(state=state, probability=beliefs[1][state]) if found else None,
         story=scene.told,
     )
 
@@ -64,16 +108,22 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The belief and the motion as tables; the belief after every action is a part."""
     states = tuple(given.belief)
+    letter = shown(Parameter(given.left_open[0])) if given.left_open else ""
+    open_ = "unknown" if given.outcome else "left open"
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("Beforehand the belief $p(s)$ is:"),
-        belief_bars(belief=given.belief),
+        Paragraph(BELIEF_TOLD),
+        belief_shown(given.belief),
         Paragraph(MOTION_TOLD),
         motion_table(given.motion, states),
-        *([Paragraph("The probability $p$ is left open.")] if given.parameters() else []),
+        *([Paragraph(f"The probability ${letter}$ is {open_}.")] if letter else []),
     )
     parts: list[Part] = []
     for action in given.actions:
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
-        parts.append(Part(f"{told} What is the belief after it{in_open(given)}?", Values("p", states)))
+        if given.outcome is not None and not parts:
+            known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
+            parts.append(Part(f"{told} {known} What is ${letter}$?", Number()))
+        else:
+            parts.append(Part(f"{told} What is the belief afterwards{in_open(given)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

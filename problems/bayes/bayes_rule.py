@@ -1,37 +1,53 @@
 """The belief over some hypotheses after one or several measurements."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import prod
+from fractions import Fraction
+from itertools import pairwise
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.bars import belief_bars
 from rldrill.problems.beliefs import (
     LikelihoodField,
+    Outcome,
+    belief_shown,
     check_distribution,
     check_likelihood,
+    check_outcome,
     check_possible,
+    filled,
     likelihood_table,
+    updated,
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import DistributionField, Name, check_keys
-from rldrill.problems.parts import Part, Values
+from rldrill.problems.models import Name, OpenDistributionField, check_keys
+from rldrill.problems.parts import Number, Part, Values
+from rldrill.problems.phrases import in_open
 
 TITLE = "Bayes' rule"
 SOURCE = "Thrun, Burgard & Fox 2005, sections 2.2 and 2.4"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
-    """A prior over hypotheses, the likelihood of every reading under each, and the readings made."""
+    """A prior over hypotheses, the likelihood of every reading under each, and the readings made.
 
-    prior: DistributionField = Field(min_length=2, description="The probability of every hypothesis beforehand.")
+    A probability may be left open; with ``outcome`` it is found from the belief after the first reading.
+    """
+
+    prior: OpenDistributionField = Field(min_length=2, description="The probability of every hypothesis beforehand.")
     likelihood: LikelihoodField = Field(description="For every reading its probability under every hypothesis.")
     measurements: tuple[Name, ...] = Field(
         min_length=1, max_length=26, description="The readings in the order in which they are made."
+    )
+    outcome: Outcome | None = Field(
+        default=None,
+        description="What is known of the belief after the first reading, if a probability is to be found from it.",
+        examples=[{"state": "open", "probability": "3/4"}],
     )
     story: str = Field(
         default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
@@ -40,13 +56,36 @@ class Given(Givens):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_distribution(self.prior, "prior")
-        check_likelihood(self.likelihood, tuple(self.prior))
+        hypotheses = tuple(self.prior)
+        check_likelihood(self.likelihood, hypotheses)
         check_keys(dict.fromkeys(self.measurements), tuple(self.likelihood), "a measurement", needed=())
         believed = tuple(hypothesis for hypothesis, chance in self.prior.items() if chance)
         for number, reading in enumerate(self.measurements, 1):
             what = f"measurements[{number}]: {reading!r}"
             believed = check_possible(believed, self.likelihood[reading], what)
+        check_outcome(self.outcome, self.left_open, hypotheses)
+        if self.outcome is None and any(map(left_open, self.likelihood.values())):
+            raise ValueError("likelihood: a probability may be left open here only with an outcome to find it from")
         return self
+
+    @property
+    def left_open(self) -> tuple[str, ...]:
+        """The letters in what is given."""
+        return super().parameters()
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, where the letter is found."""
+        return self.left_open if self.outcome is None else ()
+
+    @property
+    def prior_found(self) -> bool:
+        """Whether it is the prior that is to be found."""
+        return self.outcome is not None and left_open(self.prior)
+
+
+def left_open(chances: Mapping[str, Scalar]) -> bool:
+    """Whether one of these probabilities is a letter."""
+    return any(isinstance(chance, Parameter) for chance in chances.values())
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,43 +103,69 @@ _STORIES = (
 )
 
 
+_OPEN, _REST = Parameter("q"), Parameter("1-q")
+#: The greatest denominator of a belief on the way.
+_FINEST = {1: 20, 2: 50, 3: 90}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two hypotheses and one measurement; then three; then three and two measurements."""
+    """Two hypotheses and a measurement; more of either; a probability left open, or to be found."""
     story = rng.choice(_STORIES)
-    readings = story.readings
-    hypotheses = story.hypotheses[: 2 if level == 1 else 3]
-    tenths = ("1/10", "1/5", "3/10", "2/5", "3/5", "7/10", "4/5", "9/10")
-    likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
-    while len(set(likely.values())) == 1:  # nothing would be learnt
-        likely = {hypothesis: rng.fraction(*tenths) for hypothesis in hypotheses}
-    likelihood = {
-        readings[0]: likely,
-        readings[1]: {hypothesis: 1 - chance for hypothesis, chance in likely.items()},
-    }
-    measurements = [rng.choice(readings) for _ in range(2 if level == 3 else 1)]
-    if len({prod(likelihood[reading][name] for reading in measurements) for name in hypotheses}) == 1:
-        measurements[-1] = measurements[0]  # two readings that take back what the other says
+    kind = rng.choice(("prior", "likelihood", "open")) if level == 3 else ""
+    count = 2 if level == 1 or kind in ("prior", "open") else 2 + rng.below(2)
+    hypotheses = story.hypotheses[:count]
+    while True:
+        q = rng.fraction("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5") if kind else Fraction(0)
+        prior = (_OPEN, _REST) if kind in ("prior", "open") else rng.split(count, (2, 3, 4, 5))
+        fifths = rng.choice((("1/4", "1/2", "3/4"), ("1/5", "2/5", "3/5", "4/5"), ("1/10", "1/5", "1/2", "9/10")))
+        likely: dict[str, Scalar] = {name: rng.fraction(*fifths) for name in hypotheses}
+        if kind == "likelihood":
+            likely[rng.choice(hypotheses)] = _OPEN
+        rest = {name: _REST if isinstance(chance, Parameter) else 1 - chance for name, chance in likely.items()}
+        likelihood = dict(zip(story.readings, (likely, rest), strict=True))
+        several = kind != "open" and (level == 3 or count == 2 or rng.chance(Fraction(1, 2)))
+        readings = tuple(rng.choice(story.readings) for _ in range(2 if level > 1 and several else 1))
+        beliefs = [{name: filled(chance, q) for name, chance in zip(hypotheses, prior, strict=True)}]
+        for reading in readings:
+            beliefs.append(updated(beliefs[-1], likelihood[reading], q))
+        if _is_good(beliefs, _FINEST[level]):
+            break
+    named = next((name for name, chance in likely.items() if chance == _OPEN), hypotheses[0])
     return Given(
-        prior=dict(zip(hypotheses, rng.split(len(hypotheses), (4, 5, 10)), strict=True)),
-        likelihood=likelihood,
-        measurements=tuple(measurements),
+        prior=dict(zip(hypotheses, prior, strict=True)),
+        likelihood={reading: row for reading, row in likelihood.items() if reading in readings},
+        measurements=readings,
+        outcome=Outcome(state=named, probability=beliefs[1][named]) if kind in ("prior", "likelihood") else None,
         story=story.told,
     )
+
+
+def _is_good(beliefs: list[dict[str, Fraction]], finest: int) -> bool:
+    """Whether every measurement says something, none takes back what another said, and the numbers are short."""
+    if any(first == then for first, then in pairwise(beliefs)) or beliefs[0] == beliefs[-1]:
+        return False
+    return max(chance.denominator for belief in beliefs for chance in belief.values()) <= finest
 
 
 def question(given: Given) -> Question:
     """The prior and the sensor as tables; the belief after every measurement is a part."""
     hypotheses = tuple(given.prior)
+    letter = shown(Parameter(given.left_open[0])) if given.left_open else ""
+    unknown = "unknown" if given.outcome else "left open"
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("Beforehand it believes, as $p(h)$:"),
-        belief_bars(prior=given.prior),
-        Paragraph("What is measured depends on which of them is true:"),
+        Paragraph("The hypotheses have these prior probabilities $p(h)$:"),
+        belief_shown(given.prior, "h"),
+        Paragraph("If $h$ is true, the measurement is $z$ with probability $p(z|h)$:"),
         likelihood_table(given.likelihood, hypotheses, "h"),
+        *([Paragraph(f"The probability ${letter}$ is {unknown}.")] if letter else []),
     )
     parts = []
     for index, measurement in enumerate(given.measurements):
         first = f"The measurement is “{measurement}”." if index == 0 else f"The next measurement is “{measurement}”."
-        ask = f"{first} What is the belief {'now' if index == 0 else 'after it'}?"
-        parts.append(Part(ask, Values("p", hypotheses)))
+        if given.outcome is not None and index == 0:
+            known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
+            parts.append(Part(f"{first} {known} What is ${letter}$?", Number()))
+        else:
+            parts.append(Part(f"{first} What is the belief afterwards{in_open(given)}?", Values("p", hypotheses)))
     return Question(blocks, tuple(parts))

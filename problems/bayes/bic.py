@@ -1,9 +1,12 @@
 """The Bayesian information criterion of two models, and which of them wins."""
 
+import math
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
+from itertools import product
 from string import ascii_lowercase
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -12,11 +15,11 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Choice, Part, Values
+from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 2
+REVISION = 3
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -80,6 +83,11 @@ class Given(Givens):
         default=None, min_length=2, max_length=10, description="The fitted models; with them goes n."
     )
     n: int | None = Field(default=None, ge=2, le=10**6, description="The number of data; only with fitted.")
+    border: Literal["more", "fewer"] | None = Field(
+        default=None,
+        description="If it is asked for which n two fitted models have the same BIC, and which is preferred then with "
+        "more data, or with fewer; n is then left out.",
+    )
     data: Data | None = Field(
         default=None, description="The tosses of coins, from which the models are fitted; instead of fitted and n."
     )
@@ -88,10 +96,22 @@ class Given(Givens):
     def _one(self) -> Self:
         if (self.fitted is None) == (self.data is None):
             raise ValueError("give either fitted models or data")
-        if (self.fitted is None and self.n is not None) or (self.fitted and self.n is None and self.criterion == "BIC"):
+        needed = self.fitted is not None and self.criterion == "BIC" and not self.border
+        if (self.fitted is None and self.n is not None) or (needed and self.n is None):
             raise ValueError("n, the number of data, is needed with fitted models, and with them only")
         if self.fitted and len({model.likelihood is None for model in self.fitted.values()}) > 1:
             raise ValueError("fitted: give the likelihoods of all models, or the log_likelihoods of all")
+        return self
+
+    @model_validator(mode="after")
+    def _bordered(self) -> Self:
+        if not self.border:
+            return self
+        if self.fitted is None or len(self.fitted) != 2 or self.n is not None or self.criterion != "BIC":
+            raise ValueError("border: it goes with two fitted models and the BIC, without n")
+        (first, then) = self.fitted.values()
+        if first.likelihood is None or then.likelihood is None or first.k == then.k:
+            raise ValueError("border: give the likelihoods of both models, and different numbers k")
         return self
 
     @property
@@ -100,41 +120,106 @@ class Given(Givens):
         return tuple(self.fitted) if self.fitted is not None else self.data.models if self.data is not None else ()
 
 
+_HALF = Fraction(1, 2)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two models already fitted; one coin; two coins."""
-    if level == 1:
-        simple, rich = sorted(rng.distinct(2, 1, 5))
-        poor, good = sorted(rng.distinct(2, 2, 9), reverse=True)
+    """Two models already fitted; three of them, or a coin; two coins, or from how many data on the simpler one wins."""
+    first = rng.chance(_HALF)  # whether the first model is the winner
+    while True:
+        given = _drawn(level, rng)
+        costs = {name: _cost(given, name) for name in given.names}
+        best = min(costs.values())
+        if given.border or (list(costs.values()).count(best) == 1 and first == (costs[given.names[0]] == best)):
+            return given
+
+
+def _drawn(level: int, rng: Draws) -> Given:
+    criterion = rng.choice(("BIC", "BIC", "AIC"))
+    kind = rng.choice({1: ("fitted",), 2: ("fitted", "AIC", "coin"), 3: ("coins", "three coins", "border")}[level])
+    if kind == "coin":
+        tosses = {rng.choice(("red", "blue", "gold")): rng.choice(_handy())}
         return Given(
-            fitted={
-                "simple": Fitted(likelihood=1 / 2**poor, k=int(simple)),
-                "rich": Fitted(likelihood=1 / 2**good, k=int(rich)),
-            },
-            n=rng.choice((4, 8, 16, 32)),
+            criterion=criterion, data=Data(tosses=tosses, models=rng.choice((("fair", "shared"), ("shared", "fair"))))
         )
-    if level == 2:
+    if kind in ("coins", "three coins"):
+        counts = rng.choice(_handy_coins(2 if kind == "coins" else 3))
+        models = rng.shuffled((rng.choice(("fair", "shared")), "own"))
         return Given(
-            data=Data(tosses={rng.choice(("red", "blue", "gold")): rng.choice(_handy())}, models=("fair", "shared"))
+            criterion=criterion,
+            data=Data(tosses=dict(zip(("red", "blue", "gold"), counts, strict=False)), models=(models[0], models[1])),
         )
-    first, second = rng.choice(_handy_pairs())
-    return Given(data=Data(tosses={"red": first, "blue": second}, models=(rng.choice(("fair", "shared")), "own")))
+    names = ("line", "parabola", "cubic")[: 3 if level == 2 and rng.chance(_HALF) else 2]
+    numbers = sorted(rng.distinct(len(names), 1, 6))
+    if kind == "border":
+        base, more = rng.choice((2, 3)), int(numbers[1] - numbers[0])
+        better = more * rng.choice((1, 2)) if more % 2 else more // 2 * rng.choice((1, 2, 3, 4))
+        lost = better + 1 + rng.below(3)
+        likelihoods = [Fraction(1, base**lost), Fraction(1, base ** (lost - better))]
+        return _fitted_models(rng, names, numbers, likelihoods, border=rng.choice(("more", "fewer")))
+    if kind == "AIC":
+        logs = sorted(rng.distinct(len(names), 20, 32), reverse=True)
+        models = {
+            name: Fitted(log_likelihood=-log, k=int(k)) for name, log, k in zip(names, logs, numbers, strict=True)
+        }
+        return Given(criterion="AIC", fitted={name: models[name] for name in rng.shuffled(names)})
+    powers = sorted(rng.distinct(len(names), 2, 9), reverse=True)
+    n = rng.choice((4, 8, 16, 32))
+    return _fitted_models(rng, names, numbers, [Fraction(1, 2 ** int(power)) for power in powers], n=n)
+
+
+def _fitted_models(
+    rng: Draws, names: tuple[str, ...], numbers: Sequence[Fraction], likelihoods: Sequence[Fraction], **more: Any
+) -> Given:
+    models = {
+        name: Fitted(likelihood=likelihood, k=int(k))
+        for name, likelihood, k in zip(names, likelihoods, numbers, strict=True)
+    }
+    return Given(fitted={name: models[name] for name in rng.shuffled(names)}, **more)
+
+
+def _cost(given: Given, name: str) -> float:
+    """The criterion of a model, to see which is the smallest."""
+    if given.fitted is not None:
+        model = given.fitted[name]
+        log = float(model.log_likelihood or 0) if model.likelihood is None else math.log(model.likelihood)
+        return model.k * _price(given, given.n or 1) - 2 * log
+    assert given.data is not None
+    tosses = list(given.data.tosses.values())
+    pooled = (sum(heads for heads, _ in tosses), sum(tails for _, tails in tosses))
+    n, fair = sum(pooled), sum(pooled) * math.log(2)
+    lost, k = {
+        "fair": (fair, 0), "shared": (_lost(*pooled), 1), "own": (sum(_lost(*pair) for pair in tosses), len(tosses)),
+    }[name]  # fmt: skip
+    return 2 * lost + k * _price(given, n)
+
+
+def _price(given: Given, n: int) -> float:
+    """What a parameter costs."""
+    return 2.0 if given.criterion == "AIC" else math.log(n)
+
+
+def _lost(heads: int, tails: int) -> float:
+    n = heads + tails
+    return -heads * math.log(heads / n) - tails * math.log(tails / n)
 
 
 @cache
 def _handy() -> tuple[tuple[int, int], ...]:
     """Tosses of a coin whose logarithms are all multiples of ln 2 and ln 3."""
-    small = [number for number in range(1, 33) if 6**9 % number == 0]
+    small = [number for number in range(1, 28) if 6**9 % number == 0]
     return tuple((heads, tails) for heads in small for tails in small if heads + tails in small and heads + tails > 3)
 
 
 @cache
-def _handy_pairs() -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:
-    """The same for two coins, taken alone and together, that do not fall alike."""
-    pairs = [(first, second) for first in _handy() for second in _handy()]
+def _handy_coins(count: int) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """The same for several coins, taken alone and together, that do not fall alike."""
+    few = [coin for coin in _handy() if sum(coin) <= (27 if count == 2 else 9)]
     return tuple(
-        (first, second)
-        for first, second in pairs
-        if (first[0] + second[0], first[1] + second[1]) in _handy() and first[0] * second[1] != first[1] * second[0]
+        coins
+        for coins in product(few, repeat=count)
+        if (sum(heads for heads, _ in coins), sum(tails for _, tails in coins)) in _handy()
+        and len({Fraction(*coin) for coin in coins}) == count
     )
 
 
@@ -143,11 +228,16 @@ def question(given: Given) -> Question:
     names, criterion = given.names, given.criterion
     cost = "2 k" if criterion == "AIC" else "k log n"
     rule = Paragraph(
-        f'$"{criterion}"(M) = −2 log p(D|M, θ) + {cost}$, where $log$ is the natural logarithm, $ln$.'
+        f'$"{criterion}"(M) = −2 log p(D_z|M, θ) + {cost}$, where $log$ is the natural logarithm, $ln$.'
         + (" The smallest wins." if criterion == "AIC" or len(names) > 2 else "")
     )
     of = "both models" if len(names) == 2 else "every model"
-    criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), 2, zero=True)
+    criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), zero=True)
+    if given.fitted is not None and given.border:
+        border = Part("For which number $n$ of data do both models have the same BIC?", Number())
+        options = dict(zip(ascii_lowercase, names, strict=False))
+        after = Part(f"Which model does the BIC prefer if there are {given.border} data than that?", Choice(options))
+        return Question((*_fitted(given, given.fitted), rule), (border, after))
     if given.fitted is not None:
         return Question((*_fitted(given, given.fitted), rule), (criteria, _winner(given)))
     assert given.data is not None
@@ -164,27 +254,26 @@ def question(given: Given) -> Question:
             header=("$M$", "what it says"),
             rows=tuple((name, told[name]) for name in names),
         ),
-        Paragraph("The data $D$ are the tosses in their order; $n$ counts all of them, $k$ the unknown parameters."),
+        Paragraph("The data $D_z$ are the tosses in their order; $n$ counts all of them, $k$ the unknown parameters."),
         rule,
     )
     fit = Part(
-        "What is $ln p(D|M, θ)$ of both models, each at the parameters that fit it best?",
+        "What is $ln p(D_z|M, θ)$ of both models, each at the parameters that fit it best?",
         Values("ln p", names),
-        2,
         zero=True,
     )
-    return Question(blocks, (fit, Part(criteria.ask, criteria.kind, 2, zero=True), _winner(given)))
+    return Question(blocks, (fit, criteria, _winner(given)))
 
 
 def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
     """The models by their numbers."""
     logarithms = any(model.likelihood is None for model in fitted.values())
-    head, told = ("ln p(D|M, θ)", "log-likelihoods") if logarithms else ("p(D|M, θ)", "likelihoods")
+    head, told = ("ln p(D_z|M, θ)", "log-likelihoods") if logarithms else ("p(D_z|M, θ)", "likelihoods")
     rows = tuple(
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
     count = "Two models" if len(fitted) == 2 else f"{len(fitted)} models"
-    data = "the same data" if given.n is None else f"$n = {given.n}$ data"
+    data = "$n$ data" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data"
     return (
         Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),
         Table(header=("$M$", "parameters $k$", f"${head}$"), rows=rows),

@@ -8,14 +8,14 @@ from pydantic import Field, model_validator
 from rldrill.problems.beliefs import check_distribution
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability, shown
+from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import DistributionField, Name, check_keys
+from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values, YesNo
 
 TITLE = "Model comparison"
 SOURCE = "MacKay 2003, section 3.3"
-REVISION = 1
+REVISION = 2
 
 
 class CoinModel(Givens):
@@ -53,6 +53,17 @@ class CoinModel(Givens):
         """The possible θ with their priors, where these are a few; none where θ may be anything."""
         return self.thetas or (() if self.theta is None else ((self.theta, Fraction(1)),))
 
+    def evidence(self, heads: int, tails: int) -> Fraction:
+        """The probability of these tosses in their order, toss by toss."""
+        if self.certain:
+            return sum((theta**heads * (1 - theta) ** tails * chance for theta, chance in self.certain), Fraction(0))
+        result = Fraction(1)
+        for toss in range(heads + tails):
+            seen = (toss, 0) if toss < heads else (heads, toss - heads)
+            counts = (self.a + seen[0], self.b + seen[1])
+            result *= Fraction(counts[toss >= heads], sum(counts))
+        return result
+
     def allows(self, heads: int, tails: int) -> bool:
         """Whether there can be such tosses."""
         possible = [not ((theta == 0 and heads) or (theta == 1 and tails)) for theta, chance in self.certain if chance]
@@ -60,17 +71,37 @@ class CoinModel(Givens):
 
 
 class Given(Givens):
-    """Some models of a coin with their priors, and how many heads and tails there were."""
+    """Some models of a coin with their priors, and how many heads and tails there were.
+
+    With ``odds`` the prior is left open, and found for two models from these posterior odds.
+    """
 
     models: dict[Name, CoinModel] = Field(min_length=2, max_length=10, description="The models by their names.")
-    prior: DistributionField = Field(description="The probability of every model beforehand.")
+    prior: OpenDistributionField = Field(description="The probability of every model beforehand.")
     heads: int = Field(ge=0, le=500, description="How many heads there were.")
     tails: int = Field(ge=0, le=500, description="How many tails there were.")
+    odds: Exact | None = Field(
+        default=None,
+        gt=0,
+        description="The posterior odds of the first model, from which its prior is found, where that is q.",
+        examples=[1],
+    )
+
+    @property
+    def left_open(self) -> tuple[str, ...]:
+        """The letters in what is given."""
+        return super().parameters()
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, for the prior is found."""
+        return ()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_keys(self.prior, tuple(self.models), "the prior", needed=tuple(self.models))
         check_distribution(self.prior, "prior")
+        if (self.odds is None) == bool(self.left_open) or (self.odds is not None and len(self.models) > 2):
+            raise ValueError("odds: they go with two models, and with a prior that is left open as q and 1-q")
         if self.heads + self.tails == 0:
             raise ValueError("heads: without a toss there is nothing to compare the models by")
         left = [
@@ -89,25 +120,61 @@ class Given(Givens):
         return self
 
 
+#: How long the numbers of a level may be.
+_LONGEST = {1: 64, 2: 100, 3: 220}
+_HALF = Fraction(1, 2)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """A bent and a fair coin, equally probable; a bent and a worn one; these two and a fair one."""
-    anything = CoinModel()
+    """An unknown or a loaded coin, or a fair one; then priors of its θ; then three models, or a prior to be found."""
+    wanted = rng.chance(_HALF)
+    found = level == 3 and rng.chance(_HALF)
+    while True:
+        models = _models(level, rng, two=level < 3 or found)
+        heads, tails = rng.below(5), rng.below(5)
+        if heads + tails < 2 or any(heads * model.b == tails * model.a for model in models.values()):
+            continue
+        q = rng.fraction("1/4", "1/3", "2/5", "1/2", "3/5", "2/3", "3/4", "4/5")
+        if found:
+            first, second = (model.evidence(heads, tails) for model in models.values())
+            odds = rng.fraction("1", "1", "2", "3", "1/2")
+            q = odds * second / (first + odds * second)
+        prior = (q, 1 - q) if len(models) == 2 and level > 1 else rng.split(len(models), (len(models), 4, 5))
+        weights = [model.evidence(heads, tails) * chance for model, chance in zip(models.values(), prior, strict=True)]
+        after = [weight / sum(weights) for weight in weights] if len(weights) > 2 else [weights[0] / weights[1]]
+        numbers = [q, *after, *(model.evidence(heads, tails) for model in models.values())]
+        best = max(weights)
+        if not found and (weights.count(best) > 1 or wanted != (weights[0] == best)):
+            continue
+        if max(max(number.numerator, number.denominator) for number in numbers) <= _LONGEST[level]:
+            break
+    names = tuple(models)
+    if found:
+        left_open = {names[0]: Parameter("q"), names[1]: Parameter("1-q")}
+        return Given(models=models, prior=left_open, heads=heads, tails=tails, odds=after[0])
+    return Given(models=models, prior=dict(zip(names, prior, strict=True)), heads=heads, tails=tails)
+
+
+def _models(level: int, rng: Draws, *, two: bool) -> dict[str, CoinModel]:
+    fair = CoinModel(theta=_HALF)
+    unknown = CoinModel()
+    loaded = CoinModel(theta=rng.fraction("1/3", "2/3", "1/4", "3/4"))
+    share = rng.fraction("1/4", "1/3")
+    marked = CoinModel(thetas=((share, _HALF), (1 - share, _HALF)))
     bent, worn = (
         CoinModel(a=int(a), b=int(b)) for a, b in (rng.distinct(2, 1, 3), rng.choice(((1, 1), (2, 2), (3, 3))))
     )
-    fair = CoinModel(theta=rng.fraction("1/2"))
-    models = {
-        1: {"bent": anything, "fair": fair},
-        2: {"bent": bent, "worn": worn},
-        3: {"bent": bent, "worn": worn, "fair": fair},
-    }[level]
-    prior = (Fraction(1, 2),) * 2 if level == 1 else rng.split(level, (3, 4, 5))
-    return Given(
-        models=models,
-        prior=dict(zip(models, prior, strict=True)),
-        heads=rng.below(4) + level - 1,
-        tails=1 + rng.below(3),
-    )
+    if level == 1:
+        return rng.choice(({"unknown": unknown, "fair": fair}, {"loaded": loaded, "fair": fair}))
+    if two:
+        return rng.choice((
+            {"bent": bent, "worn": worn}, {"marked": marked, "bent": bent}, {"bent": bent, "loaded": loaded},
+            {"marked": marked, "fair": fair},
+        ))  # fmt: skip
+    return rng.choice((
+        {"bent": bent, "worn": worn, "fair": fair}, {"marked": marked, "loaded": loaded, "unknown": unknown},
+        {"marked": marked, "bent": bent, "fair": fair},
+    ))  # fmt: skip
 
 
 def question(given: Given) -> Question:
@@ -117,27 +184,30 @@ def question(given: Given) -> Question:
         Paragraph(
             f"A coin is tossed ${given.heads + given.tails}$ times, independently, and the order is written down: "
             f"${given.heads}$ head{'s' * (given.heads != 1)} and ${given.tails}$ tail{'s' * (given.tails != 1)}. "
-            "With $θ$ the probability of heads, models are compared:"
+            "With $θ$ the probability of heads, these models $M$ are compared:"
         ),
         Table(
-            header=("$M$", "what it says of $θ$", "$p(M)$"),
+            header=("$M$", "what it says", "$p(M)$"),
             rows=tuple((name, _says(model), f"${shown(given.prior[name])}$") for name, model in given.models.items()),
         ),
-        Paragraph("The data $D$ are the tosses in their order, so no binomial coefficient is needed."),
+        Paragraph("The data $D_z$ are the tosses in their order, so no binomial coefficient is needed."),
     )
     first, second = names[:2]
+    evidences = Part("What is the evidence $p(D_z|M)$ of every model?", Values("p(D_z|·)", names))
+    ratio = f'$p("{first}"|D_z) / p("{second}"|D_z)$'
+    if given.odds is not None:
+        what = (
+            "both models equally probable after these tosses"
+            if given.odds == 1
+            else f"the posterior odds {ratio} equal to ${shown(given.odds)}$"
+        )
+        letter = shown(Parameter(given.left_open[0]))
+        return Question(blocks, (evidences, Part(f"For which prior probability ${letter}$ are {what}?", Number())))
     if len(names) == 2:
-        odds = Part(f'What are the posterior odds $p("{first}"|D) / p("{second}"|D)$?', Number(), 2)
+        odds = Part(f"What are the posterior odds {ratio}?", Number())
     else:
-        odds = Part("What is the posterior probability $p(M|D)$ of every model?", Values("p(·|D)", names), 2)
-    return Question(
-        blocks,
-        (
-            Part("What is the evidence $p(D|M)$ of every model?", Values("p(D|·)", names), 2),
-            odds,
-            Part(f"Is “{first}” the most probable model now?", YesNo()),
-        ),
-    )
+        odds = Part("What is the posterior probability $p(M|D_z)$ of every model?", Values("p(·|D_z)", names))
+    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the most probable model?", YesNo())))
 
 
 def _says(model: CoinModel) -> str:
@@ -146,5 +216,5 @@ def _says(model: CoinModel) -> str:
     if model.thetas is not None:
         return "; ".join(f"$θ = {shown(theta)}$ with $p(θ) = {shown(chance)}$" for theta, chance in model.thetas)
     if model.a == model.b == 1:
-        return 'anything from $0$ to $1$ alike: $"Beta"(1, 1)$'
-    return f'unknown, with the prior $"Beta"({model.a}, {model.b})$'
+        return '$θ$ is unknown, with a uniform prior, $"Beta"(1, 1)$'
+    return f'$θ$ is unknown, with the prior $"Beta"({model.a}, {model.b})$'

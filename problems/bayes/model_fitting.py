@@ -7,13 +7,13 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Model fitting"
 SOURCE = "Bishop 2006, sections 1.2.4, 2.3.6 and 3.3.1"
-REVISION = 2
+REVISION = 3
 
 
 class Coin(Givens):
@@ -34,16 +34,31 @@ class Coin(Givens):
 
 
 class Prior(Givens):
-    """A normal prior of one parameter, and the variance of the noise, which is then known."""
+    """A normal prior of one parameter, and the variance of the noise, which is then known.
+
+    With ``estimate``, the most probable parameter, the variance of the prior is left open and found from it.
+    """
 
     mean: Exact = Field(default=Fraction(0), description="The mean of the prior.", examples=["1/2"])
-    variance: Exact = Field(description="The variance of the prior, above 0.")
+    variance: Open = Field(description="The variance of the prior, above 0.")
     noise: Exact = Field(description="The variance of the noise of a measurement, above 0.")
+    estimate: Exact | None = Field(
+        default=None,
+        description="The maximum a posteriori estimate, from which the variance w is found that is left open.",
+        examples=["5/2"],
+    )
+
+    @property
+    def found(self) -> bool:
+        """Whether the variance is to be found."""
+        return isinstance(self.variance, Parameter)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.variance <= 0 or self.noise <= 0:
+        if self.noise <= 0 or (isinstance(self.variance, Fraction) and self.variance <= 0):
             raise ValueError("variance and noise must be above 0")
+        if self.found != (self.estimate is not None):
+            raise ValueError("estimate: it goes with a variance that is left open as w, and is needed then")
         return self
 
 
@@ -88,30 +103,63 @@ class Given(Givens):
             raise ValueError("give one of coin, sample and line")
         return self
 
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, for a variance left open is found."""
+        return ()
+
     @property
     def has_prior(self) -> bool:
         """Whether a prior is given that says anything."""
         if self.coin is not None:
             return self.coin.a != 1 or self.coin.b != 1
-        return any(model is not None and model.prior is not None for model in (self.sample, self.line))
+        priors = [model.prior for model in (self.sample, self.line) if model is not None]
+        return any(prior is not None and not prior.found for prior in priors)
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """A coin; then a sample; then a line."""
+    """A coin; then a sample, or a line without a prior; then a line with one, or the variance of a prior."""
     if level == 1:
         heads, tails = (int(rng.whole(1, 6)) for _ in range(2))
         return Given(coin=Coin(heads=heads, tails=tails, a=rng.whole(1, 4), b=rng.whole(2, 4)))
-    prior = Prior(
-        mean=rng.whole(6, 12) if level == 2 else 0, variance=rng.fraction("1", "2", "4"), noise=rng.whole(1, 6)
-    )
     if level == 2:
-        return Given(sample=Sample(values=_balanced(rng, 4 + rng.below(2), 2, 12), prior=prior))
-    size = 4 + rng.below(2)
-    ordinates = _balanced(rng, size, 0, 9)
-    abscissas = _balanced(rng, size, 0, 6)
-    while len(set(abscissas)) < size:
-        abscissas = _balanced(rng, size, 0, 6)
-    return Given(line=Line(points=tuple(zip(sorted(abscissas), ordinates, strict=True)), prior=prior))
+        if rng.chance(Fraction(1, 3)):
+            return Given(line=Line(points=_points(rng, 3 + rng.below(2))))
+        values = _balanced(rng, 3 + rng.below(2), 4, 9)
+        prior = Prior(mean=rng.whole(4, 9), variance=rng.fraction("1", "2", "1/2"), noise=rng.whole(1, 3))
+        return Given(sample=Sample(values=values, prior=prior if rng.chance(Fraction(3, 4)) else None))
+    prior = Prior(variance=rng.fraction("1", "2", "1/2", "1/4"), noise=rng.whole(1, 6))
+    kind = rng.choice(("line", "sample found", "line found"))
+    if kind == "line":
+        return Given(line=Line(points=_points(rng, 4 + rng.below(2)), prior=prior))
+    if kind == "line found":
+        points = _points(rng, 3 + rng.below(3))
+        slope = _slope(points, prior.noise / rng.fraction("1", "2", "1/2", "1/4", "1/3"))
+        found = Prior(variance=Parameter("w"), noise=prior.noise, estimate=slope)
+        return Given(line=Line(points=points, prior=found))
+    values = _balanced(rng, 3 + rng.below(3), 4, 12)
+    average = sum(values) / len(values)
+    mean = average + rng.nonzero(-4, 4)
+    share = rng.fraction("2/5", "1/3", "1/4", "2/3", "3/5", "1/5")  # of the prior
+    found = Prior(mean=mean, variance=Parameter("w"), noise=prior.noise, estimate=share * mean + (1 - share) * average)
+    return Given(sample=Sample(values=values, prior=found))
+
+
+def _points(rng: Draws, size: int) -> tuple[tuple[Fraction, Fraction], ...]:
+    """Points whose means are whole, and whose least-squares line has short numbers."""
+    while True:
+        abscissas, ordinates = _balanced(rng, size, 0, 6), _balanced(rng, size, 0, 9)
+        if len(set(abscissas)) == size:
+            points = tuple(zip(sorted(abscissas), ordinates, strict=True))
+            slope = _slope(points, Fraction(0))
+            if slope and slope.denominator <= 10:
+                return points
+
+
+def _slope(points: tuple[tuple[Fraction, Fraction], ...], added: Fraction) -> Fraction:
+    """The slope of the line that fits best, with this added to the squares below the line of its formula."""
+    x_mean, y_mean = (sum(column) / len(points) for column in zip(*points, strict=True))
+    products = sum(((x - x_mean) * (y - y_mean) for x, y in points), Fraction(0))
+    return products / (sum(((x - x_mean) ** 2 for x, _ in points), Fraction(0)) + added)
 
 
 def _balanced(rng: Draws, size: int, low: int, high: int) -> tuple[Fraction, ...]:
@@ -146,19 +194,19 @@ def _coin(coin: Coin) -> Question:
         blocks,
         (
             Part("What is the maximum likelihood estimate of $θ$?", Number(), zero=True),
-            Part(f"{prior}{power} What is the maximum a posteriori estimate of $θ$?", Number(), 2, zero=True),
+            Part(f"{prior}{power} What is the maximum a posteriori estimate of $θ$?", Number(), zero=True),
         ),
     )
 
 
 def _sample(sample: Sample) -> Question:
     values = ", ".join(map(shown, sample.values))
-    blocks: list[Block] = [
+    blocks: tuple[Block, ...] = (
         Paragraph(
             f"A range finder measures the same distance ${len(sample.values)}$ times: ${values}$. The measurements are "
             "independent and normal, with unknown mean $μ$ and variance $σ^2$."
         ),
-    ]
+    )
     parts = [
         Part("What is the maximum likelihood estimate of $μ$?", Number(), zero=True),
         Part("What is the maximum likelihood estimate of $σ^2$, which divides by $n$?", Number(), zero=True),
@@ -168,15 +216,23 @@ def _sample(sample: Sample) -> Question:
         prior = sample.prior
         told = (
             f"Now let the variance of a measurement be known, $σ^2 = {shown(prior.noise)}$, and let the prior of $μ$ "
-            f"be normal with mean $μ_0 = {shown(prior.mean)}$ and variance $σ_0^2 = {shown(prior.variance)}$."
+            f"be normal with mean $μ_0 = {shown(prior.mean)}$"
         )
-        parts.append(Part(f"{told} What is the maximum a posteriori estimate of $μ$?", Number(), 2, zero=True))
-    return Question(tuple(blocks), tuple(parts))
+        if prior.estimate is not None:
+            parts = parts[:1]
+            known = (
+                f"and an unknown variance $σ_0^2 = w$. The maximum a posteriori estimate is ${shown(prior.estimate)}$."
+            )
+            parts.append(Part(f"{told} {known} What is $w$?", Number()))
+        else:
+            known = f"and variance $σ_0^2 = {shown(prior.variance)}$."
+            parts.append(Part(f"{told} {known} What is the maximum a posteriori estimate of $μ$?", Number(), zero=True))
+    return Question(blocks, tuple(parts))
 
 
 def _line(line: Line) -> Question:
     blocks = (
-        Paragraph("At the motor voltage $x$ a robot was seen to have the speed $y$:"),
+        Paragraph("The speed $y$ of a robot was measured at some motor voltages $x$:"),
         Table(
             header=("$x$", *(f"${shown(x)}$" for x, _ in line.points)),
             rows=(("$y$", *(f"${shown(y)}$" for _, y in line.points)),),
@@ -184,11 +240,16 @@ def _line(line: Line) -> Question:
         Paragraph("The model is a line with independent normal noise of the same variance: $y = θ_0 + θ_1 x + ε$."),
     )
     entries = Numbers(("θ_1", "θ_0"))
-    parts = [Part("Which slope $θ_1$ and intercept $θ_0$ have the greatest likelihood (least squares)?", entries, 2)]
+    ask = "What are the maximum likelihood (least squares) estimates of the slope $θ_1$ and the intercept $θ_0$?"
+    parts = [Part(ask, entries)]
     if line.prior is not None:
         told = (
             f"Now let the variance of the noise be known, $σ^2 = {shown(line.prior.noise)}$, and let the prior of the "
             f"slope be normal with mean $0$ and variance $σ_0^2 = {shown(line.prior.variance)}$; that of $θ_0$ is flat."
         )
-        parts.append(Part(f"{told} Which $θ_1$ and $θ_0$ are the most probable?", entries, 2))
+        if line.prior.estimate is not None:
+            known = f"The maximum a posteriori estimate of the slope is ${shown(line.prior.estimate)}$."
+            parts.append(Part(f"{told} {known} What is $w$?", Number()))
+        else:
+            parts.append(Part(f"{told} What are their maximum a posteriori estimates?", entries))
     return Question(blocks, tuple(parts))

@@ -1,10 +1,11 @@
 """The transforms of an arm's links from their Denavit-Hartenberg parameters, and their product."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -16,11 +17,11 @@ from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, tabular
-from rldrill.problems.parts import Matrix, Part
+from rldrill.problems.parts import Matrix, Numbers, Part
 
 TITLE = "Denavit-Hartenberg transforms"
 SOURCE = "Siciliano et al. 2009, section 2.8.2"
-REVISION = 1
+REVISION = 2
 
 
 class Link(Givens):
@@ -35,7 +36,10 @@ class Link(Givens):
 class Given(Givens):
     """The links from the base outwards, and what the arm is called.
 
-    With ``frames`` the pose of every link's frame is asked for, not of the last one alone.
+    With ``frames`` the pose of every link's frame is asked for, not of the last one alone. With ``asked`` it is not the
+    transforms that are asked for: of the ``pose`` the rotation and the origin; of a ``point`` that is given in the last
+    frame its coordinates in every frame before it; of one that is given in the base's (``back``) those in every frame
+    after it.
     """
 
     links: tuple[Link, ...] = Field(min_length=1, max_length=7, description="The links from the base outwards.")
@@ -52,6 +56,24 @@ class Given(Givens):
         exclude_if=lambda frames: not frames,
         description="Whether the pose of every link's frame is asked for, not of the last one alone.",
     )
+
+    asked: Literal["transforms", "pose", "point", "back"] = Field(
+        default="transforms",
+        exclude_if=lambda asked: asked == "transforms",
+        description="What is asked for: all transforms; rotation and origin of the last frame; the coordinates of a "
+        "point of the last frame in those before it; or back, those of a point of the base's in all frames.",
+    )
+    point: tuple[Exact, Exact, Exact] | None = Field(
+        default=None, description="The coordinates of the point, where one is asked for.", examples=[[1, 0, 2]]
+    )
+
+    @model_validator(mode="after")
+    def _asked(self) -> Self:
+        if (self.point is None) == (self.asked in ("point", "back")):
+            raise ValueError("point: it is needed where the coordinates of a point are asked for, and only there")
+        if self.asked != "transforms" and (self.frames or self.base is not None):
+            raise ValueError("asked: with frames or a base only the transforms are asked for; leave them out")
+        return self
 
     @model_validator(mode="after")
     def _placed(self) -> Self:
@@ -82,14 +104,17 @@ def _arms() -> tuple[Mapping[str, Any], ...]:
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """The first link of an arm; then its first two; then three."""
+    """The pose of one link; of two, or a point seen from two frames; a point through three links, or back."""
     if level == 1:
-        theta = read_angle(rng.choice(("pi/2", "-pi/2", "pi/3", "pi/6", "2*pi/3")))
-        link = Link(theta=theta, d=rng.whole(0, 3), a=rng.whole(1, 4), alpha=read_angle(rng.choice(("pi/2", "-pi/2"))))
-        return Given(links=(link,))
+        theta = read_angle(rng.choice(("pi/3", "pi/6", "2*pi/3", "-pi/3", "-pi/6", "5*pi/6")))
+        alpha = read_angle(rng.choice(("pi/2", "-pi/2", "pi/3", "pi/6", "-pi/3")))
+        return Given(links=(Link(theta=theta, d=rng.whole(1, 3), a=rng.whole(1, 4), alpha=alpha),), asked="pose")
     arm = rng.choice(_arms())
-    links = tuple(Link(**{name: rng.choice(texts) for name, texts in row.items()}) for row in arm["links"][:level])
-    return Given(links=links, name=arm["name"])
+    asked = rng.choice(("pose", "point") if level == 2 else ("point", "back", "back"))
+    count = 3 if level == 3 and (asked == "point" or rng.chance(Fraction(1, 2))) else 2
+    links = tuple(Link(**{name: rng.choice(texts) for name, texts in row.items()}) for row in arm["links"][:count])
+    point = tuple(rng.nonzero(-2, 3) for _ in range(3)) if asked in ("point", "back") else None
+    return Given(links=links, name=arm["name"], asked=asked, point=point)
 
 
 def question(given: Given) -> Question:
@@ -115,8 +140,35 @@ def question(given: Given) -> Question:
             ),
             *_base(given),
         ),
-        tuple(Part(ask, Matrix(4, 4)) for ask in asks),
+        tuple(Part(ask, Matrix(4, 4)) for ask in asks) if given.asked == "transforms" else tuple(_parts(given)),
     )
+
+
+def _parts(given: Given) -> Iterator[Part]:
+    """What is asked for in place of the transforms."""
+    last = len(given.links)
+    if given.asked == "pose":
+        product = " ".join(f"T_{index}" for index in range(1, last + 1))
+        head = "T" if last > 1 else "T_1"
+        from_ = f" of the transform $T = {product}$ from the base to the last link" if last > 1 else " of $T_1$"
+        yield Part(f"What is the rotation, the upper left $3 × 3$ corner{from_}?", Matrix(3, 3))
+        yield Part(
+            f"What is the origin of the last frame, the upper right column of ${head}$?", Numbers(("x", "y", "z")),
+            zero=True,
+        )  # fmt: skip
+        return
+    here = ", ".join(map(shown, given.point or ()))
+    start, frames = (last, range(last - 1, -1, -1)) if given.asked == "point" else (0, range(1, last + 1))
+    told = f"A point has the coordinates $p_{start} = ({here})^⊤$ in {_frame(start)}. "
+    for frame in frames:
+        yield Part(
+            f"{told}What are its coordinates $p_{frame}$ in {_frame(frame)}?", Numbers(("x", "y", "z")), zero=True
+        )
+        told = ""
+
+
+def _frame(link: int) -> str:
+    return f"the frame of link ${link}$" if link else "the frame of the base"
 
 
 def _pose(given: Given, link: int, product: str) -> str:

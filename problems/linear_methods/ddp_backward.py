@@ -17,7 +17,7 @@ from rldrill.problems.robots import System, draw_system, plan
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 2
+REVISION = 3
 
 
 class Given(System):
@@ -50,12 +50,13 @@ class Given(System):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """iLQR with numbers; then DDP with numbers; then DDP with two states."""
+    """iLQR with numbers; then DDP or iLQR of what is more curved; then with two states."""
     system = draw_system(rng, "ddp", level)
     n = len(system["state"])
-    hessian = tuple(tuple(-rng.whole(1, 3) if i == j else Fraction(0) for j in range(n)) for i in range(n))
-    gradient = tuple(rng.nonzero(-3, 3) for _ in range(n))
-    return Given(**system, gradient=gradient, hessian=hessian, second_order=level > 1)
+    steepest = 3 if level < 3 else 5
+    hessian = tuple(tuple(-rng.whole(1, steepest) if i == j else Fraction(0) for j in range(n)) for i in range(n))
+    gradient = tuple(rng.nonzero(-steepest, steepest) for _ in range(n))
+    return Given(**system, gradient=gradient, hessian=hessian, second_order=level > 1 and rng.chance(Fraction(3, 4)))
 
 
 def question(given: Given) -> Question:
@@ -69,7 +70,7 @@ def question(given: Given) -> Question:
     first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
     wanted = (
         ("Q_s", first, n, 1), ("Q_a", first, m, 1), ("Q_{s s}", then, n, n), ("Q_{a s}", then, m, n),
-        ("Q_{a a}", then, m, m), ("k", "change of the action", m, 1), ("K", "gain", m, n),
+        ("Q_{a a}", then, m, m), ("k", "constant change of the action", m, 1), ("K", "gain", m, n),
     )  # fmt: skip
     return Question(
         (
@@ -79,7 +80,7 @@ def question(given: Given) -> Question:
             Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),
             Paragraph(
                 "$Q(s, a) = r(s, a) + V′(f(s, a))$ is expanded to second order around the operating point; there is no "
-                f"discount. {kept} The change of the action that makes it greatest is $a − ā = k + K (s − s̄)$."
+                f"discount. {kept} The action that maximises this expansion is $a = ā + k + K (s − s̄)$."
             ),
         ),
         tuple(

@@ -1,35 +1,81 @@
 """The matrices A and B of a robot's dynamics, linearised at an operating point."""
 
+from fractions import Fraction
+from typing import Self
+
+from pydantic import Field, model_validator
+
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
+from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Matrix, Part
-from rldrill.problems.robots import System, discretised, draw_system, situation
+from rldrill.problems.parts import Matrix, Numbers, Part
+from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
 
 TITLE = "Linearisation"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 2
+REVISION = 3
+#: An operating point and a deviation have all coordinates; on which of them the derivatives depend is for the reader to
+#: find out. Entries say what is asked.
+DISTRACTORS = ("state.*", "action.*", "deviation.*", "entries.*")
 
 
 class Given(System):
-    """A system; what is asked for are A and B, of its Euler step or zero-order hold if it has one."""
+    """A system; what is asked for are A and B, of its Euler step or zero-order hold if it has one.
+
+    With ``entries`` only these are asked for. With a deviation of state and action from the operating point, it is
+    asked by how much the rates, or the next state, change to first order.
+    """
+
+    entries: Entries | None = Field(default=None, description="The entries that are asked for; all, if left out.")
+    deviation: tuple[Exact, ...] | None = Field(
+        default=None,
+        description="How far state and action are from the operating point, in the order of their letters.",
+        examples=[["1/10", 0, "-1/5"]],
+    )
+
+    @model_validator(mode="after")
+    def _asked(self) -> Self:
+        if self.entries is not None:
+            self.entries.check(len(self.state), len(self.action))
+        if self.deviation is not None and len(self.deviation) != len(self.state) + len(self.action):
+            raise ValueError("deviation: give a number for every letter of the state and of the action")
+        return self
 
 
 def draw(level: int, rng: Draws) -> Given:
     """A pendulum or a tank; then wheels, friction or two tanks; then an Euler step of a larger robot."""
-    step = rng.fraction("1/10", "1/5", "1/2", "1/100") if level == 3 else None
-    return Given(**draw_system(rng, "linearise", level), step=step)
+    step = rng.fraction("1/10", "1/5", "1/2") if level == 3 else None
+    robot = drawn_robot(rng, "linearise", level)
+    system = values_of(rng, robot)
+    if level == 1:
+        return Given(**system)
+    count = len(system["state"]) + len(system["action"])
+    moved = level == 3 or rng.chance(Fraction(1, 2))
+    deviation = tuple(rng.fraction("1/10", "-1/10", "1/5", "-1/5", "3/10") for _ in range(count)) if moved else None
+    return Given(**system, step=step, entries=Entries(**robot.varying), deviation=deviation)
 
 
 def question(given: Given) -> Question:
-    """The system and its operating point; both matrices."""
+    """The system and its operating point; both matrices, and how the system answers to a deviation."""
     f, A, B = ("f", "A", "B") if given.step is None else ("F", "A_Δ", "B_Δ")
     near = Paragraph(f"Near the operating point, ${f}(s, a) ≈ {f}(s̄, ā) + {A} (s − s̄) + {B} (a − ā)$.")
     n, m = len(given.state), len(given.action)
-    return Question(
-        (*situation(given), *((discretised(given),) if given.step else ()), near),
-        (
-            Part(f"What is the matrix ${A}$?", Matrix(n, n)),
-            Part(f"What is the matrix ${B}$?", Matrix(n, m)),
-        ),
-    )
+    if given.entries is not None:
+        parts = [*given.entries.part("A", A), *given.entries.part("B", B)]
+    else:
+        parts = [Part(f"What is the matrix ${A}$?", Matrix(n, n)), Part(f"What is the matrix ${B}$?", Matrix(n, m))]
+    if given.deviation is not None:
+        s, a = (_column(numbers) for numbers in (given.deviation[:n], given.deviation[n:]))
+        which = "do the rates" if given.step is None else "does the next state"
+        ask = (
+            f"The state differs from $s̄$ by $δ s = {s}$, the action from $ā$ by $δ a = {a}$. By how much {which} "
+            f"${f}(s, a)$ differ from ${f}(s̄, ā)$, to first order?"
+        )
+        parts.append(Part(ask, Numbers(tuple(f"δ {f}_{index}" for index in range(1, n + 1))), zero=True))
+    return Question((*situation(given), *((discretised(given),) if given.step else ()), near), tuple(parts))
+
+
+def _column(numbers: tuple[Fraction, ...]) -> str:
+    inside = ", ".join(map(shown, numbers))
+    return f"({inside})^⊤" if len(numbers) > 1 else inside

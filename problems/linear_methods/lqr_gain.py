@@ -7,32 +7,60 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import dot, shown
+from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
 from rldrill.problems.linear_quadratic import Conventional, quadratic
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, is_positive, tabular
-from rldrill.problems.parts import Matrix as MatrixKind
-from rldrill.problems.parts import Part
+from rldrill.problems.matrices import (
+    MatrixField,
+    OpenMatrixField,
+    Rows,
+    check_shape,
+    check_symmetric,
+    is_positive,
+    tabular,
+)
+from rldrill.problems.parts import Matrix, Number, Part
+from rldrill.problems.phrases import in_open
 
 TITLE = "LQR gain"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Conventional):
     """A (n×n), B (n×m), R (m×m) and P of the next time (n×n), each a list of rows.
 
-    P is the value's matrix, negative; or in a convention of costs the cost-to-go's, positive.
+    P is the value's matrix, negative; or in a convention of costs the cost-to-go's, positive. With ``start`` the action
+    of a state is asked for, too; with ``action``, which is that action, the price of the action is left open in R and
+    found from it.
     """
 
     A: MatrixField = Field(description="How the state moves by itself, n×n.")
     B: MatrixField = Field(description="How the action moves the state, n×m.")
-    R: MatrixField = Field(description="The cost of actions, m×m.")
+    R: OpenMatrixField = Field(description="The cost of actions, m×m.")
     P: MatrixField = Field(description="The matrix of the value at the next time, n×n.")
     N: MatrixField | None = Field(
         default=None, description="The cross term: the cost has 2 sᵀNa, too; none if left out.", examples=[[["1/2"]]]
     )
+
+    start: tuple[Exact, ...] | None = Field(
+        default=None, description="A state whose best action is asked for, too.", examples=[[1, -2]]
+    )
+    action: Exact | None = Field(
+        default=None,
+        description="The best action in the start, from which the price rho that R leaves open is found.",
+        examples=["-3/2"],
+    )
+
+    @property
+    def left_open(self) -> bool:
+        """Whether the price of the action is a letter."""
+        return any(isinstance(entry, Parameter) for line in self.R for entry in line)
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, where the price is found."""
+        return super().parameters() if self.action is None else ()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -42,8 +70,16 @@ class Given(Conventional):
             *((("N", self.N, n, m),) if self.N else ()),
         ):  # fmt: skip
             check_shape(name, matrix, rows, columns, f"with A {n}×{n} and {m} inputs ")
-        for name, matrix in (("R", self.R), ("P", self.P)):
-            check_symmetric(name, matrix)
+        if self.start is not None and len(self.start) != n:
+            raise ValueError(f"start has {len(self.start)} entries, but the state {n}")
+        if self.left_open and m > 1:
+            raise ValueError("R: a price can only be left open where there is one action")
+        if self.action is not None and (self.start is None or not self.left_open):
+            raise ValueError("action: it goes with a start, and with a price that R leaves open, such as rho")
+        check_symmetric("P", self.P)
+        if self.left_open:
+            return self
+        check_symmetric("R", self.R)
         inputs = tuple(zip(*self.B, strict=True))
         factor = self.gamma if self.notation.costs else -self.gamma
         curved = tuple(
@@ -60,19 +96,52 @@ class Given(Conventional):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Scalars; then two states and one input; then two states and two inputs."""
+    """Scalars; then two states and one action, with a discount or a state; then the price left open, or two actions."""
     if level == 1:
-        a, b, r, p = rng.whole(1, 4), rng.whole(1, 3), rng.whole(1, 4), -rng.whole(1, 5)
+        a, b, r, p = rng.whole(1, 3), rng.whole(1, 2), rng.whole(1, 3), -rng.whole(1, 4)
         return Given(A=((a,),), B=((b,),), R=((r,),), P=((p,),))
-    inputs = level - 1
-    A = tuple(tuple(rng.whole(-1, 2) for _ in range(2)) for _ in range(2))
-    # An input without effect would make no question: no column of B is zero.
-    columns = tuple(rng.choice(((1, 0), (0, 1), (1, 1), (2, 1))) for _ in range(inputs))
+    kind = rng.choice(("plain", "start", "discount", "both") if level == 2 else ("open", "found", "found", "two"))
+    inputs = 2 if kind == "two" else 1
+    A = rng.choice(_SYSTEMS)
+    columns = rng.sample(_INPUTS, inputs)
     B = tuple(tuple(Fraction(column[line]) for column in columns) for line in range(2))
     R = tuple(tuple(rng.whole(1, 3) if i == j else Fraction(0) for j in range(inputs)) for i in range(inputs))
     corner = rng.whole(0, 1)
-    P = ((-rng.whole(2, 4), corner), (corner, -rng.whole(2, 4)))
-    return Given(A=A, B=B, R=R, P=P)
+    first, second = -rng.whole(2, 4), -rng.whole(2, 4)
+    if any(b * first + c * corner == 0 or b * corner + c * second == 0 for b, c in columns):
+        corner = Fraction(0)  # a row of A would play no part
+    P = ((first, corner), (corner, second))
+    discounted = kind in ("discount", "both") or (kind in ("open", "found") and rng.chance(Fraction(1, 3)))
+    gamma = rng.fraction("1/2", "1/3", "2/3") if discounted else Fraction(1)
+    start = tuple(rng.nonzero(-2, 3) for _ in range(2)) if kind in ("start", "both", "found") else None
+    if kind == "found" and start is not None:
+        (price,), *_ = R
+        action = -dot(_gain(A, B, price / gamma, P), start)
+        return Given(A=A, B=B, R=((_OPEN,),), P=P, gamma=gamma, start=start, action=action)
+    return Given(A=A, B=B, R=((_OPEN,),) if kind == "open" else R, P=P, gamma=gamma, start=start)
+
+
+_OPEN = Parameter("rho")
+#: Systems and inputs in which every entry of the value's matrix counts.
+_SYSTEMS: tuple[Rows, ...] = tuple(
+    tuple(tuple(map(Fraction, line)) for line in rows)
+    for rows in (
+        ((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)), ((0, 1), (-1, 2)),
+        ((1, -1), (1, 0)), ((2, 1), (1, 1)), ((1, 2), (1, 1)),
+    )
+)  # fmt: skip
+_INPUTS = ((1, 1), (2, 1), (1, 2), (1, -1))
+
+
+def _gain(A: Rows, B: Rows, price: Fraction, P: Rows) -> tuple[Fraction, ...]:
+    """The gain where there is one action, without a discount; with one, the price is γ times less."""
+    inputs = [line[0] for line in B]
+    ahead = [dot(inputs, column) for column in zip(*P, strict=True)]
+    return tuple(dot(ahead, column) / (dot(ahead, inputs) - price) for column in zip(*A, strict=True))
+
+
+def _open(given: Given) -> str:
+    return " The price $ρ > 0$ of the action is left open." if given.left_open and given.action is None else ""
 
 
 def question(given: Given) -> Question:
@@ -90,10 +159,19 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph(
             f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. {what} from the next time on is "
-            f"{value}.{discount} At $t = 0$:"
+            f"{value}.{discount}{_open(given)} At $t = 0$:"
         ),
         *(Equation(mathematics(name), (tabular(lines),), ("=",)) for name, lines in named),
     )
-    rows, columns = len(given.B[0]), len(given.A)
-    ask = f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0$?"
-    return Question(blocks, (Part(ask, MatrixKind(rows, columns)),))
+    m, n = len(given.B[0]), len(given.A)
+    gain = Part(f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0${in_open(given)}?", Matrix(m, n))
+    if given.start is None:
+        return Question(blocks, (gain,))
+    here = f"${x}_0 = ({', '.join(map(shown, given.start))})^⊤$" if n > 1 else f"${x}_0 = {shown(given.start[0])}$"
+    if given.action is not None:
+        told = (
+            f"The price $ρ$ of the action is unknown. The optimal action in {here} is ${u}_0 = {shown(given.action)}$."
+        )
+        return Question(blocks, (Part(f"{told} What is $ρ$?", Number()), gain))
+    action = Part(f"What is the optimal action ${u}_0$ in {here}{in_open(given)}?", Matrix(m, 1), zero=True)
+    return Question(blocks, (gain, action))

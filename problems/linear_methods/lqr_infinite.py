@@ -1,25 +1,34 @@
 """The stationary value matrix, gain and closed loop of LQR over an infinite horizon."""
 
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from itertools import product
 from math import isqrt
-from typing import Self
+from typing import Any, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import Exact, Parameter, Scalar, shown
 from rldrill.problems.family import Question
 from rldrill.problems.linear_quadratic import Conventional, check_cross, quadratic
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, tabular
-from rldrill.problems.parts import Matrix, Part
+from rldrill.problems.matrices import (
+    MatrixField,
+    OpenMatrixField,
+    Rows,
+    check_shape,
+    check_weights,
+    diagonal,
+    tabular,
+)
+from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 1
+REVISION = 2
 _LARGEST = 6
 _LARGEST_ROOT = 40
 
@@ -28,21 +37,37 @@ class Given(Conventional):
     """A (n×n), B (n×m), Q (n×n) and R (m×m), the same at all times; n is at most 6.
 
     Closed forms are found for a scalar system and for one that falls apart into scalar ones; others are
-    solved in rational arithmetic to twelve decimals.
+    solved in rational arithmetic to twelve decimals. With ``closed_loop`` the system is scalar, and the price that Q or
+    R leaves open is found for which the best actions lead to this closed loop.
     """
 
     A: MatrixField = Field(description="How the state moves by itself, n×n, n at most 6.")
     B: MatrixField = Field(description="How the action moves the state, n×m.")
-    Q: MatrixField = Field(description="The cost of states, n×n.")
-    R: MatrixField = Field(description="The cost of actions, m×m.")
+    Q: OpenMatrixField = Field(description="The cost of states, n×n.")
+    R: OpenMatrixField = Field(description="The cost of actions, m×m.")
     N: MatrixField | None = Field(
         default=None, description="The cross term: the cost has 2 sᵀNa, too; none if left out.", examples=[[["1/2"]]]
     )
 
+    closed_loop: Exact | None = Field(
+        default=None,
+        description="A − BL of a scalar system, from which the price is found that Q or R leaves open as rho.",
+        examples=["1/2"],
+    )
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, for the price is found."""
+        return ()
+
+    @property
+    def unknown(self) -> str:
+        """Which of Q and R is left open; neither, where that is empty."""
+        return "".join(name for name, matrix in (("Q", self.Q), ("R", self.R)) if isinstance(matrix[0][0], Parameter))
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        n, m = len(self.A), len(self.B[0]) if self.B else 0
-        if not 1 <= n <= _LARGEST:
+        n, m = len(self.A), len(self.B[0])
+        if n > _LARGEST:
             raise ValueError(f"A has {n} rows; {_LARGEST} are the most")
         where = f"with A {n}×{n} and {m} actions "
         for name, matrix, rows, columns in (
@@ -52,19 +77,68 @@ class Given(Conventional):
             check_shape(name, matrix, rows, columns, where)
         check_weights("Q", self.Q, positive=False)
         check_weights("R", self.R, positive=False)
+        open_ = [entry for matrix in (self.Q, self.R) for line in matrix for entry in line if entry == _OPEN]
+        if self.closed_loop is None and open_:
+            raise ValueError("Q and R: a price may be left open only with a closed_loop from which it is found")
+        if self.closed_loop is not None:
+            if len(open_) != 1 or n > 1 or m > 1 or self.N or not self.B[0][0]:
+                raise ValueError("closed_loop: it goes with a scalar system without N, in which Q or R is rho, B not 0")
+            if abs(self.closed_loop) >= 1 or not self.closed_loop:
+                raise ValueError("closed_loop must be between -1 and 1, and not 0")
         if self.N:
             check_cross(self.Q, self.R, self.N)
         return self
 
 
+_OPEN = Parameter("rho")
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Numbers with a rational P; then with a root; then two equal robots that act on each other."""
-    if level < 3:
-        a, b, q, r = map(Fraction, rng.choice(_scalars(rational=level == 1)))
-        return Given(A=((a,),), B=((b,),), Q=((q,),), R=((r,),))
-    total, difference, b, q, r = map(Fraction, rng.choice(_pairs()))
-    A = _circulant((total + difference) / 2, (total - difference) / 2)
-    return Given(A=A, B=diagonal(b, b), Q=diagonal(q, q), R=diagonal(r, r))
+    """A rational P; a root, a discount, a cross term or two states; two coupled robots, or a price to find."""
+    if level == 1:
+        return _scalar(*rng.choice(_scalars(rational=True)))
+    if level == 2:
+        kind = rng.choice(("root", "discount", "cross", "two"))
+        if kind == "root":
+            return _scalar(*rng.choice(_scalars(rational=False)))
+        if kind == "two":
+            first, second = (rng.choice(_scalars(rational=True)) for _ in range(2))
+            A, B, Q, R = (diagonal(*map(Fraction, pair)) for pair in zip(first, second, strict=True))
+            return Given(A=A, B=B, Q=Q, R=R)
+        a, b, q, r, added = rng.choice(_discounted() if kind == "discount" else _crossed())
+        if kind == "discount":
+            return _scalar(a, b, q, r, gamma=added)
+        return _scalar(a, b, q, r, N=((added,),))
+    if rng.chance(Fraction(2, 5)):
+        total, difference, b, q, r = map(Fraction, rng.choice(_pairs()))
+        A = _circulant((total + difference) / 2, (total - difference) / 2)
+        return Given(A=A, B=diagonal(b, b), Q=diagonal(q, q), R=diagonal(r, r))
+    return _price(rng)
+
+
+def _scalar(a: Scalar, b: Scalar, q: Scalar, r: Scalar, **more: Any) -> Given:
+    return Given(A=((a,),), B=((b,),), Q=((q,),), R=((r,),), **more)
+
+
+def _price(rng: Draws) -> Given:
+    """A closed loop c that is best for a price of states or of actions: P = −L r/(γ b c), and q = P (γ a c − 1)."""
+    while True:
+        sign = rng.choice((1, -1))
+        a, c = (sign * Fraction(text) for text in rng.choice(_LOOPS))
+        b, gamma = rng.whole(1, 2), rng.fraction("1", "1", "1/2", "2/3")
+        r = rng.whole(1, 6)
+        q = r * (a - c) * (1 - gamma * a * c) / (gamma * b**2 * c)
+        if rng.chance(Fraction(1, 2)):
+            return _scalar(a, b, _OPEN, r, gamma=gamma, closed_loop=c)
+        if q.numerator * r < 100 and q.denominator * r < 50:
+            return _scalar(a, b, Fraction(q.numerator), _OPEN, gamma=gamma, closed_loop=c)
+
+
+#: Systems A that are to be brought to the closed loop beside them.
+_LOOPS = (
+    ("2", "1/4"), ("2", "1/3"), ("3", "1/4"), ("3", "1/5"), ("3/2", "1/2"), ("1", "1/2"), ("1", "1/3"), ("1", "1/4"),
+    ("4", "1/5"), ("3/2", "1/3"), ("4", "1/6"), ("1", "2/3"),
+)  # fmt: skip
 
 
 @cache
@@ -79,11 +153,39 @@ def _scalars(*, rational: bool) -> tuple[tuple[int, int, int, int], ...]:
 
 
 @cache
+def _discounted() -> tuple[tuple[Fraction, ...], ...]:
+    """Scalar systems with a discount in which the root comes out."""
+    return tuple(
+        (Fraction(a), Fraction(b), Fraction(q), Fraction(r), gamma)
+        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7))
+        for gamma in (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4), Fraction(2, 3))
+        if _is_square((gamma * b**2 * q + (gamma * a**2 - 1) * r) ** 2 + 4 * gamma * b**2 * q * r)
+    )
+
+
+@cache
+def _crossed() -> tuple[tuple[Fraction, ...], ...]:
+    """Scalar systems with a cross term in which the root comes out."""
+    return tuple(
+        (Fraction(a), Fraction(b), Fraction(q), Fraction(r), Fraction(n))
+        for a, b, q, r in product((-2, -1, 1, 2), (1, 2), range(1, 9), range(1, 7))
+        for n in (-2, -1, 1, 2)
+        if q * r > n**2
+        and n != 0
+        and _is_square(Fraction(b**2 * q + (a**2 - 1) * r - 2 * a * b * n) ** 2 + 4 * b**2 * (q * r - n**2))
+    )
+
+
+def _is_square(number: Fraction) -> bool:
+    return all(isqrt(whole) ** 2 == whole for whole in (number.numerator, number.denominator))
+
+
+@cache
 def _pairs() -> tuple[tuple[int, int, int, int, int], ...]:
     """How sum and difference of two coupled states are multiplied, then B, Q, R: one root at most stays."""
     found = []
-    for (a, b, q, r), other in product(_scalars(rational=True), range(-3, 4)):
-        if other and abs(other) != abs(a) and (other - a) % 2 == 0 and _under_root(other, b, q, r) < _LARGEST_ROOT / 2:
+    for (a, b, q, r), other in product(_scalars(rational=True), range(-4, 5)):
+        if other and abs(other) != abs(a) and (other - a) % 2 == 0 and _under_root(other, b, q, r) < _LARGEST_ROOT:
             found += [(a, other, b, q, r), (other, a, b, q, r)]
     return tuple(found)
 
@@ -107,11 +209,11 @@ def _circulant(diagonal_: Fraction, beside: Fraction) -> Rows:
 
 def question(given: Given) -> Question:
     """The matrices; P, the gain, and the closed loop."""
-    n, m = len(given.A), len(given.B[0])
-    x, u, L, P, in_costs = given.notation
+    n = len(given.A)
+    x, u, *_, in_costs = given.notation
     named = (("A", given.A), ("B", given.B), ("Q", given.Q), ("R", given.R), *((("N", given.N),) if given.N else ()))
     coupled = n == 2 and _circulant(given.A[0][0], given.A[0][1]) == given.A and given.A[0][1] != 0
-    story = "Two equal robots act on each other alike: their system" if coupled else "A system"
+    story = "Two identical robots that are coupled symmetrically form a system. It" if coupled else "A system"
     cost = quadratic(given.notation, crossed=given.N is not None)
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
     discount = " or discount:" if given.gamma == 1 else (
@@ -126,27 +228,36 @@ def question(given: Given) -> Question:
             *(Equation(mathematics(name), (tabular(matrix),), ("=",)) for name, matrix in named),
             Paragraph(_wanted(given)),
             *(
-                (Paragraph("Sum and difference of the two states are two systems that do not act on each other."),)
+                (Paragraph("The sum and the difference of the two states are two systems that are not coupled."),)
                 if coupled
                 else ()
             ),
         ),
-        (
-            Part(f"What is ${P}$?", Matrix(n, n)),
-            Part(f"What is the gain ${L}$?", Matrix(m, n)),
-            Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True),
-        ),
+        tuple(_parts(given)),
     )
+
+
+def _parts(given: Given) -> Iterator[Part]:
+    n, m = len(given.A), len(given.B[0])
+    _, _, L, P, _ = given.notation
+    if given.closed_loop is not None:
+        of = "states" if given.unknown == "Q" else "actions"
+        loop = f"under the best actions the closed loop is $A − B {L} = {shown(given.closed_loop)}$"
+        yield Part(f"The price $ρ$ is unknown, but {loop}. What is the gain ${L}$?", Number())
+        yield Part(f"What is ${P}$?", Number())
+        yield Part(f"What is the price $ρ$ of the {of}?", Number())
+        return
+    yield Part(f"What is ${P}$?", Matrix(n, n))
+    yield Part(f"What is the gain ${L}$?", Matrix(m, n))
+    yield Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True)
 
 
 def _wanted(given: Given) -> str:
     """What the matrix and the gain are those of."""
     x, u, L, P, in_costs = given.notation
-    to_zero = "The state has to go to $0$" if given.gamma == 1 else (
-        f"The discounted state $γ^{{t/2}} {x}_t$ has to go to $0$"
-    )  # fmt: skip
+    to_zero = "the state" if given.gamma == 1 else f"the discounted state $γ^{{t/2}} {x}_t$"
     if in_costs:
         sum_ = f"the smallest sum of all costs from the state ${x}$ on is ${x}^⊤ {P} {x}$"
     else:
         sum_ = f"the largest sum of all rewards from the state ${x}$ on is $V({x}) = {x}^⊤ {P} {x}$"
-    return f"{to_zero}. Of all ways to bring it there, {sum_}; the best action is ${u} = −{L} {x}$."
+    return f"Among all policies under which {to_zero} goes to $0$, {sum_}; the best action is ${u} = −{L} {x}$."

@@ -1,23 +1,25 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after
+from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.oracle import Answers, at, motion_array
-from rldrill.solutions.sheet.bayes import BAYES, PREDICT
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.bayes import BAYES, PREDICT, SUM_OF_JOINT, p
 from rldrill.solutions.work import Work
 
-Move: TypeAlias = Callable[[Work, Event, dict[str, Any], dict[str, Any]], dict[str, Any]]
+Belief: TypeAlias = dict[str, Any]
+Move: TypeAlias = Callable[[Work, Event, Belief, dict[str, Any]], Belief]
 
 
 def solve(given: Given, work: Work) -> None:
-    """The belief after every step of the run."""
+    """The belief after every step of the run; before that, the probability that is unknown."""
     _filter(given, work, (_moved, _weighed))
 
 
@@ -31,25 +33,45 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         "states": states,
         "hypotheses": states,
     }
+    if given.outcome is not None:
+        state, share = given.outcome.state, exact(given.outcome.probability)
+        weighed = (state,) if moves[-1] is _weighed else states
+        belief = _moves(given.run[0], work, moves, start, {**known, "weighed": weighed})
+        value = work.answer(work.equate(given.left_open[0], belief[state], share))
+        work.say(f"With this ${given.left_open[0]}$ the first step is:")
+        start = put_in(start, value)
+        known |= {name: put_in(known[name], value) for name in ("motion", "likelihood")}
     belief = start
-    for event in given.run:
+    for step, event in enumerate(given.run, 1):
         before = belief = start if afresh else belief
-        for move in moves:
-            belief = move(work, event, belief, known)
-        work.picture(*before_and_after(before, belief))
-        belief = work.answer(belief)
+        asked = step > 1 or given.outcome is None
+        belief = _moves(event, work, moves, belief, known)
+        if asked:
+            work.picture(*before_and_after(before, belief))
+            belief = work.answer(belief)
+    if given.ahead is not None:
+        belief = _moved(work, given.ahead, start if afresh else belief, known)
+        known |= {"z": given.ahead.measurement, "p": belief}
+        work.answer(work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, h=states[0], **known))
 
 
-def _moved(work: Work, event: Event, belief: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+def _moves(event: Event, work: Work, moves: tuple[Move, ...], belief: Belief, known: dict[str, Any]) -> Belief:
+    for move in moves:
+        belief = move(work, event, belief, known)
+    return belief
+
+
+def _moved(work: Work, event: Event, belief: Belief, known: dict[str, Any]) -> Belief:
     if event.action is None:
         return belief
     return {state: work.step(PREDICT, s1=state, a=event.action, p=belief, **known) for state in known["states"]}
 
 
-def _weighed(work: Work, event: Event, belief: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+def _weighed(work: Work, event: Event, belief: Belief, known: dict[str, Any]) -> Belief:
     if event.measurement is None:
         return belief
-    return {state: work.step(BAYES, h=state, z=event.measurement, p=belief, **known) for state in known["states"]}
+    weighed = known.get("weighed", known["states"])
+    return {state: work.step(BAYES, h=state, z=event.measurement, p=belief, **known) for state in weighed}
 
 
 @slip(
@@ -77,14 +99,33 @@ MISCONCEPTIONS = (order_swapped, prior_again)
 
 def oracle(given: Given) -> Answers:
     """The joint distribution of all states ever, conditioned on all readings, summed to the last state."""
+    q = 0.0 if given.outcome is None else root(lambda q: _share(given, q))
+    beliefs = _joint(given, given.run, q)
+    answers = beliefs if given.outcome is None else [q, *beliefs[1:]]
+    if given.ahead is not None:
+        unmeasured = [*given.run, *([Event(action=given.ahead.action)] if given.ahead.action else [])]
+        reading = given.likelihood[given.ahead.measurement or ""]
+        answers.append(_joint(given, unmeasured, q)[-1] @ [number(reading[state], q) for state in given.belief])
+    return answers
+
+
+def _share(given: Given, q: float) -> float:
+    """By how much the known probability after the first step is missed, if the unknown one is q."""
+    assert given.outcome is not None
+    first = _joint(given, given.run[:1], q)[0]
+    return float(first[list(given.belief).index(given.outcome.state)] - at(given.outcome.probability))
+
+
+def _joint(given: Given, run: Sequence[Event], q: float) -> list[Any]:
     states = tuple(given.belief)
-    joint = np.array([at(chance) for chance in given.belief.values()])
+    joint = np.array([number(chance, q) for chance in given.belief.values()])
     answers = []
-    for event in given.run:
+    for event in run:
         if event.action is not None:
-            joint = joint[..., None] * motion_array(given.motion, event.action, states)
+            rows = given.motion[event.action]
+            joint = joint[..., None] * np.array([[number(rows[s].get(t, 0), q) for t in states] for s in states])
         if event.measurement is not None:
-            joint = joint * np.array([at(given.likelihood[event.measurement][state]) for state in states])
+            joint = joint * np.array([number(given.likelihood[event.measurement][state], q) for state in states])
         last = joint.reshape(-1, len(states)).sum(axis=0)
         answers.append(last / last.sum())
     return answers

@@ -4,8 +4,9 @@ from typing import Any
 
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after
-from rldrill.solutions.oracle import Answers, at, motion_array
+from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.exact import exact
+from rldrill.solutions.oracle import OPEN, Answers, at
 from rldrill.solutions.sheet.bayes import MOTION_AS_LIKELIHOOD, MOTION_TRANSPOSED, PREDICT
 from rldrill.solutions.work import Work
 
@@ -13,11 +14,24 @@ MISCONCEPTIONS = (MOTION_TRANSPOSED, MOTION_AS_LIKELIHOOD)
 
 
 def solve(given: Given, work: Work) -> None:
-    """The belief in every state, action by action."""
+    """The belief in every state, action by action; where a probability is to be found, the first action gives it."""
     states = tuple(given.belief)
     belief = knowns.values(given.belief)
     motion = knowns.motion(given.motion)
-    for action in given.actions:
+    actions = given.actions
+    if given.outcome is not None:
+        state, letter = given.outcome.state, given.left_open[0]
+        moved = work.step(PREDICT, s1=state, a=actions[0], p=belief, motion=motion, states=states)
+        found = work.answer(work.equate(letter, moved, exact(given.outcome.probability)))
+        belief, motion = put_in(belief, found), put_in(motion, found)
+        if len(actions) > 1:
+            work.say(f"With this ${letter}$ the first action gives:")
+            belief = {
+                state: work.step(PREDICT, s1=state, a=actions[0], p=belief, motion=motion, states=states)
+                for state in states
+            }
+        actions = actions[1:]
+    for action in actions:
         known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
         after = {state: work.step(PREDICT, s1=state, **known) for state in states}
         work.picture(*before_and_after(belief, after))
@@ -26,16 +40,22 @@ def solve(given: Given, work: Work) -> None:
 
 def oracle(given: Given) -> Answers:
     """All ways to go, one by one: the probability of each path is added where it ends."""
+    if given.outcome is None:
+        return _followed(given, float(OPEN))
+    place, share = list(given.belief).index(given.outcome.state), at(given.outcome.probability)
+    q = root(lambda q: _followed(given, q)[0][place] - share)
+    return [q, *_followed(given, q)[1:]]
+
+
+def _followed(given: Given, q: float) -> list[list[float]]:
     states = tuple(given.belief)
-    paths: dict[tuple[str, ...], float] = {(state,): at(chance) for state, chance in given.belief.items()}
+    paths: dict[tuple[str, ...], float] = {(state,): number(chance, q) for state, chance in given.belief.items()}
     answers = []
     for action in given.actions:
-        array = motion_array(given.motion, action, states)
         paths = {
-            (*path, after): chance * array[states.index(path[-1]), states.index(after)]
+            (*path, after): chance * number(given.motion[action][path[-1]][after], q)
             for path, chance in paths.items()
-            for after in states
-            if array[states.index(path[-1]), states.index(after)]
+            for after in given.motion[action][path[-1]]
         }
         answers.append([sum(c for path, c in paths.items() if path[-1] == state) for state in states])
     return answers

@@ -6,10 +6,10 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after
-from rldrill.solutions.exact import Value
+from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.nodes.sets import LONG
-from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.oracle import OPEN, Answers, Array, at
 from rldrill.solutions.sheet.bayes import (
     BASE_RATE_IGNORED,
     BAYES,
@@ -32,16 +32,21 @@ def solve(given: Given, work: Work) -> None:
     belief = knowns.values(given.prior)
     if len(hypotheses) == 2:
         work.recall(BAYES_TWO_STATES)
-    for reading in given.measurements:
-        known: dict[str, Any] = {
-            "z": reading,
-            "p": belief,
-            "likelihood": likelihood,
-            "hypotheses": hypotheses,
-        }
-        after = _posterior(work, known)
-        work.picture(*before_and_after(belief, after))
-        belief = work.answer(after)
+    readings = given.measurements
+    if given.outcome is not None:
+        state, letter = given.outcome.state, given.left_open[0]
+        known: dict[str, Any] = {"z": readings[0], "hypotheses": hypotheses}
+        after = work.step(BAYES, h=state, p=belief, likelihood=likelihood, **known)
+        found = work.answer(work.equate(letter, after, exact(given.outcome.probability)))
+        belief, likelihood = put_in(belief, found), put_in(likelihood, found)
+        if len(readings) > 1:
+            work.say(f"With this ${letter}$ the first measurement gives:")
+            belief = _posterior(work, {**known, "p": belief, "likelihood": likelihood})
+        readings = readings[1:]
+    for reading in readings:
+        posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})
+        work.picture(*before_and_after(belief, posterior))
+        belief = work.answer(posterior)
 
 
 def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
@@ -57,9 +62,17 @@ def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
 
 def oracle(given: Given) -> Answers:
     """The joint probability of hypothesis and all readings so far, one column normalised."""
-    joint = np.array([at(chance) for chance in given.prior.values()])
+    if given.outcome is None:
+        return _posteriors(given, float(OPEN))
+    place, share = list(given.prior).index(given.outcome.state), at(given.outcome.probability)
+    q = root(lambda q: _posteriors(given, q)[0][place] - share)
+    return [q, *_posteriors(given, q)[1:]]
+
+
+def _posteriors(given: Given, q: float) -> list[Array]:
+    joint = np.array([number(chance, q) for chance in given.prior.values()])
     answers = []
     for reading in given.measurements:
-        joint = joint * [at(given.likelihood[reading][hypothesis]) for hypothesis in given.prior]
+        joint = joint * [number(given.likelihood[reading][hypothesis], q) for hypothesis in given.prior]
         answers.append(joint / joint.sum())
     return answers

@@ -9,10 +9,19 @@ import sympy
 
 from rldrill.problems.bayes.bic import Data, Fitted, Given
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, to_sympy
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import BIC, BIC_LOG_10, BIC_SIGN, BIC_WITHOUT_LOG, COIN_ML, LOG_LIKELIHOOD, akaike
+from rldrill.solutions.sheet.bayes import (
+    BIC,
+    BIC_BORDER,
+    BIC_LOG_10,
+    BIC_SIGN,
+    BIC_WITHOUT_LOG,
+    COIN_ML,
+    LOG_LIKELIHOOD,
+    akaike,
+)
 from rldrill.solutions.work import Work
 
 
@@ -24,6 +33,9 @@ def solve(given: Given, work: Work) -> None:
 def _compare(given: Given, work: Work, better: int) -> None:
     """The model wins of which the sign of its criterion minus any other's is ``better``."""
     names = given.names
+    if given.border:
+        _border(given, work, better)
+        return
     if given.fitted is not None:
         n = exact(given.n or 0)
         free = {name: exact(model.k) for name, model in given.fitted.items()}
@@ -34,9 +46,11 @@ def _compare(given: Given, work: Work, better: int) -> None:
         free = {name: exact(free_parameters(given.data, name)) for name in names}
         fit = work.answer({name: _fit(work, given.data, name) for name in names})
     formula = BIC if given.criterion == "BIC" else akaike()
-    criteria = work.answer(
-        {name: work.step(formula, M=name, log_likelihood=fit[name], free=free[name], n=n) for name in names}
-    )
+    criteria = {}
+    for name in names:
+        value = work.step(formula, M=name, log_likelihood=fit[name], free=free[name], n=n)
+        criteria[name] = _in_primes(work, formula, value, M=name)
+    criteria = work.answer(criteria)
     work.answer(_winner(work, given, criteria, better))
 
 
@@ -66,22 +80,51 @@ def _fit(work: Work, data: Data, model: str) -> Value:
             work.say(f"Of {coin}:")
             theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
     value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
+    return _in_primes(work, LOG_LIKELIHOOD, value)
+
+
+def _in_primes(work: Work, formula: Formula, value: Value, **indices: Any) -> Value:
+    """A value with the logarithms of prime numbers only, written down where that is another form."""
+    if is_rational(value):
+        return value
     shorter = sympy.expand_log(value, factor=True)
     if shorter != value:
         work.say("With the logarithms of prime numbers only:")
-        work.give(LOG_LIKELIHOOD, shorter)
+        work.give(formula, shorter, **indices)
     return shorter
+
+
+def _border(given: Given, work: Work, better: int) -> None:
+    """The number of data at which what the richer model gains is what its parameters cost."""
+    assert given.fitted is not None
+    simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
+    models = given.fitted[rich], given.fitted[simple]
+    work.say(f"Here $M_1$ is {rich}, and $M_2$ is {simple}. Both have the same BIC for")
+    known = {
+        "log_likelihood_of": {name: _logarithm(model) for name, model in given.fitted.items()},
+        "free_of": {name: exact(model.k) for name, model in given.fitted.items()},
+    }
+    work.step(BIC_BORDER, first_model=rich, second_model=simple, **known)
+    ratio = to_sympy(exact(models[0].likelihood or 1) / exact(models[1].likelihood or 1))
+    n = simplest(ratio ** sympy.Rational(2, models[0].k - models[1].k))
+    work.say(f"So $n = {n}$.")
+    work.answer(n)
+    cost, preferred = ("more", simple) if given.border == "more" else ("less", rich)
+    work.say(f"With {given.border} data every parameter costs {cost}, so that the BIC prefers {preferred}.")
+    chosen = preferred if better < 0 else (rich if preferred == simple else simple)
+    work.answer(ascii_lowercase[given.names.index(chosen)])
 
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
     name = given.criterion
     numbers = [f"{name}({model}) ≈ {float(enclosure(value).mid()):.4g}" for model, value in criteria.items()]
     two = len(numbers) == 2
-    work.say(f"In numbers, {joined(numbers)}; the {'smaller' if two else 'smallest'} one wins.")
+    work.say(f"In numbers, {joined(numbers)}.")
     models = list(criteria)
     best = reduce(lambda one, other: other if sign(criteria[other] - criteria[one]) == better else one, models)
     if any(sign(criteria[best] - criteria[other]) == 0 for other in models if other != best):
         raise NoSolution(f"{'both' if two else 'the best'} models have the same {name}")
+    work.say(f"The {name} of {best} is the {'smaller' if two else 'smallest'} one: {best} is preferred.")
     return ascii_lowercase[models.index(best)]
 
 
@@ -96,6 +139,15 @@ MISCONCEPTIONS = (BIC_SIGN, BIC_WITHOUT_LOG, largest_wins, BIC_LOG_10)
 
 def oracle(given: Given) -> Answers:
     """Every θ of a fine grid tried, then its neighbourhood; products of chances rather than sums of logs."""
+    if given.border and given.fitted is not None:
+        chances = {name: at(model.likelihood or 1) for name, model in given.fitted.items()}
+        simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
+        low, high = 1.0, 1e12  # where the simple model becomes the better one
+        for _ in range(200):
+            middle = (low * high) ** 0.5
+            costs = [given.fitted[name].k * np.log(middle) - 2 * np.log(chances[name]) for name in (simple, rich)]
+            low, high = (low, middle) if costs[0] < costs[1] else (middle, high)
+        return (high, ascii_lowercase[given.names.index(simple if given.border == "more" else rich)])
     if given.fitted is not None:
         fit = np.array(
             [

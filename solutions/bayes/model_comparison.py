@@ -9,11 +9,11 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
-    BAYES,
     BEST_FIT,
     EVIDENCE,
     FIXED_COIN,
     MODEL_COMPARISON,
+    MODEL_POSTERIOR,
     POSTERIOR_ODDS,
     few_values,
 )
@@ -30,14 +30,17 @@ def solve(given: Given, work: Work) -> None:
     evidence = work.answer({name: _evidence(work, name, model, tosses) for name, model in given.models.items()})
     known: dict[str, Any] = {"evidence": evidence, "p": prior, "models": names}
     if len(names) == 2:
-        work.answer(work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known))
+        odds = work.step(POSTERIOR_ODDS, first_model=names[0], second_model=names[1], **known)
+        if given.odds is not None:
+            work.answer(work.equate(given.left_open[0], odds, exact(given.odds)))
+            return
+        work.answer(odds)
     else:
-        likelihood = {("data", name): value for name, value in evidence.items()}
-        posterior = {
-            name: work.step(BAYES, h=name, z="data", p=prior, likelihood=likelihood, hypotheses=names) for name in names
-        }
-        work.answer(posterior)
-    work.answer(work.step(MODEL_COMPARISON, **known) == names[:1])
+        work.answer({name: work.step(MODEL_POSTERIOR, M=name, **known) for name in names})
+    best = work.step(MODEL_COMPARISON, **known)
+    most = f"“{best[0]}” is the most probable model" if len(best) == 1 else "No model is more probable than all others"
+    work.say(f"{most}: {'yes' if best == names[:1] else 'no'}.")
+    work.answer(best == names[:1])
 
 
 def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -> Any:
@@ -62,6 +65,10 @@ def oracle(given: Given) -> Answers:
         else:
             chances = np.array([[at(theta), at(chance)] for theta, chance in model.certain]).T
             evidence.append(float(chances[0] ** given.heads * (1 - chances[0]) ** given.tails @ chances[1]))
+    if given.odds is not None:
+        # Odds of the priors times the ratio of the evidences are the odds given.
+        odds = at(given.odds) * evidence[1] / evidence[0]
+        return (evidence, odds / (1 + odds) if given.prior[next(iter(given.models))] == "q" else 1 / (1 + odds))
     joint = np.array(evidence) * [at(given.prior[name]) for name in given.models]
     after = joint[0] / joint[1] if len(joint) == 2 else joint / joint.sum()
     return (evidence, after, bool(joint[0] > joint[1:].max() * (1 + 1e-9)))

@@ -1,5 +1,6 @@
 """Maximum likelihood by the closed forms, then maximum a posteriori with a prior."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,9 @@ from rldrill.solutions.sheet.bayes import (
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
+    PRODUCTS,
     SAMPLE_VARIANCE,
+    SQUARES,
 )
 from rldrill.solutions.work import Work
 
@@ -46,24 +49,30 @@ def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
         "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
     }  # fmt: skip
     work.answer(work.step(COIN_ML, **known))
-    work.recall(MODEL_FITTING)
+    _most_probable(work)
     work.answer(work.step(with_prior, **known))
+
+
+def _most_probable(work: Work) -> None:
+    """What the maximum a posteriori estimate is, before the formula for it."""
+    work.say("The maximum a posteriori estimate is the parameter that is most probable given the data:")
+    work.recall(MODEL_FITTING)
+    work.say("With this prior that is:")
 
 
 def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
     known: dict[str, Any] = {"x": dict(enumerate(map(exact, sample.values), 1)), "n": len(sample.values)}
     known["mu_hat"] = work.answer(work.step(GAUSSIAN_MEAN, **known))
-    work.answer(work.step(GAUSSIAN_VARIANCE, **known))
-    work.answer(work.step(SAMPLE_VARIANCE, **known))
-    if sample.prior is None:
+    prior = sample.prior
+    if prior is None or prior.estimate is None:
+        work.answer(work.step(GAUSSIAN_VARIANCE, **known))
+        work.answer(work.step(SAMPLE_VARIANCE, **known))
+    if prior is None:
         return
-    prior = {
-        "sigma2": exact(sample.prior.noise),
-        "prior_mean": exact(sample.prior.mean),
-        "prior_variance": exact(sample.prior.variance),
-    }
-    work.recall(MODEL_FITTING)
-    work.answer(work.step(with_prior, **known, **prior))
+    _most_probable(work)
+    noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
+    peak = work.step(with_prior, sigma2=noise, prior_mean=mean, prior_variance=variance, **known)
+    work.answer(peak if prior.estimate is None else work.equate("w", peak, exact(prior.estimate)))
 
 
 def _line(line: Line, work: Work, with_prior: Formula) -> None:
@@ -74,14 +83,18 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     }
     known: dict[str, Any] = {"n": len(line.points), "abscissa": "x", "ordinate": "y", "value_of": values}
     known["average"] = {axis: work.step(MEAN, v=axis, **known) for axis in "xy"}
+    known |= {"S_xy": work.step(PRODUCTS, **known), "S_xx": work.step(SQUARES, **known)}
     slope = work.step(LINE_SLOPE, **known)
     work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
-    if line.prior is None:
+    prior = line.prior
+    if prior is None:
         return
-    work.recall(MODEL_FITTING)
-    noise, variance = exact(line.prior.noise), exact(line.prior.variance)
-    slope = work.step(with_prior, sigma2=noise, prior_variance=variance, **known)
-    work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+    _most_probable(work)
+    slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
+    if prior.estimate is not None:
+        work.answer(work.equate("w", slope, exact(prior.estimate)))
+    else:
+        work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
 
 
 @slip(
@@ -107,20 +120,44 @@ def oracle(given: Given) -> Answers:
         # The mean over all pairs of half their squared distance, with and without a value's pair with itself.
         squares = (values[:, None] - values[None, :]) ** 2 / 2
         size = len(values)
-        answers = [values.mean(), squares.mean(), squares.sum() / (size * (size - 1))]
+        variances = [squares.mean(), squares.sum() / (size * (size - 1))]
         prior = given.sample.prior
-        if prior is not None:
-            answers.append(_peak(values, at(prior.mean), at(prior.variance), at(prior.noise)))
-        return answers
+        if prior is None:
+            return [values.mean(), *variances]
+        mean, noise = at(prior.mean), at(prior.noise)
+        if prior.estimate is not None:
+            estimate = at(prior.estimate)
+            return [
+                values.mean(),
+                _variance(lambda w: abs(_peak(values, mean, w, noise) - mean) < abs(estimate - mean)),
+            ]
+        return [values.mean(), *variances, _peak(values, mean, at(prior.variance), noise)]
     assert given.line is not None
     x, y = np.array([[at(number) for number in point] for point in given.line.points]).T
     design = np.stack([x, np.ones_like(x)], axis=1)
     answers = [np.linalg.lstsq(design, y, rcond=None)[0]]
-    if (prior := given.line.prior) is not None:
-        # A prior of the slope is one more point, seen with its own noise.
-        weight = np.sqrt(at(prior.noise) / at(prior.variance))
-        answers.append(np.linalg.lstsq(np.vstack([design, [weight, 0.0]]), np.append(y, 0.0), rcond=None)[0])
-    return answers
+    if (prior := given.line.prior) is None:
+        return answers
+    noise = at(prior.noise)
+    if prior.estimate is None:
+        return [*answers, _ridge(design, y, noise / at(prior.variance))]
+    steepness = abs(at(prior.estimate))
+    return [*answers, _variance(lambda w: abs(_ridge(design, y, noise / w)[0]) < steepness)]
+
+
+def _ridge(design: Array, y: Array, weight: float) -> Array:
+    """The line with a prior of the slope: one more point, seen with its own noise."""
+    line: Array = np.linalg.lstsq(np.vstack([design, [weight**0.5, 0.0]]), np.append(y, 0.0), rcond=None)[0]
+    return line
+
+
+def _variance(narrow: Callable[[float], bool]) -> float:
+    """Where a variance stops to be too narrow, by bisection."""
+    low, high = 1e-9, 1e9
+    for _ in range(200):
+        middle = (low * high) ** 0.5
+        low, high = (middle, high) if narrow(middle) else (low, middle)
+    return middle
 
 
 def _best_share(heads: float, tails: float) -> float:

@@ -1,5 +1,6 @@
 """The Bellman equations of all states, solved as a linear system."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,12 @@ def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
     work.answer(work.step(AVERAGE_REWARD, visited=shares, **known))
 
 
-MISCONCEPTIONS = (one_backup(solve), terminal_value(solve), TRANSPOSED, EQUAL_SHARES)
+MISCONCEPTIONS = (
+    replace(one_backup(solve), when=lambda given: not given.average),
+    terminal_value(solve),
+    TRANSPOSED,
+    EQUAL_SHARES,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -9,11 +9,20 @@ from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import Misconception
+from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
-from rldrill.solutions.sheet.beyond_the_sheet import CHAIN, CRAIGS, LINK_TRANSFORM, WRONG_ORDER
+from rldrill.solutions.sheet.beyond_the_sheet import (
+    BACK_POINT,
+    CHAIN,
+    CRAIGS,
+    FORWARD_POINT,
+    LINK_TRANSFORM,
+    NOT_INVERTED,
+    WRONG_ORDER,
+)
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS: tuple[Misconception, ...] = (CRAIGS, WRONG_ORDER)
+MISCONCEPTIONS: tuple[Misconception, ...] = (CRAIGS, WRONG_ORDER, NOT_INVERTED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -24,23 +33,72 @@ def solve(given: Given, work: Work) -> None:
         "d": {index: exact(link.d) for index, link in enumerate(given.links, 1)},
         "alink": {index: exact(link.a) for index, link in enumerate(given.links, 1)},
     }
-    transforms = [work.answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
+    if given.point is not None:
+        _through(given, work, known, matrices.column(map(exact, given.point)))
+        return
+    answer = work.answer if given.asked == "transforms" else _unasked
+    transforms = [answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
     if given.base is None:
         total, rest, first = transforms[0], transforms[1:], 2
     else:
         total, rest, first = matrices.given(given.base), transforms, 1
     for index, transform in enumerate(rest, first):
-        total = work.step(CHAIN, before=total, after=transform, i=index)
+        total = work.step(CHAIN, before=total, after=transform, i=index, label=f"i = {index}")
         if index in given.posed:
-            total = work.answer(total)
+            total = answer(total)
+    if given.asked == "pose":
+        work.answer(_corner(total))
+        work.answer(tuple(_column(total).entries()))
+
+
+def _unasked(value: AnyMatrix) -> AnyMatrix:
+    """What comes out of a step that is not asked for."""
+    return value
+
+
+def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) -> None:
+    """A point from frame to frame, inwards or outwards; each transform is worked out where it is needed."""
+    outwards = given.asked == "back"
+    links = tuple(known["th"])
+    work.say("$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, its last column.")
+    for link in links if outwards else links[::-1]:
+        transform = work.step(LINK_TRANSFORM, i=link, **known)
+        formula, here = (BACK_POINT, link - 1) if outwards else (FORWARD_POINT, link)
+        parts = {"rotation": {link: _corner(transform)}, "origin": {link: _column(transform)}}
+        moved = work.step(formula, i=link, point={here: point}, **parts)
+        point = matrices.column(work.answer(tuple(moved.entries())))
+
+
+def _corner(transform: AnyMatrix) -> AnyMatrix:
+    """The rotation of a transform."""
+    return matrices.matrix(line[:3] for line in transform.tolist()[:3])
+
+
+def _column(transform: AnyMatrix) -> AnyMatrix:
+    """The origin of a transform."""
+    return matrices.column(line[3] for line in transform.tolist()[:3])
 
 
 def oracle(given: Given) -> Answers:
     """Four elementary motions for each link, one after the other."""
     transforms = [_moved(link) for link in given.links]
+    if given.point is not None:
+        return _seen(given, transforms, np.array([*map(at, given.point), 1.0]))
     base = np.eye(4) if given.base is None else np.array([[at(entry) for entry in row] for row in given.base])
     poses = [np.linalg.multi_dot([base, np.eye(4), *transforms[:link]]) for link in given.posed]
+    if given.asked == "pose":
+        pose = poses[-1] if poses else transforms[0]
+        return [pose[:3, :3], pose[:3, 3]]
     return [*transforms, *poses]
+
+
+def _seen(given: Given, transforms: list[Array], point: Array) -> list[Any]:
+    """The point in the world of the base, then in the frames."""
+    poses = [np.linalg.multi_dot([np.eye(4), np.eye(4), *transforms[:link]]) for link in range(len(transforms) + 1)]
+    if given.asked == "back":
+        return [np.linalg.solve(pose, point)[:3] for pose in poses[1:]]
+    seen = poses[-1] @ point
+    return [np.linalg.solve(pose, seen)[:3] for pose in poses[-2::-1]]
 
 
 def _moved(link: Link) -> Array:

@@ -56,13 +56,15 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     }
     values = dynamics.known(given)
     texts = tuple(given.dynamics.values())
-    for code, by, formula in (("s", names, STATE_JACOBIAN), ("a", actions, INPUT_JACOBIAN)):
+    Q = {}
+    for code, by, formula, gradient in (
+        ("s", names, STATE_JACOBIAN, DDP_S), ("a", actions, INPUT_JACOBIAN, DDP_A),
+    ):  # fmt: skip
         known[f"r_{code}"] = matrices.column(_first(work, formula, values, given.reward, "r", name) for name in by)
         known[f"f_{code}"] = matrices.matrix(
             [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
         )
-    Q = {"Q_s": work.answer(work.step(DDP_S, **known))}
-    Q["Q_a"] = work.answer(work.step(DDP_A, **known))
+        Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
         work.say("iLQR leaves out the sums with the second derivatives of $f$.")

@@ -4,16 +4,23 @@ import numpy as np
 
 from rldrill.problems.linear_methods.linearise import Given
 from rldrill.solutions import dynamics
-from rldrill.solutions.linearisation import Linearised, after, held_numerically, linearised, slips
-from rldrill.solutions.oracle import Answers
-from rldrill.solutions.sheet.linear_methods import FORGOT_IDENTITY
+from rldrill.solutions.exact import exact
+from rldrill.solutions.linearisation import Linearised, after, answered, chosen, held_numerically, linearised, slips
+from rldrill.solutions.matrices import column
+from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.sheet.linear_methods import FORGOT_IDENTITY, deviation
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work, matrices: Linearised = linearised) -> None:
-    """A, then B."""
-    for matrix in matrices(given, work):
-        work.answer(matrix)
+    """A, then B; then what a deviation leads to."""
+    found = zip("AB", matrices(given, work), strict=True)
+    A, B = (answered(work, given.entries, which, matrix) for which, matrix in found)
+    if given.deviation is not None:
+        n = len(given.state)
+        ds, da = (column(map(exact, numbers)) for numbers in (given.deviation[:n], given.deviation[n:]))
+        change = work.step(deviation(discretised=given.step is not None), Ad=A, Bd=B, Ai=A, Bi=B, ds=ds, da=da)
+        work.answer(tuple(change.entries()))
 
 
 MISCONCEPTIONS = (*slips(solve), FORGOT_IDENTITY)
@@ -22,9 +29,11 @@ MISCONCEPTIONS = (*slips(solve), FORGOT_IDENTITY)
 def oracle(given: Given) -> Answers:
     """Complex steps through the dynamics, or through their Euler step."""
     if given.held:
-        return held_numerically(given)[:2]
-    values, step = dynamics.numbers(given), after(given)
-    return (
-        np.real(dynamics.complex_step(step, values, given.states)),
-        dynamics.complex_step(step, values, tuple(given.action)),
-    )
+        A, B, _ = held_numerically(given)
+    else:
+        values, step = dynamics.numbers(given), after(given)
+        A, B = (np.real(dynamics.complex_step(step, values, by)) for by in (given.states, tuple(given.action)))
+    answers = chosen(given.entries, A, B)
+    if given.deviation is not None:
+        answers.append(np.hstack([A, B]) @ [at(number) for number in given.deviation])
+    return answers

@@ -5,7 +5,17 @@ import numpy as np
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.linearisation import Linearised, after, held_numerically, linearised, moved_point, rates, slips
+from rldrill.solutions.linearisation import (
+    Linearised,
+    after,
+    answered,
+    chosen,
+    held_numerically,
+    linearised,
+    moved_point,
+    rates,
+    slips,
+)
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import (
@@ -24,13 +34,13 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     f_bar = moved_point(given, work, s_bar, rates(work, given))
-    _augmented(work, A, B, work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
+    _augmented(given, work, A, B, work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
 
 
-def _augmented(work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
+def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
     C = work.answer(C)
-    work.answer(work.step(AUGMENTED_A, Ai=A, Cc=C))
-    work.answer(work.step(AUGMENTED_B, Bi=B))
+    answered(work, given.entries, "A", work.step(AUGMENTED_A, Ai=A, Cc=C))
+    answered(work, given.entries, "B", work.step(AUGMENTED_B, Bi=B))
 
 
 @slip(
@@ -40,7 +50,7 @@ def _augmented(work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
 def rates_for_c(given: Given, work: Work) -> None:
     """The rates in the place of C."""
     A, B = linearised(given, work)
-    _augmented(work, A, B, rates(work, given))
+    _augmented(given, work, A, B, rates(work, given))
 
 
 MISCONCEPTIONS = (C_IS_F, rates_for_c, *slips(solve), FORGOT_IDENTITY)
@@ -58,8 +68,5 @@ def oracle(given: Given) -> Answers:
     n, m = B.shape
     operating = np.real([values[name] for name in (*given.states, *given.action)])
     C = moved - np.hstack([A, B]) @ operating
-    return (
-        C,
-        np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]),
-        np.vstack([B, np.zeros((1, m))]),
-    )
+    tilde = np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]), np.vstack([B, np.zeros((1, m))])
+    return [C, *chosen(given.entries, *tilde)]

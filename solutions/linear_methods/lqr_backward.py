@@ -49,7 +49,7 @@ def _formulas(given: Given) -> Quadratic:
 
 def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
     try:
-        gain: AnyMatrix = work.step(lqr.gain, t=time, **known)
+        gain: AnyMatrix = linear_quadratic.gain(work, lqr, t=time, **known)
     except NoSolution:
         raise NoSolution(
             f"at time {time} the matrix that is to be inverted for the gain is singular: some action costs nothing "

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 from flint import fmpq
@@ -11,12 +12,14 @@ from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import generator
 from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
-    LQR_MODES,
     OTHER_ROOT,
     POSITIVE_S,
+    Quadratic,
     Stationary,
+    back_from_modes,
     quadratic,
 )
 from rldrill.solutions.sheet.linear_methods import stationary as stationary_formulas
@@ -28,11 +31,16 @@ def solve(given: Given, work: Work) -> None:
     regulator = _regulator(given)
     added = {"discounted": given.gamma != 1, "crossed": given.N is not None}
     lqr, formulas = quadratic(given.notation, **added), stationary_formulas(given.notation, **added)
+    if given.closed_loop is not None:
+        _price(given, work, lqr, formulas, regulator)
+        return
     P = work.answer(_value(work, given, formulas, regulator))
     by_time = {f"{name}t": {0: getattr(regulator, name)} for name in "ABRN"} | {"Pt": {1: P}, "gamma": regulator.gamma}
     if all(is_rational(entry) and entry.q > _LONG for entry in P.entries()):
         work.say(f"The gain follows from this ${given.notation.value}$, and is rounded likewise.")
         L = work.answer(_rounded(work.value(lqr.gain, t=0, **by_time)))
+    elif (modes := _modes(regulator)) is not None and _is_diagonal(modes.in_modes(P)):
+        L = work.answer(_gain_by_modes(work, given, lqr, modes, P, regulator.gamma))
     else:
         L = work.answer(work.step(lqr.gain, into=lqr.always, t=0, **by_time))
     letters = {f"{given.notation.gain}i": L}
@@ -41,6 +49,34 @@ def solve(given: Given, work: Work) -> None:
         loop = f"A − B {given.notation.gain}"
         work.say(f"${loop} ≈ {decimal(closed[0, 0], 4)}$ is between $−1$ and $1$: stable, as it must be.")
     work.answer(closed)
+
+
+def _price(given: Given, work: Work, lqr: Quadratic, formulas: Stationary, regulator: Regulator) -> None:
+    """The gain from the closed loop; P from that equation of the two which holds no price; the price from the other."""
+    L, P = given.notation.gain, given.notation.value
+    system = {"Ai": regulator.A, "Bi": regulator.B, "Qi": regulator.Q, "gamma": regulator.gamma}
+    loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
+    gain = work.answer(work.equate(L, loop[0, 0], exact(given.closed_loop or 0)))
+
+    def riccati(value: Value) -> Value:
+        found = work.step(formulas.equation, **system, **{f"{L}i": _single(gain), f"{P}i": _single(value)})
+        return found[0, 0]
+
+    def best(value: Value) -> Value:
+        by_time = {f"{name}t": {0: getattr(regulator, name)} for name in "ABR"} | {"gamma": regulator.gamma}
+        return work.step(lqr.gain, into=lqr.always, t=0, Pt={1: _single(value)}, **by_time)[0, 0]
+
+    unknown = generator(P)
+    if given.unknown == "Q":
+        value = work.answer(work.equate(P, best(unknown), gain))
+        work.answer(work.equate("rho", riccati(value), value))
+    else:
+        value = work.answer(work.equate(P, unknown, riccati(unknown)))
+        work.answer(work.equate("rho", best(value), gain))
+
+
+def _single(entry: Value) -> AnyMatrix:
+    return matrices.matrix([[entry]])
 
 
 def _regulator(given: Given) -> Regulator:
@@ -58,10 +94,8 @@ def _value(work: Work, given: Given, formulas: Stationary, regulator: Regulator)
         work.say(_equation(given))
         numbers = (getattr(regulator, name)[0, 0] for name in "ABQRN")
         return matrices.matrix([[_root(work, given, formulas, *numbers)]])
-    for change in _changes(A.nrows()):
-        split = [change.inv() * matrix * change for matrix in regulator[:5]] if A.nrows() == B.ncols() else []
-        if split and all(map(_is_diagonal, split)):
-            return _by_modes(work, given, formulas, change, *split)
+    if (modes := _modes(regulator)) is not None:
+        return _by_modes(work, given, formulas, modes)
     return _in_decimals(work, given, regulator)
 
 
@@ -115,33 +149,73 @@ def _unmoved(given: Given) -> str:
     return f"No action has an effect here, so the {gains}, and ${P} = {signed} + {gamma}A^2 {P}$:"
 
 
-def _changes(size: int) -> tuple[AnyMatrix, ...]:
-    """The changes of coordinates that are tried: none, and sum and difference."""
+class _Modes(NamedTuple):
+    """Coordinates, the columns of T, in which a system falls apart, and A, B, Q, R and N in them."""
+
+    T: AnyMatrix
+    split: tuple[AnyMatrix, ...]
+
+    def in_modes(self, matrix: AnyMatrix) -> AnyMatrix:
+        """A matrix in these coordinates."""
+        return self.T.inv() * matrix * self.T
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What every mode is."""
+        if self.T[0, 1] != 0:
+            return ("the sum of the two states", "the difference of the two states")
+        return tuple(f"entry {mode + 1} of the state" for mode in range(self.T.nrows()))
+
+
+def _modes(regulator: Regulator) -> _Modes | None:
+    """The coordinates in which the system falls apart: its own, or sum and difference."""
+    size = regulator.A.nrows()
+    if size == 1 or regulator.B.ncols() != size:
+        return None
     half = (matrices.matrix([[fmpq(1), fmpq(1)], [fmpq(1), fmpq(-1)]]),) if size == 2 else ()
-    return (matrices.identity(size), *half)
+    for T in (matrices.identity(size), *half):
+        split = tuple(T.inv() * matrix * T for matrix in regulator[:5])
+        if all(map(_is_diagonal, split)):
+            return _Modes(T, split)
+    return None
 
 
 def _is_diagonal(matrix: AnyMatrix) -> bool:
     return all(entry == 0 for i, line in enumerate(matrix.tolist()) for j, entry in enumerate(line) if i != j)
 
 
-def _by_modes(work: Work, given: Given, formulas: Stationary, change: AnyMatrix, *split: AnyMatrix) -> AnyMatrix:
-    size = change.nrows()
+def _by_modes(work: Work, given: Given, formulas: Stationary, modes: _Modes) -> AnyMatrix:
     roots = []
-    of = ("the sum", "the difference") if change[0, 1] != 0 else tuple(f"entry {mode + 1}" for mode in range(size))
-    names = tuple(f"{what} of the two states" if change[0, 1] != 0 else f"{what} of the state" for what in of)
     work.say(_equation(given))
     letters = "ABQRN" if given.N else "ABQR"
-    for mode, what in enumerate(names):
-        numbers = [matrix[mode, mode] for matrix in split]
+    for mode, what in enumerate(modes.names):
+        numbers = [matrix[mode, mode] for matrix in modes.split]
         told = ", ".join(f"{name} = {number}".replace("-", "−") for name, number in zip(letters, numbers, strict=False))
         work.say(f"Mode {mode + 1}, {what}, is a system of its own with ${told}$:")
         roots.append(_root(work, given, formulas, *numbers))
-    if size > 1:
-        work.say("Back in the entries of the state, with the modes as the columns of $T$:")
-    diagonal = matrices.matrix([[roots[i] if i == j else 0 for j in range(size)] for i in range(size)])
-    modes = LQR_MODES if not given.notation.costs else replace(LQR_MODES, left=formulas.equation.left)
-    return work.step(modes, modes=change, Pm=diagonal)
+    return _back(work, modes, given.notation.value, roots)
+
+
+def _gain_by_modes(work: Work, given: Given, lqr: Quadratic, modes: _Modes, P: AnyMatrix, gamma: fmpq) -> AnyMatrix:
+    """The gain of every mode, then of the states."""
+    gains, hat = [], modes.in_modes(P)
+    for mode, what in enumerate(modes.names):
+        work.say(f"Mode {mode + 1}, {what}:")
+        by_time = {
+            f"{name}t": {0: _single(matrix[mode, mode])} for name, matrix in zip("ABQRN", modes.split, strict=True)
+        }
+        value = {1: _single(hat[mode, mode])}
+        gains.append(work.step(lqr.gain, into=lqr.always, t=0, gamma=gamma, Pt=value, **by_time)[0, 0])
+    return _back(work, modes, given.notation.gain, gains)
+
+
+def _back(work: Work, modes: _Modes, head: str, entries: list[Value]) -> AnyMatrix:
+    """A matrix of the states from its entries in the modes."""
+    size = len(entries)
+    work.say("Back in the entries of the state, with the modes as the columns of $T$:")
+    diagonal = matrices.matrix([[entries[i] if i == j else 0 for j in range(size)] for i in range(size)])
+    back: AnyMatrix = work.step(back_from_modes(head), modes=modes.T, **{f"{head}m": diagonal})
+    return back
 
 
 def _in_decimals(work: Work, given: Given, regulator: Regulator) -> AnyMatrix:
@@ -180,11 +254,20 @@ def _rounded(matrix: AnyMatrix) -> AnyMatrix:
     return matrices.matrix([fmpq(round(entry * _DECIMALS), _DECIMALS) for entry in line] for line in rows)
 
 
-MISCONCEPTIONS = (OTHER_ROOT, POSITIVE_S, linear_quadratic.cost_to_go(solve, slice(1)))
+MISCONCEPTIONS = (
+    OTHER_ROOT,
+    POSITIVE_S,
+    replace(
+        linear_quadratic.cost_to_go(solve, slice(1)),
+        when=lambda given: given.convention == "value" and given.closed_loop is None,
+    ),
+)
 
 
 def oracle(given: Given) -> Answers:
     """Value iteration on the quadratic, until nothing changes."""
+    if given.closed_loop is not None:
+        return _priced(given)
     A, B, Q, R = (linear_quadratic.array(getattr(given, name)) for name in "ABQR")
     N = np.zeros_like(B) if given.N is None else linear_quadratic.array(given.N)
     gamma, sign = at(given.gamma), 1 if given.notation.costs else -1
@@ -197,3 +280,16 @@ def oracle(given: Given) -> Answers:
             break
         S = after
     return (sign * S, L, A - B @ L)
+
+
+def _priced(given: Given) -> Answers:
+    """The price for which value iteration ends in the closed loop, by bisection: cheap actions close it more."""
+    prices = [1e-6, 1e6]
+    for _ in range(60):
+        middle = (prices[0] * prices[1]) ** 0.5
+        entry = Fraction(middle)
+        priced = given.model_copy(update={given.unknown: ((entry,),), "closed_loop": None})
+        S, L, loop = oracle(priced)
+        wide = abs(loop[0, 0]) > abs(at(given.closed_loop or 0))
+        prices[int(wide == (given.unknown == "R"))] = middle
+    return (L[0, 0], S[0, 0], middle)

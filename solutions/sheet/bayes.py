@@ -54,6 +54,7 @@ def _below(head: Math, index: str) -> Math:
 
 
 M = letter("M")
+M1 = letter("M1", "M′")
 Models = letter("models", "M")
 theta = letter("share", "θ")
 Thetas = letter("thetas", "Θ")
@@ -81,6 +82,8 @@ tails_of = quantity("tails_of", lambda index: Script(variable("n"), listed((numb
 theta_of = quantity("theta_of", lambda index: Script(_THETA, index))
 log_likelihood = letter("log_likelihood", row(word("ln"), _given(variable("M"), _THETA)))
 k = letter("free", "k")
+log_likelihood_of = quantity("log_likelihood_of", lambda model: row(word("ln"), _given(model, _THETA)))
+free_of = quantity("free_of", subscripted("k"))
 bic = quantity("bic", called(word("BIC")))
 aic = quantity("aic", called(word("AIC")))
 theta_at = quantity("theta_at", subscripted(_THETA))
@@ -102,6 +105,7 @@ value_of = quantity("value_of", lambda of, index: Script(of, index))
 average = quantity("average", lambda of: Accent(of, "bar"))
 slope = letter("slope", Script(_HAT, number(1)))
 slope_map = letter("slope_map", Script(_HAT, row(number(1), punctuation(","), word("MAP"))))
+S_xy, S_xx = (letter(f"S_{both}", Script(variable("S"), row(*map(variable, both)))) for both in ("xy", "xx"))
 intercept = letter("intercept", Script(_HAT, number(0)))
 
 # A Gaussian belief; A, B as in section 7, R and Q the covariances of the motion's and the sensor's noise
@@ -137,11 +141,14 @@ with evaluate(False):
         "not-normalised", "The posterior sums to 1: divide by p(z), the sum over all hypotheses."
     )
     BASE_RATE_IGNORED = Misconception(
-        "base-rate-ignored", "The prior counts: each likelihood is weighted with the probability of its hypothesis."
+        "base-rate-ignored",
+        "The prior counts: each likelihood is weighted with the probability of its hypothesis.",
+        when=lambda given: not given.prior_found,
     )
     LIKELIHOOD_FOR_POSTERIOR = Misconception(
         "likelihood-for-posterior",
         "p(z|h) is the probability of the measurement given the hypothesis, not the other way round.",
+        when=lambda given: not given.prior_found,
     )
     BAYES = Formula(
         "bayes",
@@ -352,17 +359,33 @@ with evaluate(False):
         hint="Add up and divide by how many there are.",
         place=Place.WORKING,
     )
-    _PRODUCTS = SumOver(
-        (value_of(abscissa, i) - average(abscissa)) * (value_of(ordinate, i) - average(ordinate)), i, Counting(1, n)
+    PRODUCTS = Formula(
+        "line-products",
+        S_xy,
+        SumOver(
+            (value_of(abscissa, i) - average(abscissa)) * (value_of(ordinate, i) - average(ordinate)), i, Counting(1, n)
+        ),
+        title="Least squares: products of the deviations",
+        source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
+        hint="Write down how far every x and y is from its mean, multiply and add.",
+        place=Place.WORKING,
     )
-    _SQUARES = SumOver((value_of(abscissa, i) - average(abscissa)) ** 2, i, Counting(1, n))
+    SQUARES = Formula(
+        "line-squares",
+        S_xx,
+        SumOver((value_of(abscissa, i) - average(abscissa)) ** 2, i, Counting(1, n)),
+        title="Least squares: squares of the deviations",
+        source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
+        hint="Write down how far every x is from its mean, square and add.",
+        place=Place.WORKING,
+    )
     LINE_SLOPE = Formula(
         "line-slope",
         slope,
-        _PRODUCTS / _SQUARES,
+        S_xy / S_xx,
         title="Least squares: slope",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
-        hint="Write down how far every x and y is from its mean; multiply, square and add these.",
+        hint="Divide the sum of the products of the deviations by that of the squares of those of x.",
         place=Place.BEYOND,
     )
     LINE_INTERCEPT = Formula(
@@ -377,7 +400,7 @@ with evaluate(False):
     LINE_SLOPE_MAP = Formula(
         "line-slope-map",
         slope_map,
-        _PRODUCTS / (_SQUARES + sigma2 / prior_variance),
+        S_xy / (S_xx + sigma2 / prior_variance),
         title="Maximum a posteriori: slope",
         source="Bishop 2006, section 3.3.1, for a line with a free intercept",
         hint="The prior adds σ²/σ₀² below the line, which draws the slope towards 0.",
@@ -438,6 +461,16 @@ with evaluate(False):
         place=Place.BEYOND,
     )
 
+    MODEL_POSTERIOR = Formula(
+        "model-posterior",
+        of_model(M),
+        evidence(M) * p(M) / SumOver(evidence(M1) * p(M1), M1, Models),
+        title="Posterior probability of a model",
+        source="Bishop 2006, eq. 3.66",
+        hint="Bayes' rule: the evidence is the likelihood of a model.",
+        place=Place.BEYOND,
+    )
+
     LOG_LIKELIHOOD = Formula(
         "coin-log-likelihood",
         log_likelihood,
@@ -465,6 +498,17 @@ with evaluate(False):
             BIC_WITHOUT_LOG: -2 * log_likelihood + k * n,
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
         },
+    )
+    BIC_BORDER = Formula(
+        "bic-border",
+        log(n),
+        2
+        * (log_likelihood_of(first_model) - log_likelihood_of(second_model))
+        / (free_of(first_model) - free_of(second_model)),
+        title="Where two models have the same BIC",
+        source="Hastie, Tibshirani & Friedman 2009, eq. 7.35, solved for n",
+        hint="Set both criteria equal; what the better fit gains is what the parameters cost.",
+        place=Place.WORKING,
     )
 
 

@@ -56,6 +56,8 @@ Lt = _matrix("Lt", "L")
 St = _matrix("St", "s")
 Ut = _matrix("Ut", "a")
 Nt = _matrix("Nt", "N")
+Gt = _matrix("Gt", "G")
+Ht = _matrix("Ht", "H")
 rt = quantity("rt", _reward_layout)
 last_reward = quantity("lastReward", lambda time: row(variable("r"), Fence(Script(variable("s"), time))))
 J = letter("J")
@@ -141,6 +143,26 @@ with evaluate(False):
             * Transposed(At(t)),
         },
     )
+    LQR_BRACKET = Formula(
+        "lqr-gain-bracket",
+        Ht(t),
+        Transposed(Bt(t)) * Pt(t + 1) * Bt(t) - Rt(t),
+        title="LQR gain: the matrix that is inverted",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="Work out Bᵀ P first.",
+        place=Place.WORKING,
+    )
+    LQR_PRODUCT = Formula(
+        "lqr-gain-product",
+        Gt(t),
+        Transposed(Bt(t)) * Pt(t + 1) * At(t),
+        title="LQR gain: the matrix behind the inverse",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="Work out Bᵀ P first.",
+        place=Place.WORKING,
+    )
+    #: The gain by these two.
+    LQR_SOLVED = Pow(Ht(t), -1) * Gt(t)
     NO_TERMINAL = Misconception(
         "no-terminal-value", "The state at the last time T is rewarded too: P_T is −Q_T, not 0."
     )
@@ -202,6 +224,9 @@ class Quadratic(NamedTuple):
     action: Formula
     #: The gain that is the same at all times.
     always: type[Quantity]
+    #: The matrix that is inverted for the gain, and the one behind it.
+    bracket: Formula
+    product: Formula
 
 
 @cache
@@ -213,9 +238,9 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
     )
     always = quantity("Lt", lambda _: variable(notation.gain), matrix=True)
     if not (notation.costs or discounted or crossed):
-        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, always)
-    A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
+        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, always, LQR_BRACKET, LQR_PRODUCT)
     with evaluate(False):
+        A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
         ahead = (gamma,) if discounted else ()
         both = Mul(*ahead, Transposed(B), after, A)
         square = Mul(*ahead, Transposed(B), after, B)
@@ -246,6 +271,8 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
             ),
             replace(LQR_ACTION, left=action(t), right=-gain(t) * state(t)),
             always,
+            replace(LQR_BRACKET, right=bracket),
+            replace(LQR_PRODUCT, right=both),
         )
 
 
@@ -324,6 +351,17 @@ with evaluate(False):
         hint="Put a = −L s into the dynamics.",
         place=Place.WORKING,
     )
+
+
+@cache
+def back_from_modes(head: str) -> Formula:
+    """A matrix of the states from that of the modes."""
+    if head == "P":
+        return LQR_MODES
+    with evaluate(False):
+        of_modes = letter(f"{head}m", Accent(variable(head), "hat"), matrix=True)
+        right = modes * of_modes * Pow(modes, -1)
+    return replace(LQR_MODES, left=letter(f"{head}i", head, matrix=True), right=right)
 
 
 class Stationary(NamedTuple):
@@ -419,6 +457,10 @@ A_tilde = letter("Atilde", Accent(variable("A"), "tilde"), matrix=True)
 B_tilde = letter("Btilde", Accent(variable("B"), "tilde"), matrix=True)
 dt = letter("dt", row(variable("Δ"), variable("t")))
 unit = letter("unit", "I", matrix=True)
+delta_s, delta_a, delta_f, delta_next = (
+    letter(code, row(variable("δ"), variable(glyph)), matrix=True)
+    for code, glyph in (("ds", "s"), ("da", "a"), ("df", "f"), ("dF", "F"))
+)
 s1_bar, f1_bar = letter("sbark", _bar("s")), letter("fbark", row(variable("f"), _POINT))
 Ad, Bd = (letter(f"{head}d", Script(variable(head), variable("Δ")), matrix=True) for head in "AB")
 
@@ -431,6 +473,15 @@ with evaluate(False):
         source="Åström & Murray 2008, section 5.4",
         hint="Differentiate each component of f by each state and each action, then put the operating point in.",
         sign="≈",
+    )
+    DEVIATION = Formula(
+        "linearise-deviation",
+        delta_f,
+        Ai * delta_s + Bi * delta_a,
+        title="Linearisation: the change of the rates",
+        source="Åström & Murray 2008, section 5.4",
+        hint="Multiply A with the deviation of the state and B with that of the action, and add.",
+        place=Place.WORKING,
     )
     STATE_JACOBIAN = Formula(
         "linearise-a",
@@ -518,6 +569,15 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
+
+
+@cache
+def deviation(*, discretised: bool) -> Formula:
+    """How the rates, or the next state, change to first order."""
+    if not discretised:
+        return DEVIATION
+    with evaluate(False):
+        return replace(DEVIATION, left=delta_next, right=Ad * delta_s + Bd * delta_a)
 
 
 class Hold(NamedTuple):

@@ -1,10 +1,11 @@
 """The λ-return as its definition has it: all n-step returns, weighted."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
@@ -33,15 +34,15 @@ def solve(given: Given, work: Work) -> None:
     work.answer(average(work, known, given.time, returns))
 
 
-def known_episode(given: Any) -> dict[str, Any]:
+def known_episode(given: Any, read: Callable[[Scalar], Value] = exact) -> dict[str, Any]:
     """A run with its values, γ, λ and the time of its end."""
     run: Trajectory = given.trajectory
     return (
         knowns.trajectory(run)
         | knowns.discounts(given.gamma)
         | {
-            "V": knowns.state_values(given.values, run.terminal),
-            "lam": exact(given.lam),
+            "V": {s: read(value) for s, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO),
+            "lam": read(given.lam),
             "T": len(run.rewards),
             "ends": run.ends,
         }

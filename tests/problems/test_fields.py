@@ -92,7 +92,7 @@ def test_rows_name_their_entries_and_choices_their_words() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "forms"), [("bandit", 3), ("advantage", 3), ("expected-sarsa", 2), ("td-zero", 2), ("n-step-return", 1)]
+    ("name", "forms"), [("bandit", 4), ("advantage", 3), ("expected-sarsa", 2), ("td-zero", 2), ("n-step-return", 1)]
 )
 def test_every_form_of_a_union_is_listed(name: str, forms: int) -> None:
     assert len({field.form for field in rldrill.fields(name)}) == forms

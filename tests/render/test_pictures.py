@@ -221,13 +221,13 @@ def test_a_time_line_is_folded_where_the_terminal_ends() -> None:
     lines = shown(40, RUN)
     assert lines[:8] == [
         "  t = 0           t = 1",
-        "           fast            slow",
-        "  ○ cool ───────▶ ○ warm ────────▶",
-        "          r₁ = 2         r₂ = −1",
+        "           fast",
+        "  ○ cool ───────▶ ○ warm",
+        "          r₁ = 2",
         "",
-        "  t = 2",
-        "  □ over",
-        "",
+        "  t = 1            t = 2",
+        "           slow",
+        "  ○ warm ────────▶ □ over",
     ]
     assert max(map(len, shown(60, LONG_RUN))) <= 60
 

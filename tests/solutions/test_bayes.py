@@ -1,5 +1,7 @@
 """Identities of Bayesian methods, and one sentence for what does not fit."""
 
+from fractions import Fraction
+from json import dumps, loads
 from math import comb
 from typing import Any
 
@@ -24,48 +26,78 @@ seeds = st.integers(0, 10_000)
 @quick
 def test_beliefs_sum_to_one(name: str, seed: int, level: int) -> None:
     for belief in draw(name, level, seed).answers.values():
-        assert sum(belief.values()) == 1
+        assert not isinstance(belief, dict) or sum(belief.values()) == 1
 
 
-@given(seeds)
+@pytest.mark.parametrize("name", ["bayes-rule", "bayes-predict", "bayes-filter"])
+@given(seed=seeds)
 @quick
-def test_the_filter_over_a_run_is_the_joint_distribution_conditioned(seed: int) -> None:
-    given_ = draw("bayes-filter", 3, seed).problem.given
-    paths = {(state,): chance for state, chance in given_.belief.items()}
-    for event in given_.run:
+def test_a_probability_that_is_found_gives_the_outcome_it_was_found_from(name: str, seed: int) -> None:
+    given_ = draw(name, 3, seed).problem.data()["given"]
+    if "outcome" not in given_:
+        return
+    outcome = given_.pop("outcome")
+    found = Fraction(str(draw(name, 3, seed).answers["a"]))
+    filled = loads(dumps(given_).replace('"1-q"', f'"{1 - found}"').replace('"q"', f'"{found}"'))
+    assert solved(name, **filled)["a"][outcome["state"]] == fmpq(*Fraction(outcome["probability"]).as_integer_ratio())
+
+
+#: Three steps over three states.
+RUN: dict[str, Any] = {
+    "belief": {"left": "1/2", "middle": "1/4", "right": "1/4"},
+    "motion": {
+        "go": {"left": {"left": "1/4", "middle": "3/4"}, "middle": {"middle": "1/2", "right": "1/2"},
+               "right": {"right": 1}},
+        "back": {"left": {"left": 1}, "middle": {"left": "2/3", "middle": "1/3"}, "right": {"middle": 1}},
+    },
+    "likelihood": {"door": {"left": "1/2", "middle": "1/4", "right": "1/8"},
+                   "wall": {"left": "1/2", "middle": "3/4", "right": "7/8"}},
+    "run": [{"action": "go", "measurement": "door"}, {"action": "back", "measurement": "wall"},
+            {"action": "go", "measurement": "wall"}],
+}  # fmt: skip
+
+
+def test_what_is_read_next_is_predicted_by_hand() -> None:
+    # The belief 1/2, 1/2 stays under "stay"; then it reads "on" with 1/2·3/4 + 1/2·1/4 = 1/2.
+    ahead = solved(
+        "bayes-filter",
+        belief={"a": "1/4", "b": "3/4"},
+        likelihood={"on": {"a": "3/4", "b": "1/4"}},
+        run=[{"measurement": "on"}],
+        ahead={"measurement": "on"},
+    )
+    assert ahead == {"a": {"a": fmpq(1, 2), "b": fmpq(1, 2)}, "b": fmpq(1, 2)}
+
+
+def test_the_filter_over_a_run_is_the_joint_distribution_conditioned() -> None:
+    paths = {(state,): Fraction(chance) for state, chance in RUN["belief"].items()}
+    for event in RUN["run"]:
+        rows, row = RUN["motion"][event["action"]], RUN["likelihood"][event["measurement"]]
         paths = {
-            (*path, after): chance
-            * given_.motion[event.action][path[-1]].get(after, 0)
-            * given_.likelihood[event.measurement][after]
+            (*path, after): chance * Fraction(rows[path[-1]].get(after, 0)) * Fraction(row[after])
             for path, chance in paths.items()
-            for after in given_.belief
+            for after in RUN["belief"]
         }
     total = sum(paths.values())
-    last = draw("bayes-filter", 3, seed).answers["c"]
-    for state in given_.belief:
+    last = solved("bayes-filter", **RUN)["c"]
+    for state in RUN["belief"]:
         share = sum(chance for path, chance in paths.items() if path[-1] == state) / total
         assert last[state] == fmpq(share.numerator, share.denominator)
 
 
-@given(seeds)
-@quick
-def test_the_order_of_independent_measurements_does_not_matter(seed: int) -> None:
-    given_ = draw("bayes-filter", 3, seed).problem.data()["given"]
-    readings = [{"measurement": event["measurement"]} for event in given_["run"]]
-    forth, back = (solved("bayes-filter", **given_ | {"run": run}) for run in (readings, readings[::-1]))
+def test_the_order_of_independent_measurements_does_not_matter() -> None:
+    readings = [{"measurement": event["measurement"]} for event in RUN["run"]]
+    forth, back = (solved("bayes-filter", **RUN | {"run": run}) for run in (readings, readings[::-1]))
     assert forth["c"] == back["c"]
 
 
-@given(seeds)
-@quick
-def test_a_filter_that_only_moves_predicts_and_one_that_only_measures_is_bayes_rule(seed: int) -> None:
-    given_ = draw("bayes-filter", 3, seed).problem.data()["given"]
-    moved = solved("bayes-filter", **given_ | {"run": [{"action": event["action"]} for event in given_["run"]]})
-    actions = [event["action"] for event in given_["run"]]
-    assert moved == solved("bayes-predict", belief=given_["belief"], motion=given_["motion"], actions=actions)
-    readings = [event["measurement"] for event in given_["run"]]
-    read = solved("bayes-filter", **given_ | {"run": [{"measurement": reading} for reading in readings]})
-    assert read == solved("bayes-rule", prior=given_["belief"], likelihood=given_["likelihood"], measurements=readings)
+def test_a_filter_that_only_moves_predicts_and_one_that_only_measures_is_bayes_rule() -> None:
+    belief, motion, likelihood = (RUN[name] for name in ("belief", "motion", "likelihood"))
+    actions, readings = ([event[name] for event in RUN["run"]] for name in ("action", "measurement"))
+    moved = solved("bayes-filter", **RUN | {"run": [{"action": action} for action in actions]})
+    assert moved == solved("bayes-predict", belief=belief, motion=motion, actions=actions)
+    read = solved("bayes-filter", **RUN | {"run": [{"measurement": reading} for reading in readings]})
+    assert read == solved("bayes-rule", prior=belief, likelihood=likelihood, measurements=readings)
 
 
 MOTION = {"push": {"open": {"open": 1}, "closed": {"open": "4/5", "closed": "1/5"}}}
@@ -117,28 +149,25 @@ def test_a_flat_prior_makes_the_most_probable_parameter_the_most_likely(heads: i
     assert answers["a"] == answers["b"] == fmpq(heads, heads + tails)
 
 
-@given(seeds)
+@given(st.lists(st.integers(-9, 9), min_size=2, max_size=6))
 @quick
-def test_a_wide_prior_says_nothing_and_a_narrow_one_everything(seed: int) -> None:
-    sample = draw("model-fitting", 2, seed).problem.data()["given"]["sample"]
+def test_a_wide_prior_says_nothing_and_a_narrow_one_everything(values: list[int]) -> None:
     wide, narrow = ({"mean": 7, "variance": width, "noise": 1} for width in ("1e30", "1e-30"))
-    answers = solved("model-fitting", sample=sample | {"prior": wide})
+    answers = solved("model-fitting", sample={"values": values, "prior": wide})
     assert abs(answers["d"] - answers["a"]) < fmpq(1, 10**20)
-    assert abs(solved("model-fitting", sample=sample | {"prior": narrow})["d"] - 7) < fmpq(1, 10**20)
-    size = len(sample["values"])
-    assert answers["b"] * size == answers["c"] * (size - 1)
+    assert abs(solved("model-fitting", sample={"values": values, "prior": narrow})["d"] - 7) < fmpq(1, 10**20)
+    assert answers["b"] * len(values) == answers["c"] * (len(values) - 1)
 
 
-@given(seeds)
+@given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=3, max_size=6, unique_by=lambda p: p[0]))
 @quick
-def test_the_residuals_of_a_least_squares_line_are_orthogonal_to_it(seed: int) -> None:
-    solution = draw("model-fitting", 3, seed)
-    slope, intercept = solution.answers["a"]
-    points = [(fmpq(int(x)), fmpq(int(y))) for x, y in solution.problem.given.line.points]
+def test_the_residuals_of_a_least_squares_line_are_orthogonal_to_it(points: list[tuple[int, int]]) -> None:
+    answers = solved("model-fitting", line={"points": points, "prior": {"variance": 1, "noise": 1}})
+    slope, intercept = answers["a"]
     residuals = [y - slope * x - intercept for x, y in points]
     assert sum(residuals) == 0
     assert sum(residual * x for residual, (x, _) in zip(residuals, points, strict=True)) == 0
-    assert abs(solution.answers["b"][0]) < abs(slope)  # the prior draws it towards 0
+    assert abs(answers["b"][0]) <= abs(slope)  # the prior draws it towards 0
 
 
 @given(st.integers(1, 4), st.integers(1, 4), counts)
@@ -157,10 +186,13 @@ def test_evidences_of_all_sequences_sum_to_one(a: int, b: int, tosses: int) -> N
 @quick
 def test_odds_and_posteriors_are_those_of_the_joint(seed: int, level: int) -> None:
     solution = draw("model-comparison", level, seed)
+    if solution.problem.given.odds is not None:
+        return
     prior = {name: fmpq(p.numerator, p.denominator) for name, p in solution.problem.given.prior.items()}
     joint = {name: evidence * prior[name] for name, evidence in solution.answers["a"].items()}
-    if level == 2:
-        assert solution.answers["b"] == joint["bent"] / joint["worn"]
+    if len(joint) == 2:
+        first, second = joint.values()
+        assert solution.answers["b"] == first / second
     else:
         assert solution.answers["b"] == {name: value / sum(joint.values()) for name, value in joint.items()}
 
@@ -304,7 +336,7 @@ def test_models_that_do_not_fit_are_one_sentence(changed: dict[str, Any], fragme
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize(("level", "seed"), [(level, seed) for level in (1, 2, 3) for seed in range(8)])
+@pytest.mark.parametrize(("level", "seed"), [(level, seed) for level in (1, 2) for seed in range(8)])
 def test_a_measurement_tells_something(level: int, seed: int) -> None:
     exercise = rldrill.draw("bayes-rule", level, seed)
     prior = {name: fmpq(p.numerator, p.denominator) for name, p in exercise.problem.given.prior.items()}  # type: ignore[attr-defined]

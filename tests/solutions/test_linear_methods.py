@@ -1,17 +1,19 @@
 """Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
 
-import json
+from fractions import Fraction
+from json import dumps, loads
 from typing import Any
 
 import numpy as np
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rldrill
 from asking import solved
+from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
 from rldrill.problems.robots import robots
@@ -19,6 +21,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.linear_methods.ddp_backward import _is_negative
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -69,13 +72,38 @@ def test_a_system_that_changes_with_time_by_hand() -> None:
 @settings(deadline=None, max_examples=25)
 def test_the_stationary_value_solves_its_equation_and_is_stable(seed: int, level: int) -> None:
     solution = draw("lqr-infinite", level, seed)
+    given_ = solution.problem.data()["given"]
+    if "closed_loop" in given_:  # the price that was found, put in its place
+        loop, found = given_.pop("closed_loop"), solution.answers
+        filled = loads(dumps(given_).replace('"rho"', f'"{found["c"]}"'))
+        answers = solved("lqr-infinite", **filled)
+        assert [answers[label][0, 0] for label in "abc"] == [found["b"], found["a"], fmpq(*map(int, loop.split("/")))]
+        return
     A, B, Q = (matrices.given(getattr(solution.problem.given, name)) for name in "ABQ")
+    gamma = fmpq(*Fraction(given_.get("gamma", 1)).as_integer_ratio())
+    N = matrices.given(solution.problem.given.N) if "N" in given_ else B * 0
     P, L, closed = (solution.answers[label] for label in "abc")
-    right = -Q + A.transpose() * P * A - A.transpose() * P * B * L
+    right = -Q + A.transpose() * P * A * gamma - (A.transpose() * P * B * gamma - N) * L
     assert all(sympy.simplify(entry) == 0 for entry in entries(right - P))
     assert all(sign(P[i, i]) < 0 for i in range(P.nrows()))
     modes = np.linalg.eigvals(np.array(entries(closed), dtype=float).reshape(closed.nrows(), -1))
-    assert max(abs(modes)) < 1
+    assert float(gamma) ** 0.5 * max(abs(modes)) < 1
+
+
+def test_the_price_of_a_closed_loop_by_hand() -> None:
+    # 2 − 2L = 1/3 gives L = 5/6; 4P/(4P − 1) = 5/6 gives P = −5/4; −q + 4P − 4P·5/6 = −q − 5/6 = −5/4 gives q = 5/12.
+    system: dict[str, Any] = {"A": 2, "B": 2, "closed_loop": "1/3"}
+    assert list(solved("lqr-infinite", **system, Q="rho", R=1).values()) == [fmpq(5, 6), fmpq(-5, 4), fmpq(5, 12)]
+    assert list(solved("lqr-infinite", **system, Q=5, R="rho").values()) == [fmpq(5, 6), -15, 12]
+
+
+def test_the_price_of_an_action_by_hand() -> None:
+    # P = diag(−3, −2), B = (1, 1): L = (3, 2)/(5 + ρ), so a = −(3 + 4)/(5 + ρ) = −1 for ρ = 2.
+    answers = solved(
+        "lqr-gain", A=[[1, 0], [0, 1]], B=[[1], [1]], R="rho", P=[[-3, 0], [0, -2]], start=[1, 2], action=-1
+    )
+    assert answers["a"] == 2
+    assert entries(answers["b"]) == [fmpq(3, 7), fmpq(2, 7)]
 
 
 def test_a_long_horizon_comes_to_the_infinite_one() -> None:
@@ -124,9 +152,11 @@ def test_linear_dynamics_are_their_own_linearisation() -> None:
 @given(seeds)
 @settings(deadline=None, max_examples=15)
 def test_the_affine_model_is_right_at_the_operating_point(seed: int) -> None:
-    solution = draw("linearise-affine", 2, seed)
-    given_ = solution.problem.given
-    A, B = solution.answers["b"], solution.answers["c"]
+    data = draw("linearise-affine", 2, seed).problem.data()["given"]
+    del data["entries"]
+    given_ = family("linearise-affine").read(data)
+    answers = solved("linearise-affine", **data)
+    A, B = answers["b"], answers["c"]
     state = matrices.column([*(dynamics.angle(given_.state[name]) for name in given_.states), 1])
     action = matrices.column(dynamics.angle(value) for value in given_.action.values())
     after = A * state + B * action
@@ -262,7 +292,7 @@ def test_letters_of_a_system_may_be_those_of_formulas() -> None:
     answers = solved("linearise", **circuit)
     assert entries(answers["a"]) == [-3, fmpq(-3, 2), 1, 0]
     assert entries(answers["b"]) == [fmpq(1, 2), 0]
-    written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[1])
+    written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[2])
     assert written.startswith("∂f₁/∂i = −R/L = ")
     plan = {"dynamics": {"g": "g + i*u^2"}, "constants": {"i": 1}, "state": {"g": 1}, "action": {"u": 1},
             "reward": "-(g^2 + 2*u^2)", "gradient": [-1], "hessian": [[-2]], "second_order": True}  # fmt: skip
@@ -280,7 +310,7 @@ def test_every_robot_reads_and_names_its_source() -> None:
 
 def test_angles_survive_being_written() -> None:
     problem = rldrill.draw("linearise", 2, 3).problem
-    assert problem.family.read(json.loads(json.dumps(problem.data()["given"]))) == problem.given
+    assert problem.family.read(loads(dumps(problem.data()["given"]))) == problem.given
 
 
 def test_dynamics_may_be_written_as_in_a_book() -> None:
@@ -344,3 +374,28 @@ def test_a_long_horizon_says_how_many_times_are_asked_for() -> None:
     assert "Only the first" not in str(
         rldrill.read({"family": "lqr-backward", "given": given_ | {"horizon": 12}}).question()
     )
+
+
+def test_entries_and_a_deviation_by_hand() -> None:
+    # x' = x y + u: by x it is y = 3, by y it is x = 2, by u 1; y' = u². A δs + B δa = (3·1 + 2·2 + 1·(1/2), 2·4·(1/2)).
+    system = {"dynamics": {"x": "x*y + u", "y": "u^2"}, "state": {"x": 2, "y": 3}, "action": {"u": 4}}
+    answers = solved("linearise", **system, entries={"A": [[1, 2], [1, 1]], "B": [[2, 1]]}, deviation=[1, 2, "1/2"])
+    assert answers == {"a": (2, 3), "b": 8, "c": (fmpq(15, 2), 4)}
+    with pytest.raises(FileError, match="B has 2 rows and 1 columns"):
+        solved("linearise", **system, entries={"B": [[1, 2]]})
+
+
+@given(st.lists(st.integers(-6, 2), min_size=6, max_size=6), st.integers(1, 3))
+def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(six: list[int], size: int) -> None:
+    a, b, c, d, e, f = six
+    full = np.array([[a, b, c], [b, d, e], [c, e, f]])[:size, :size]
+    eigenvalues = np.linalg.eigvalsh(full)
+    assume(min(abs(eigenvalues)) > 1e-9)
+    assert _is_negative(matrices.matrix([[fmpq(int(entry)) for entry in line] for line in full])) == bool(
+        max(eigenvalues) < 0
+    )
+
+
+def test_a_matrix_with_an_eigenvalue_of_zero_is_not_negative_definite() -> None:
+    for rows in ([[0]], [[-1, 0], [0, 0]], [[0, 0], [0, -1]], [[-1, 1], [1, -1]]):
+        assert not _is_negative(matrices.matrix([[fmpq(entry) for entry in line] for line in rows]))

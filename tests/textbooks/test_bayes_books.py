@@ -370,3 +370,31 @@ def test_values_of_a_coin_that_do_not_fit(model: Any, message: str) -> None:
     with pytest.raises(FileError, match=message):
         solved("model-comparison", models={"any": {}, "some": model}, prior={"any": "1/2", "some": "1/2"},
                heads=2, tails=1)  # fmt: skip
+
+
+def test_the_prior_that_makes_two_models_equally_probable_by_hand() -> None:
+    # Two heads: 1/3 under a uniform prior, 1/4 of a fair coin; q/3 = (1 − q)/4 for q = 3/7, and twice that for 3/5.
+    models: dict[str, Any] = {"any": {}, "fair": {"theta": "1/2"}}
+    case = {"models": models, "prior": {"any": "q", "fair": "1-q"}, "heads": 2, "tails": 0}
+    assert solved("model-comparison", **case, odds=1)["b"] == fmpq(3, 7)
+    assert solved("model-comparison", **case, odds=2)["b"] == fmpq(3, 5)
+    with pytest.raises(FileError, match="odds: they go with two models"):
+        solved("model-comparison", **case)
+
+
+def test_the_variance_of_a_prior_that_is_found_by_hand() -> None:
+    # Mean 8 of three; (2·6 + 24w)/(2 + 3w) = 13/2 gives 24 + 48w = 26 + 39w, so w = 2/9.
+    prior = {"mean": 6, "variance": "w", "noise": 2, "estimate": "13/2"}
+    assert solved("model-fitting", sample={"values": [7, 9, 8], "prior": prior}) == {"a": 8, "b": fmpq(2, 9)}
+    # Deviations −1, 0, 1 of x and −1, 1, 0 of y: S_xy = 1, S_xx = 2; 1/(2 + 3/w) = 1/5 for w = 1.
+    line = {"points": [[0, 1], [1, 3], [2, 2]], "prior": {"variance": "w", "noise": 3, "estimate": "1/5"}}
+    assert solved("model-fitting", line=line) == {"a": (fmpq(1, 2), fmpq(3, 2)), "b": 1}
+
+
+def test_the_number_of_data_at_which_two_models_are_alike_by_hand() -> None:
+    # Three parameters more for a fit that is 27 times as likely: 2 ln 27 = 3 ln n, so n = 9; with fewer data they pay.
+    fitted = {"rich": {"likelihood": "1/3", "k": 4}, "simple": {"likelihood": "1/81", "k": 1}}
+    assert solved("bic", fitted=fitted, border="fewer") == {"a": 9, "b": "a"}
+    assert solved("bic", fitted=fitted, border="more") == {"a": 9, "b": "b"}
+    assert solved("bic", fitted=fitted, n=8)["b"] == "a"
+    assert solved("bic", fitted=fitted, n=10)["b"] == "b"

@@ -158,3 +158,14 @@ def test_bases_that_are_no_transforms(base: Any, message: str) -> None:
     link = {"theta": "pi/2", "d": 0, "a": 1, "alpha": 0}
     with pytest.raises(FileError, match=message):
         solved("denavit-hartenberg", links=[link], base=base)
+
+
+def test_a_point_through_a_link_and_back_by_hand() -> None:
+    # θ = π/2, d = 1, a = 2, α = π/2: x′ = (0, 1, 0), y′ = (0, 0, 1), z′ = (1, 0, 0), origin (0, 2, 1). The point
+    # (1, 2, 3) is (0, 2, 1) + 1·(0, 1, 0) + 2·(0, 0, 1) + 3·(1, 0, 0) = (3, 3, 3).
+    link = {"theta": "pi/2", "d": 1, "a": 2, "alpha": "pi/2"}
+    assert solved("denavit-hartenberg", links=[link], asked="point", point=[1, 2, 3])["a"] == (3, 3, 3)
+    assert solved("denavit-hartenberg", links=[link], asked="back", point=[3, 3, 3])["a"] == (1, 2, 3)
+    pose = solved("denavit-hartenberg", links=[link], asked="pose")
+    assert pose["a"].tolist() == [[0, 0, 1], [1, 0, 0], [0, 1, 0]]
+    assert pose["b"] == (0, 2, 1)
