@@ -211,7 +211,7 @@ def test_wrong_givens_are_told_in_one_sentence(family: str, given_: dict[str, An
 
 
 def test_an_action_that_a_policy_leaves_out_is_not_taken() -> None:
-    # From a to b with the reward 1: b is worth 1/4·8 + 3/4·4 = 5 there, since z is never taken; 0 + 1/2·(1 + 5 − 0) = 3.
+    # From a to b, reward 1: b is worth 1/4·8 + 3/4·4 = 5 there, since z is never taken; 0 + 1/2·(1 + 5 − 0) = 3.
     given = {
         "trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
         "values": {"a": {"x": 0}, "b": {"x": 8, "y": 4, "z": 100}},
