@@ -33,7 +33,11 @@ class Given(Givens):
     terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount
     story: str = Field(
-        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+        default="",
+        max_length=200,
+        pattern=r"^[^$\\]*$",
+        description="A sentence that is printed first.",
+        examples=["A robot cleans a corridor."],
     )
 
     matched: Exact | None = Field(
