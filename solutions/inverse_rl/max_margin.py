@@ -58,8 +58,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     least = work.answer(least)
     enough = largest(tuple(least.values()))
     work.say(
-        f"The expert gains more from the weight than every other policy, so each constraint holds from its own "
-        f"${letter}$ on, and all of them from the greatest on."
+        "The expert has more of this feature than every other policy, so each constraint holds from its own "
+        f"${letter}$ on, and all of them from the greatest on: ${letter} ≥ {enough}$.".replace("-", "−")
     )
     work.answer(enough)
 
