@@ -31,7 +31,9 @@ class Given(Givens):
     )
     gamma: Discount
     estimate: Exact | None = Field(
-        default=None, description="The estimate for the first feature, from which gamma follows, which is left open."
+        default=None,
+        description="The estimate for the first feature, from which gamma follows, which is left open.",
+        examples=["5/4"],
     )
 
     @model_validator(mode="after")
