@@ -20,6 +20,8 @@ from rldrill.solutions.solution import Solution
 
 #: The time that there is at a prompt, in seconds.
 AT_THE_PROMPT = 0.15
+#: What is close to the key is wrong where this much speaks for it.
+_SURE = 0.6
 #: A decimal of more places than this is no rounded one.
 _PLACES = 8
 
@@ -124,7 +126,9 @@ class Diagnosing:
         if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
             return verdict
         diagnosis = self.diagnose(label, text, verdict)
-        return replace(verdict, outcome=Outcome.WRONG, says=diagnosis.sentence) if diagnosis.explains else verdict
+        if diagnosis.confidence < _SURE:
+            return verdict
+        return replace(verdict, outcome=Outcome.WRONG, says=diagnosis.sentence)
 
     def _rounded(self, label: str, text: str) -> bool:
         """Whether the wrong numbers are right ones with fewer digits than are asked for."""

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from printed import poppler, words
 from rldrill import load, read
 from rldrill.commands import worksheet as worksheet_command
-from rldrill.exam.exam import Exam, Version
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exam.manifest import manifest
 from rldrill.exam.planning import plan, version_code
 from rldrill.print.exam_files import write
@@ -59,6 +59,13 @@ def test_versions_share_families_and_levels_but_no_problem(exam: Exam) -> None:
 def test_a_version_repeats_no_problem() -> None:
     version = plan(["return"], 40, 1, 3, 1).versions[0]
     assert len({json.dumps(item.problem.data()) for item in version.exercises}) == 40
+
+
+def test_versions_earn_the_same_place_by_place() -> None:
+    versions = plan(["control", "bellman"], 5, 2, 8, 3).versions
+    earned = [[points_of(exercise) for exercise in version.exercises] for version in versions]
+    assert earned[0] == earned[1] == earned[2]
+    assert len({exercise.id for version in versions for exercise in version.exercises}) == 15
 
 
 def test_versions_are_lettered() -> None:
@@ -283,8 +290,8 @@ def test_a_part_has_room_for_each_line_of_its_working_and_a_problem_at_most_nine
 
     one_line = read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})  # R₁ = 4
     first, second = _spaces(one_line)
-    assert first == pytest.approx(1.2 + 0.6)
-    assert second == pytest.approx(1.2 + 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
+    assert first == pytest.approx(1.2 + 2 * 0.6)  # the formula, then its numbers
+    assert second == pytest.approx(1.2 + 2 * 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
     many = draw("value-iteration", 3, 0)
     assert sum(_spaces(many)) == pytest.approx(9)
 

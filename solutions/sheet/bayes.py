@@ -125,7 +125,8 @@ def _on_a_line(given: Any) -> bool:
 
 
 def _is_noisy(given: Any) -> bool:
-    return any(any(line) for line in given.process)
+    """Whether the motion has a noise, and no noise is to be found."""
+    return given.variance is None and any(any(line) for line in given.process)
 
 
 def _may_stay(given: Any) -> bool:
@@ -368,7 +369,7 @@ with evaluate(False):
         title="Least squares: products of the deviations",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x and y is from its mean, multiply and add.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     SQUARES = Formula(
         "line-squares",
@@ -377,7 +378,7 @@ with evaluate(False):
         title="Least squares: squares of the deviations",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x is from its mean, square and add.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     LINE_SLOPE = Formula(
         "line-slope",

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
-from sympy import Add, Expr, cos, evaluate, sin
+from sympy import Add, Expr, Pow, cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, number, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -100,6 +100,15 @@ with evaluate(False):
         hint="Each joint contributes its column of J times its angular velocity.",
         place=Place.BEYOND,
     )
+    JOINT_RATES = Formula(
+        "jacobian-inverse",
+        rates,
+        Pow(Jacobian, -1) * velocity,
+        title="Velocities of the joints for a velocity of the end",
+        source="Siciliano et al. 2009, section 3.5",
+        hint="Solve v = J ω for ω; two equations, or the inverse of J.",
+        place=Place.BEYOND,
+    )
     SINGULAR = Formula(
         "jacobian-determinant",
         determinant,
@@ -188,7 +197,7 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7",
         hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
         note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     NOT_INVERTED = Misconception(
         "not-inverted",
@@ -201,7 +210,7 @@ with evaluate(False):
         title="A point in the next frame",
         source="Siciliano et al. 2009, section 2.7",
         hint="Take the origin off, then undo the rotation: its inverse is its transpose.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
         misread={
             NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),
         },

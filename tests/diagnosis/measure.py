@@ -165,7 +165,7 @@ def main() -> None:
                     cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
                     return Typed(part, cells, kind.cells(solution.answers[label]))
 
-                begun = time.perf_counter()
+                begun = time.process_time()
                 errors = erroneous(solution, seed)
                 if sample:
                     errors = random.Random(seed).sample(errors, min(sample, len(errors)))
@@ -176,9 +176,9 @@ def main() -> None:
                         continue
                     if not t.wrong:
                         continue
-                    begun = time.perf_counter()
+                    begun = time.process_time()
                     result = explained(search, t, Clock(budget))
-                    spent = (time.perf_counter() - begun) * 1000
+                    spent = (time.process_time() - begun) * 1000
                     times[family.name].append(spent)
                     verdict = (
                         "none"
@@ -194,7 +194,7 @@ def main() -> None:
                             family.name,
                             verdict,
                             error.kind,
-                            f"{result.chance:.4g}",
+                            f"{result.chance:.4g} 0",
                             [(c.kind, round(c.weight, 3), c.kind in ok) for c in result.every],
                         )
                     total[verdict] += 1
@@ -240,7 +240,7 @@ def main() -> None:
                                 family.name,
                                 "RANDOM",
                                 "-",
-                                f"{result.chance:.4g}",
+                                f"{result.chance:.4g} 0",
                                 [(c.kind, round(c.weight, 3), False) for c in result.every],
                             )
                         if result.causes and len(result.causes) <= 2:
