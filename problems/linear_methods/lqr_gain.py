@@ -13,8 +13,8 @@ from rldrill.problems.linear_quadratic import Conventional, quadratic, single_ga
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatrixField,
+    NumberRows,
     OpenMatrixField,
-    Rows,
     check_shape,
     check_symmetric,
     is_positive,
@@ -80,11 +80,12 @@ class Given(Conventional):
         if self.left_open:
             return self
         check_symmetric("R", self.R)
+        prices = [[entry for entry in line if isinstance(entry, Fraction)] for line in self.R]
         inputs = tuple(zip(*self.B, strict=True))
         factor = self.gamma if self.notation.costs else -self.gamma
         curved = tuple(
             tuple(
-                self.R[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
+                prices[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
                 for j, then in enumerate(inputs)
             )
             for i, first in enumerate(inputs)
@@ -123,7 +124,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 _OPEN = Parameter("rho")
 #: Systems and inputs in which every entry of the value's matrix counts.
-_SYSTEMS: tuple[Rows, ...] = tuple(
+_SYSTEMS: tuple[NumberRows, ...] = tuple(
     tuple(tuple(map(Fraction, line)) for line in rows)
     for rows in (
         ((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)), ((0, 1), (-1, 2)),
