@@ -93,7 +93,7 @@ def _known(whole: Schema, schema: Schema, place: Sequence[int | str]) -> list[st
 def _told(fault: Mapping[str, Any]) -> str:
     kind, given, told = fault["type"], fault["input"], fault.get("ctx", {})
     if kind in ("too_short", "too_long") and not isinstance(given, str):
-        return _counted(kind, told)
+        return _counted(kind, len(given), told)
     if kind in ("too_short", "too_long"):
         kind = kind.replace("too", "string_too")
     if kind == "string_pattern_mismatch":
@@ -108,9 +108,9 @@ def _told(fault: Mapping[str, Any]) -> str:
     return says.format(**about, given=_shown(given), listed=listed, length=length)
 
 
-def _counted(kind: str, told: Mapping[str, Any]) -> str:
+def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:
     """What to say of a list or table that has too few or too many entries."""
-    count, bound = told["actual_length"], told["min_length" if kind == "too_short" else "max_length"]
+    bound = told["min_length" if kind == "too_short" else "max_length"]
     has = "is empty" if count == 0 else f"has {count} {_entries(count)}"
     if kind == "too_short":
         return f"{has}; it needs at least {bound} {_entries(bound)}"

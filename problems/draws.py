@@ -2,7 +2,7 @@
 
 import hashlib
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import TypeVar
@@ -36,6 +36,11 @@ class Draws:
         while True:
             if number := self.whole(low, high):
                 return number
+
+    def fitting(self, low: int, high: int, fits: Callable[[Fraction], bool]) -> Fraction:
+        """A whole number from ``low`` to ``high`` that is not 0 and fits; where none does, any of them."""
+        numbers = [Fraction(number) for number in range(low, high + 1) if number]
+        return self.choice([number for number in numbers if fits(number)] or numbers)
 
     def choice(self, items: Sequence[Item]) -> Item:
         """One of the items."""

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import to_jsonable_python
 
+from rldrill.problems.angles import Angle
 from rldrill.problems.complaints import sentence
 from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
@@ -159,7 +160,7 @@ class _SchemaWriter(GenerateJsonSchema):
 
     def encode_default(self, dft: Any) -> Any:
         """A default as files have it."""
-        return to_jsonable_python(dft, fallback=str)
+        return str(dft) if isinstance(dft, Angle) else to_jsonable_python(dft, fallback=str)
 
     def named_tuple_schema(self, schema: Any) -> dict[str, Any]:
         """The entries of a row, each with its name."""

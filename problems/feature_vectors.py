@@ -1,6 +1,6 @@
 """Features of states: what inverse reinforcement learning is given instead of rewards."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 
 from rldrill.problems.draws import Draws
@@ -22,7 +22,7 @@ def check_features(features: Mapping[str, tuple[Fraction, ...]], states: Iterabl
     check_lengths(features, "features")
 
 
-def check_lengths(vectors: Mapping[str, tuple[Fraction, ...]], what: str) -> None:
+def check_lengths(vectors: Mapping[str, Sequence[object]], what: str) -> None:
     """Demand vectors of one length, with one component at least.
 
     Raises:
@@ -35,8 +35,15 @@ def check_lengths(vectors: Mapping[str, tuple[Fraction, ...]], what: str) -> Non
 
 
 def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) -> dict[str, tuple[Fraction, ...]]:
-    """Whole numbers from 0 on; every feature tells some states apart, and no two features are the same."""
+    """Whole numbers from 0 on; no state's features are a multiple of another's, and no feature is one of another."""
     while True:
         columns = [tuple(rng.whole(0, most) for _ in states) for _ in range(count)]
-        if len(set(columns)) == count and all(len(set(column)) > 1 for column in columns):
-            return dict(zip(states, zip(*columns, strict=True), strict=True))
+        rows = list(zip(*columns, strict=True))
+        if all(len(set(column)) > 1 for column in columns) and _apart(rows) and _apart(columns):
+            return dict(zip(states, rows, strict=True))
+
+
+def _apart(vectors: Sequence[tuple[Fraction, ...]]) -> bool:
+    """Whether none is a multiple of another, and none 0."""
+    shapes = [tuple(value / sum(vector) for value in vector) for vector in vectors if any(vector)]
+    return len(set(shapes)) == len(vectors)

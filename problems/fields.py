@@ -65,10 +65,14 @@ class _Reader:
         """The fields of a table, or of each of its forms, with the values that problems have there."""
         forms = self._forms(schema)
         for form in forms:
-            known, needed = form["properties"], form.get("required", ())
-            fitting = [given for given in drawn if isinstance(given, dict) and set(given) <= set(known)]
+            known = form["properties"]
+            needed = [*form.get("required", ()), *form.get("else", {}).get("required", ())]
+            alike = [given for given in drawn if isinstance(given, dict) and set(given) <= set(known)]
+            whole = [given for given in alike if self._has_shape(form, given)]
             values = {
-                name: tuple(given[name] for given in fitting if name in given and self._fits(inner, given[name]))
+                name: tuple(given[name] for given in whole if name in given)
+                or tuple(inner.get("examples", ()))
+                or tuple(given[name] for given in alike if name in given and self._fits(inner, given[name]))
                 for name, inner in known.items()
             }
             place = path.rstrip(".") or "given"
@@ -80,7 +84,7 @@ class _Reader:
 
     def _field(self, path: str, schema: Schema, values: tuple[Any, ...], *, needed: bool, form: str) -> FileField:
         default = None if needed else _written(schema.get("default", {}))
-        example = [*values, *schema.get("examples", ()), *self._made(schema), ""][0]
+        example = [*values, *self._made(schema), ""][0]
         return FileField(path, self.words(schema), default, schema.get("description", ""), _written(example), form)
 
     def _within(self, path: str, schema: Schema, values: tuple[Any, ...], of: str) -> Iterator[FileField]:
@@ -116,10 +120,17 @@ class _Reader:
         if isinstance(value, dict):
             known, others = schema.get("properties", {}), schema.get("additionalProperties", True)
             held = [(known.get(name, others), each) for name, each in value.items()]
-            return "object" in kind and all(
-                self._fits(inner, each) if isinstance(inner, dict) else bool(inner) for inner, each in held
+            return (
+                "object" in kind
+                and set(schema.get("required", ())) <= set(value)
+                and all(self._fits(inner, each) if isinstance(inner, dict) else bool(inner) for inner, each in held)
             )
-        return "array" in kind if isinstance(value, list) else kind not in ("array", "object")
+        if not isinstance(value, list):
+            return kind not in ("array", "object")
+        entries = schema.get("prefixItems")
+        if entries is not None:
+            return len(value) == len(entries)
+        return "array" in kind and all("items" not in schema or self._fits(schema["items"], each) for each in value)
 
     def _resolved(self, schema: Schema) -> Schema:
         return self.parts[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema

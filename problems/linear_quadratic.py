@@ -110,8 +110,7 @@ class LinearQuadratic(Discounted):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        n = len(self.start)
-        m = len(self.B[0][0]) if self.B[0] else 0
+        n, m = len(self.start), len(self.B[0][0])
         where = f"with {n} state{'s' * (n != 1)} and {m} action{'s' * (m != 1)} "
         if self.horizon > (most := max(_LONG, _EFFORT // n**2)):
             raise ValueError(f"horizon is {self.horizon}; {where.rstrip()}, {most} is the most")

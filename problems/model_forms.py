@@ -39,8 +39,45 @@ _REWARDS_SCHEMA = {
     "required": ["transitions", "rewards"],
     "additionalProperties": False,
 }
+_ALONE_SCHEMA = {
+    "type": "object",
+    "description": "Transitions of a process without actions.",
+    "properties": {
+        "transitions": {
+            "type": "array",
+            "items": {
+                "type": "array",
+                "title": "a list [state, next, probability, reward]",
+                "prefixItems": [{}, {}, {}, {}],
+                "minItems": 4,
+                "maxItems": 4,
+            },
+            "description": "The transitions; those of a state have probabilities that sum to 1.",
+            "examples": [[["low", "high", "1/2", 1], ["low", "off", "1/2", 0], ["high", "low", 1, 2]]],
+        },
+        "terminal": arrays.SCHEMA["properties"]["terminal"] | {"examples": [["off"]]},
+        "story": arrays.SCHEMA["properties"]["story"],
+    },
+    "required": ["transitions"],
+    "additionalProperties": False,
+}
+_FILE_SCHEMA = {
+    "type": "object",
+    "description": "A file beside the problem file that holds the model; what stands beside it goes before.",
+    "properties": {
+        "file": {
+            "type": "string",
+            "title": "a text",
+            "description": "Its name, seen from the folder of the problem file.",
+            "examples": ["model.csv"],
+        },
+        "terminal": arrays.SCHEMA["properties"]["terminal"],
+        "story": arrays.SCHEMA["properties"]["story"],
+    },
+    "required": ["file"],
+}
 #: The forms but for the list of transitions and the grid, as JSON Schema.
-SCHEMAS = (_REWARDS_SCHEMA, arrays.SCHEMA, gymnasium.TABLE_SCHEMA, gymnasium.SCHEMA)
+SCHEMAS = (_ALONE_SCHEMA, _REWARDS_SCHEMA, arrays.SCHEMA, gymnasium.TABLE_SCHEMA, gymnasium.SCHEMA, _FILE_SCHEMA)
 
 
 def read_form(data: object, note: Note) -> object:

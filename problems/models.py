@@ -19,6 +19,7 @@ from pydantic import (
 from pydantic_core import CoreSchema
 
 from rldrill.problems.document import Beside, Block, Paragraph, Table, joined
+from rldrill.problems.draws import Draws
 from rldrill.problems.exact import (
     Discount,
     Open,
@@ -35,6 +36,7 @@ from rldrill.problems.names import read_name
 from rldrill.problems.phrases import terminal_note
 from rldrill.problems.pictures import Arrow, StateDiagram
 from rldrill.problems.readings import Note, distribution, note_of, told
+from rldrill.problems.recurrence import end_components
 
 Chance = TypeVar("Chance")
 
@@ -321,6 +323,22 @@ def check_chances(chances: Mapping[str, Scalar], state: str, actions: tuple[str,
     check_sum(chances.values(), f"{of}'s probabilities in {state!r}")
 
 
+def never_left(model: Model, policy: Policy) -> list[tuple[str, ...]]:
+    """The sets of states in which a policy goes round for ever: the recurrent classes, terminal states left out."""
+    ahead = {
+        state: [
+            row.next
+            for action, chance in row_of.items()
+            if chance != 0
+            for row in model.outcomes[state, action]
+            if row.probability != 0
+        ]
+        for state, row_of in policy.items()
+    }
+    ways = {state: [(None, to)] for state, to in ahead.items() if not set(to) & set(model.terminal)}
+    return [tuple(component) for component in end_components(ways)]
+
+
 class ModelAndPolicy(Givens):
     """A model, a policy and the discount; without a policy every action is equally probable."""
 
@@ -348,6 +366,11 @@ class Lookahead(Givens):
     dynamics: Dynamics = Field(description="What the actions of the state do.")
     values: dict[Name, Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
+    find: bool = Field(
+        default=False,
+        exclude_if=lambda find: not find,
+        description="Whether the one number that is left open is asked for.",
+    )
 
     @model_validator(mode="after")
     def _values_fit(self) -> Self:
@@ -355,6 +378,8 @@ class Lookahead(Givens):
             raise ValueError("dynamics must hold the actions of one state only")
         reached = tuple(dict.fromkeys(transition.next for transition in self.dynamics.transitions))
         check_keys(self.values, (*reached, self.state), "the value", needed=reached)
+        if self.find and len(self.unknown) != 1:
+            raise ValueError("find: leave exactly one number open, such as p, x or gamma; it is asked for")
         return self
 
     @property
@@ -362,12 +387,49 @@ class Lookahead(Givens):
         """The state in which the actions are taken."""
         return self.dynamics.states[0]
 
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """What is left open, to be found or for good."""
+        return super().parameters()
+
+    def parameters(self) -> tuple[str, ...]:
+        """What answers are expressions in: nothing, where what is left open is asked for."""
+        return () if self.find else self.unknown
+
+
+def draw_letter(
+    rng: Draws, rows: list[Transition], gamma: Fraction, letters: tuple[str, ...]
+) -> tuple[list[Transition], Scalar, str]:
+    """Leave one number of some transitions open, or the discount.
+
+    Args:
+        rng: the draws.
+        rows: the transitions.
+        gamma: the discount.
+        letters: what may be left open: x for a reward, p for a probability (which takes two outcomes) or gamma.
+
+    Returns:
+        The transitions, the discount and the letter.
+    """
+    letter = rng.choice(letters)
+    if letter == "gamma":
+        return rows, Parameter("gamma"), letter
+    place = rng.below(len(rows))
+    if letter == "x":
+        return [row._replace(reward=Parameter("x")) if i == place else row for i, row in enumerate(rows)], gamma, letter
+    forks = [pair for pair, count in Counter(row[:2] for row in rows).items() if count == 2]
+    if not forks:
+        return draw_letter(rng, rows, gamma, ("x",))
+    pair = rng.choice(forks)
+    open_ = iter((Parameter("p"), Parameter("1-p")))
+    return [row._replace(probability=next(open_)) if row[:2] == pair else row for row in rows], gamma, letter
+
 
 def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
     """The policy as a question gives it; nothing where there is nothing to choose."""
     if all(len(actions) == 1 for actions in given.mdp.actions.values()):
         return ()
-    return (Paragraph("The policy is:"), policy_table(given.chances))
+    return (Paragraph("The policy $π$ is:"), policy_table(given.chances))
 
 
 def transitions_table(model: Dynamics) -> Table:
@@ -389,8 +451,8 @@ def model_blocks(model: Model) -> tuple[Block, ...]:
     table = transitions_table(model)
     drawn = model.chooses and len(model.states) <= _DRAWN_STATES and len(model.transitions) <= _DRAWN_TRANSITIONS
     arrows = " (on the arrows: probability, reward)" if drawn else ""
-    process = "decision process" if model.chooses else "reward process"
-    opening = Paragraph(f"{told}This Markov {process} moves and pays like this{arrows}:")
+    process = "MDP" if model.chooses else "Markov reward process"
+    opening = Paragraph(f"{told}The {process} has these transitions{arrows}:")
     return (opening, Beside((table, state_diagram(model))) if drawn else table, *terminal_note(model.terminal))
 
 

@@ -42,6 +42,13 @@ def in_open(given: Givens) -> str:
     return f", as an expression in ${shown(Parameter(left_open[0]))}$" if left_open else ""
 
 
+def unknown(letter: str) -> str:
+    """The sentence that says what is not known and will be asked for."""
+    sign = f"${shown(Parameter(letter))}$"
+    what = {"gamma": f"discount {sign}", "p": f"probability {sign}", "x": f"reward {sign}"}
+    return f"The {what.get(letter, f'number {sign}')} is not known."
+
+
 def check_one_open(given: Givens) -> None:
     """Demand that one parameter is left open at most.
 

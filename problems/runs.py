@@ -1,6 +1,7 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Annotated, NamedTuple, Self
@@ -9,12 +10,13 @@ from pydantic import AfterValidator, Discriminator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Scalar, StepSize, shown
+from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.models import Name, check_ends, check_keys
-from rldrill.problems.parts import Number, Numbers, Part
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.settings import draw_setting
 
 #: Runs of at most so many states are drawn.
@@ -97,10 +99,61 @@ def per_step(gamma: Scalar | tuple[Scalar, ...], steps: int) -> tuple[Scalar, ..
     return gamma
 
 
-def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajectory:
-    """An episode through these states to the terminal one, with small whole rewards that are not 0."""
-    rewards = tuple(rng.nonzero(-4, 8) for _ in states)
-    return Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+def draw_values(rng: Draws, states: Sequence[str], gamma: Fraction) -> dict[str, Fraction]:
+    """Values of states, whole even when they are discounted, and not 0."""
+    unit = gamma.denominator
+    return {state: unit * rng.nonzero(-(4 // unit), 12 // unit) for state in states}
+
+
+def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:
+    """A reward that moves a value towards it and what comes after it: to a multiple of the unit, if there is one."""
+
+    def moved(reward: Fraction) -> Fraction:
+        return old + alpha * (reward + after - old)
+
+    def fits(reward: Fraction) -> bool:
+        return moved(reward) != old and (unit is None or moved(reward) % unit == 0)
+
+    reward = rng.fitting(-6, 9, fits)
+    return reward if fits(reward) else rng.fitting(-6, 9, lambda reward: moved(reward) != old)
+
+
+def draw_rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
+    """Rewards of an episode whose returns are whole, even when they are discounted, and not 0."""
+    rewards: tuple[Fraction, ...] = ()
+    after = Fraction(0)
+    for left in range(count):
+        reward = _reward_before(rng, after, gamma.denominator if left < count - 1 else 1)
+        rewards, after = (reward, *rewards), gamma * (reward + after)
+    return rewards
+
+
+def _reward_before(rng: Draws, after: Fraction, unit: int) -> Fraction:
+    return rng.fitting(-5, 9, lambda reward: reward + after != 0 and (reward + after) % unit == 0)
+
+
+def draw_whole(
+    rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction
+) -> tuple[Trajectory, dict[str, Fraction]]:
+    """A run, and values of its states, with longest n-step returns that are whole and no state's value.
+
+    The run ends in the state ``end``, or is cut off in another one.
+    """
+    terminal = tuple(state for state in states if state == end)
+    values = draw_values(rng, sorted(set(states) - {end}), gamma)
+    V = values | dict.fromkeys(terminal, Fraction(0))
+    rewards: tuple[Fraction, ...] = ()
+    later = gamma * V[states[-1]]  # what the longest return adds to a reward; the one-step return adds γV
+    for state, after in reversed([*pairwise(states)]):
+        reward = _reward_to_whole(rng, later, gamma * V[after], V[state], gamma.denominator)
+        rewards, later = (reward, *rewards), gamma * (reward + later)
+    return Trajectory(states=states, rewards=rewards, terminal=terminal), values
+
+
+def _reward_to_whole(rng: Draws, later: Fraction, soon: Fraction, value: Fraction, unit: int) -> Fraction:
+    return rng.fitting(
+        -6, 9, lambda reward: (reward + later) % unit == 0 and value not in (reward + soon, reward + later)
+    )
 
 
 #: Whether eligibility traces are replacing.
@@ -140,11 +193,14 @@ AskErrors = Annotated[
 ]
 
 
-class ValueRun(Givens):
-    """A run, the state values before it, the step size and the discount."""
+class ValueRun(Reversible):
+    """A run, the state values before it, the step size and the discount.
+
+    Where ``known`` is the value of the first updated state after all updates, what is left open is asked for.
+    """
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    values: dict[Name, Exact] = Field(description="The value of every state before the run.")
+    values: dict[Name, Open] = Field(description="The value of every state before the run.")
     alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
@@ -168,6 +224,11 @@ class ValueRun(Givens):
     def visited(self) -> tuple[str, ...]:
         """The states that are left, in the order of their first visit."""
         return tuple(dict.fromkeys(move.state for move in self.moves))
+
+    @property
+    def updated(self) -> tuple[str, ...]:
+        """The states that are updated; what is known is the value of the first of them."""
+        return self.visited
 
 
 class ValueMoves(Givens):
@@ -421,11 +482,11 @@ def timeline(run: Trajectory) -> Timeline:
 
 
 def seen(run: Trajectory) -> tuple[Block, ...]:
-    """What an agent was seen to do, and where that ends; a long run is a table."""
+    """The trajectory of an agent, and where it ends; a long one is a table."""
     drawn = len(run.states) <= _DRAWN
-    told = "" if drawn else " (a reward stands at the time at which it is received)"
+    told = "" if drawn else " (each reward stands at the time at which it is received)"
     return (
-        Paragraph(f"An agent was seen to do this{told}:"),
+        Paragraph(f"An agent follows this trajectory{told}:"),
         timeline(run) if drawn else trajectory_table(run),
         *terminal_note(run.terminal),
     )
@@ -448,8 +509,8 @@ def cut_off(run: Trajectory) -> tuple[Block, ...]:
     if run.ends:
         return ()
     last = run.states[-1]
-    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal: the longest n-step return"
-    return (Paragraph(f'{told} ends with $V("{last}")$, and has all the weight that the shorter ones leave.'),)
+    told = f"The run is cut off at $t = {len(run.rewards)}$ in {last}, which is not terminal. The longest n-step return"
+    return (Paragraph(f'{told} therefore ends with $V("{last}")$, and gets all the weight that the others leave.'),)
 
 
 def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
@@ -462,7 +523,7 @@ def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
         for move in given.moves
     ]
     return (
-        Paragraph("These transitions were seen, in this order; one need not begin where the one before it ended:"),
+        Paragraph("These transitions are observed in this order; each may begin in any state:"),
         Table(
             header=("$t$", *header, *(("$a_{t+1}$",) if following else ())),
             rows=tuple((f"${time}$", *row[: len(header) + following]) for time, row in enumerate(rows)),
@@ -475,10 +536,24 @@ def run_situation(
     given: ValueRun | ActionRun | ValueMoves | ActionMoves, *values: Table, more: str = ""
 ) -> tuple[Block, ...]:
     """A run, and the values before it; ``more`` is said after the step size and the discount."""
-    before = "the first of them" if isinstance(given, ValueMoves | ActionMoves) else "the run"
-    told = f"Before {before} the values are these. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    before = "the first transition" if isinstance(given, ValueMoves | ActionMoves) else "the first update"
+    told = f"These are the values before {before}. {step_size(given.alpha)} {discount(given.gamma)} {more}"
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
-    return (*happened, Paragraph(told.rstrip()), *values)
+    if isinstance(given, ValueRun):
+        told = unknown(given, f"{told} The value $x$ is left open." if "x" in given.letters else told)
+    return (*happened, Paragraph(told.strip()), *values)
+
+
+def sought_parts(given: ValueRun) -> tuple[Part, ...]:
+    """What is asked where a value after the updates is known: the letter left open, and the other values."""
+    first, *others = given.updated
+    letter = letter_asked(given)
+    told = f'After all updates $V("{first}") = {shown(given.known or 0)}$.'
+    parts = (replace(letter, ask=f"{told} {letter.ask}"),)
+    if not others:
+        return parts
+    asked = f'$V("{others[0]}")$' if len(others) == 1 else "the value of every other updated state"
+    return *parts, Part(f"What is {asked} after all updates?", Values("V", tuple(others)))
 
 
 def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part:
@@ -496,14 +571,14 @@ def after(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> str:
 
 
 def values_asked(given: ValueRun | ValueMoves) -> str:
-    """What a question asks for where every visited state changes."""
+    """What a question asks for: every value that is updated."""
     visited = given.visited
-    return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every visited state"
+    return f'$V("{visited[0]}")$' if len(visited) == 1 else "the value of every updated state"
 
 
 def run_blocks(given: ValueRun | ActionRun | ValueMoves | ActionMoves, values: Table, method: str) -> tuple[Block, ...]:
     """The situation of a question about updates along a run: the run, the values before it, and the method."""
     return (
         *run_situation(given, values),
-        Paragraph(f"{method} updates after every transition, with the values that are current then."),
+        Paragraph(f"{method} makes one update after every transition, with the values that are current at that time."),
     )

@@ -12,12 +12,26 @@ from rldrill.problems.models import Model, Transition
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """A world: what it is about, its states, the one in which it ends, and the actions."""
+    """A world: what it is about, its states, the one in which it ends, and the actions.
+
+    ``moves`` holds for each action how many states further it can lead, below 0 how many back, the most usual first.
+    """
 
     story: str
     states: tuple[str, ...]
     terminal: str
     actions: tuple[str, ...]
+    moves: tuple[tuple[int, ...], ...]
+
+    def reached(self, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
+        """Where an action can lead from a state, the most usual first; it goes no further than to the outer places.
+
+        An action that the world does not have stands for all of them.
+        """
+        here = places.index(state)
+        chosen = [self.moves[self.actions.index(action)]] if action in self.actions else self.moves
+        steps = [step for moves in chosen for step in moves]
+        return tuple(dict.fromkeys(places[min(max(here + step, 0), len(places) - 1)] for step in steps))
 
 
 @cache
@@ -26,7 +40,14 @@ def settings() -> tuple[Setting, ...]:
     with (Path(__file__).parent / "worlds.toml").open("rb") as file:
         worlds = tomllib.load(file)["world"]
     return tuple(
-        Setting(world["story"], tuple(world["states"]), world["terminal"], tuple(world["actions"])) for world in worlds
+        Setting(
+            world["story"],
+            tuple(world["states"]),
+            world["terminal"],
+            tuple(world["actions"]),
+            tuple(map(tuple, world["moves"])),
+        )
+        for world in worlds
     )
 
 
@@ -57,25 +78,49 @@ class Shape:
 
 def draw_outcomes(rng: Draws, state: str, action: str, targets: tuple[str, ...], shape: Shape) -> list[Transition]:
     """The transitions of one action: to all the targets, with random probabilities and rewards."""
-    chances = (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
+    chances = draw_chances(rng, targets, shape)
     return [
         Transition(state, action, target, chance, rng.whole(-(shape.reward // 2), shape.reward))
         for target, chance in zip(targets, chances, strict=True)
     ]
 
 
+def draw_chances(rng: Draws, targets: tuple[str, ...], shape: Shape) -> tuple[Fraction, ...]:
+    """Random probabilities of all the targets."""
+    return (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
+
+
+def draw_targets(
+    rng: Draws,
+    setting: Setting,
+    places: tuple[str, ...],
+    pair: tuple[str, str],
+    shape: Shape,
+    barred: str | None = None,
+) -> tuple[str, ...]:
+    """Where an action leads, as it fits the world, but not to a place that is barred, if it can be helped.
+
+    A world's first action can lead on from every state.
+    """
+    state, action = pair
+    possible = setting.reached(places, state, action)
+    possible = tuple(place for place in possible if place != barred) or possible
+    chosen = rng.sample(possible, 1 + rng.below(min(shape.branches, len(possible))))
+    if action not in setting.actions[1:] and possible[0] not in chosen:
+        chosen = (possible[0], *chosen[1:])
+    return tuple(place for place in places if place in chosen)
+
+
 def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
-    """A random model of a world: first actions can lead on, and so to the end; second ones can lead back."""
+    """A random model of a world: first actions can lead on, and so to the end; second ones lead back."""
     states = setting.states[: shape.states]
     ends = (setting.terminal,) if shape.ends else ()
-    everything = (*states, *ends)
+    places = (*states, *ends)
     rows = []
-    for index, state in enumerate(states):
-        onward = everything[index + 1] if index + 1 < len(everything) else states[0]
-        wanted = (onward, states[0])
-        for number, action in enumerate(setting.actions[: shape.actions]):
-            targets = rng.sample(everything, 1 + rng.below(min(shape.branches, len(everything))))
-            if number < len(wanted) and wanted[number] not in targets:
-                targets = tuple(target for target in everything if target in (wanted[number], *targets[1:]))
+    for state in states:
+        for action in setting.actions[: shape.actions]:
+            targets = draw_targets(rng, setting, places, (state, action), shape)
+            if not ends and state == states[-1] and targets == (state,):  # nobody stays there for ever
+                targets = (states[0],)
             rows += draw_outcomes(rng, state, action, targets, shape)
     return Model(story=setting.story, transitions=tuple(rows), terminal=ends)

@@ -1,18 +1,21 @@
 """Models with values that fit them: drawn from whole values, and checked where somebody brings both."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
+from itertools import chain
+from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.models import Dynamics, Model, Policy, Transition, policy_table, values_table
+from rldrill.problems.exact import Scalar, dot
+from rldrill.problems.models import Dynamics, Model, Policy, Transition, never_left, policy_table, values_table
 from rldrill.problems.parts import Part, Values
-from rldrill.problems.settings import Setting, Shape
+from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
 
 #: Discounts, and the number whose multiples are still whole when they are discounted.
 UNITS = {Fraction(1, 2): 2, Fraction(2, 3): 3, Fraction(4, 5): 5, Fraction(9, 10): 10}
-_ATTEMPTS = 40
+_ATTEMPTS = 20
 _LARGEST_REWARD = 12
 #: Books print optimal values to two or three digits.
 _ROUNDING = Fraction(1, 100)
@@ -26,7 +29,23 @@ class Valued(NamedTuple):
     values: dict[str, Fraction]
 
 
-def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, others: tuple[int, int]) -> Valued:
+class Mixed(NamedTuple):
+    """A model, the probabilities with which a policy chooses in it, and the policy's values."""
+
+    mdp: Model
+    policy: dict[str, dict[str, Scalar]]
+    values: dict[str, Fraction]
+
+
+def draw_valued(
+    rng: Draws,
+    setting: Setting,
+    shape: Shape,
+    gamma: Fraction,
+    others: tuple[int, int],
+    *,
+    forked: Literal["all", "own", "others"] = "all",
+) -> Valued:
     """Draw a model in which a policy has whole values.
 
     The values come first; the rewards follow from them, and so are whole, too.
@@ -37,59 +56,126 @@ def draw_valued(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, oth
         shape: how large the model is; its ``reward`` is not used.
         gamma: one of ``UNITS``.
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
+        forked: which actions may have several outcomes: all, the policy's own, or only the others.
     """
-    states = setting.states[: shape.states]
-    times = rng.shuffled([number for number in range(-1, max(16 // UNITS[gamma], len(states)) + 2) if number])
-    values = {state: Fraction(UNITS[gamma] * number) for state, number in zip(states, times, strict=False)}
+    values = draw_values(rng, setting.states[: shape.states], gamma)
     surplus = [number for number in range(others[0], others[1] + 1) if number]
-    ahead = values | {setting.terminal: Fraction(0)}
-    actions = setting.actions[: shape.actions]
-    policy, rows = {}, []
-    for state in states:
-        policy[state] = rng.choice(actions)
+    policy, worths = {}, {}
+    for state, value in values.items():
+        policy[state] = rng.choice(setting.actions[: shape.actions])
         better = iter(rng.shuffled(surplus))
-        targets = rng.shuffled(tuple(ahead))  # each action leads somewhere else, as far as there are enough states
-        for index, action in enumerate(actions):
-            worth = values[state] + (0 if action == policy[state] else next(better))
-            towards = targets[index % len(targets)]
-            rows += _draw_worth(rng, (state, action), worth, towards, ahead, gamma, shape)
-    return Valued(Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,)), policy, values)
+        for action in setting.actions[: shape.actions]:
+            worths[state, action] = value + (0 if action == policy[state] else next(better))
+    own = [(policy[state] == action) for state, action in worths]
+    sure = [pair for pair, mine in zip(worths, own, strict=True) if forked == ("others" if mine else "own")]
+    return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values)
 
 
-def _draw_worth(
+def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, denominators: tuple[int, ...]) -> Mixed:
+    """Draw a model in which a policy that mixes its actions has whole values.
+
+    Args:
+        rng: the draws.
+        setting: the world.
+        shape: how large the model is; its ``reward`` is not used.
+        gamma: one of ``UNITS``.
+        denominators: of the policy's probabilities; each action has one above 0.
+    """
+    values = draw_values(rng, setting.states[: shape.states], gamma)
+    policy: dict[str, dict[str, Scalar]] = {}
+    worths = {}
+    for state, value in values.items():
+        actions = setting.actions[: shape.actions]
+        chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
+        policy[state] = dict(zip(actions, chances, strict=True))
+        for action, number in zip(actions, averaging(rng, chances, value) or [value] * len(actions), strict=True):
+            worths[state, action] = number
+    return Mixed(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)
+
+
+def draw_values(rng: Draws, states: tuple[str, ...], gamma: Fraction) -> dict[str, Fraction]:
+    """Different values, not far from each other, that are whole when they are discounted, too, and never 0."""
+    lowest = rng.whole(-2, 3)
+    times = [number for number in (lowest + step for step in range(len(states) + 3)) if number]
+    return {state: UNITS[gamma] * number for state, number in zip(states, rng.shuffled(times), strict=False)}
+
+
+def tells_apart(rows: Iterable[Transition], values: Mapping[str, Fraction], gamma: Fraction) -> bool:
+    """Whether the actions of a state are worth different numbers, and so are the outcomes of each."""
+    model = Dynamics(transitions=tuple(rows))
+    outcomes = [
+        [Fraction(row.reward) + gamma * values.get(row.next, Fraction(0)) for row in found]
+        for found in model.outcomes.values()
+    ]
+    each = [worth(model, pair, values, gamma) for pair in model.pairs]
+    return all(len({*row}) == len(row) for row in (*outcomes, each))
+
+
+def draw_worth(
     rng: Draws,
+    setting: Setting,
+    shape: Shape,
+    gamma: Fraction,
+    values: Mapping[str, Fraction],
+    worths: Mapping[tuple[str, str], Fraction],
+    sure: Sequence[tuple[str, str]] = (),
+) -> Model:
+    """A model of a world in which the actions are worth so much, if the states are worth what the values say.
+
+    Those that are called sure have one outcome each.
+    """
+    places = (*setting.states[: shape.states], *((setting.terminal,) if shape.ends else ()))
+    rows = [
+        row
+        for pair, worth in worths.items()
+        for row in draw_paying(
+            rng, setting, places, pair, worth, values, gamma, replace(shape, branches=1) if pair in sure else shape
+        )
+    ]
+    return Model(story=setting.story, transitions=tuple(rows), terminal=places[shape.states :])
+
+
+def draw_paying(
+    rng: Draws,
+    setting: Setting,
+    places: tuple[str, ...],
     pair: tuple[str, str],
     worth: Fraction,
-    towards: str,
     values: Mapping[str, Fraction],
     gamma: Fraction,
     shape: Shape,
+    barred: str | None = None,
 ) -> list[Transition]:
-    """The transitions of one action, with whole rewards that make it worth what is wanted."""
+    """The transitions of one action, with whole rewards that make it worth what is wanted.
+
+    No two of its outcomes are worth the same, so that their probabilities matter; none is the place that is barred.
+    """
     for _ in range(_ATTEMPTS):
-        chosen = {towards, *rng.sample(tuple(values), rng.below(shape.branches))}
-        targets = tuple(target for target in values if target in chosen)
-        chances = (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
-        ahead = sum(chance * values[target] for chance, target in zip(chances, targets, strict=True))
-        mean = worth - gamma * ahead
-        rewards = [mean + difference for difference in _spread(rng, chances)]
-        if mean.denominator == 1 and max(map(abs, rewards)) <= _LARGEST_REWARD:
+        targets = draw_targets(rng, setting, places, pair, shape, barred)
+        chances = draw_chances(rng, targets, shape)
+        ahead = [gamma * values.get(target, Fraction(0)) for target in targets]
+        mean = worth - dot(chances, ahead)
+        rewards = averaging(rng, chances, mean)
+        if rewards is None or max(map(abs, rewards)) > _LARGEST_REWARD:
+            continue
+        if len({reward + after for reward, after in zip(rewards, ahead, strict=True)}) == len(targets):
             return [
                 Transition(*pair, target, chance, reward)
                 for target, chance, reward in zip(targets, chances, rewards, strict=True)
             ]
-        towards = rng.choice(tuple(values))
-    return [Transition(*pair, tuple(values)[-1], Fraction(1), worth)]  # the end: nothing comes after it
+    target = next(place for place in setting.reached(places, *pair) if place != barred)
+    return [Transition(*pair, target, Fraction(1), worth - gamma * values.get(target, Fraction(0)))]
 
 
-def _spread(rng: Draws, chances: tuple[Fraction, ...]) -> list[Fraction]:
-    """Whole differences between the rewards of one action that are 0 on average."""
-    if len(chances) == 1:
-        return [Fraction(0)]
-    first, second, *rest = chances
-    ratio = second / first
-    times = rng.whole(-2, 2)
-    return [times * ratio.numerator, -times * Fraction(ratio.denominator), *(Fraction(0) for _ in rest)]
+def averaging(rng: Draws, chances: tuple[Fraction, ...], mean: Fraction) -> list[Fraction] | None:
+    """Different whole numbers with that mean, as far as some are found."""
+    near = mean.numerator // mean.denominator
+    for _ in range(_ATTEMPTS):
+        rest = [near + rng.whole(-4, 4) for _ in chances[1:]]
+        first = (mean - dot(chances[1:], rest)) / chances[0]
+        if first.denominator == 1 and len({first, *rest}) == len(chances):
+            return [first, *rest]
+    return None
 
 
 def worth(model: Dynamics, pair: tuple[str, str], values: Mapping[str, Fraction], gamma: Fraction) -> Fraction:
@@ -100,8 +186,11 @@ def worth(model: Dynamics, pair: tuple[str, str], values: Mapping[str, Fraction]
     )  # fmt: skip
 
 
-def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: Dynamics, gamma: Fraction) -> None:
+def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: Model, gamma: Fraction) -> None:
     """Demand that values are those of the policy: one step of it must give them back.
+
+    Without discount that does not settle the values of states in which the policy goes round for ever: they are
+    expected totals, 0 where no step there earns anything (Puterman 1994, section 7.1).
 
     Raises:
         ValueError: a state has another value.
@@ -110,6 +199,19 @@ def check_policy_values(values: Mapping[str, Fraction], policy: Policy, model: D
         total = sum(Fraction(chance) * worth(model, (state, action), values, gamma) for action, chance in row.items())
         if total != values[state]:
             raise ValueError(f"values: {state!r} is given as {values[state]}, but one step of the policy gives {total}")
+    for state in chain.from_iterable(never_left(model, policy) if gamma == 1 else ()):
+        nothing = dict.fromkeys(values, Fraction(0))
+        pay = sum(Fraction(p) * worth(model, (state, action), nothing, gamma) for action, p in policy[state].items())
+        if pay != 0:
+            raise ValueError(
+                f"values: with γ = 1 {state!r} has no value, for the policy comes back to it for ever and earns {pay} "
+                "on average there each time; let that step pay nothing, or take gamma below 1"
+            )
+        if values[state] != 0:
+            raise ValueError(
+                f"values: {state!r} is given as {values[state]}, but its value under the policy is 0: with γ = 1 it is "
+                "the sum of all rewards, and the policy goes round there for ever and earns nothing; give 0"
+            )
 
 
 def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma: Fraction) -> None:

@@ -9,6 +9,7 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any
 
+from rldrill.diagnosis import Diagnosing, Diagnosis, Followed, followed
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
 from rldrill.model_file import MODEL_SUFFIXES
@@ -26,6 +27,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
 from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
+from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import points
 from rldrill.solutions.exact import NoSolution, TooLong
@@ -97,7 +99,8 @@ class Exercise:
         label = self._part(part).label
         if answer is None:
             raise UsageError("The answer is missing; give a text or a number.")
-        return judge(self.solution, label, typed(answer, "The answer"))
+        text = typed(answer, "The answer")
+        return self.diagnosing.unmasked(label, text, judge(self.solution, label, text))
 
     def grade(self, answers: Mapping[str, object]) -> Graded:
         """Judge a whole submission; a later part is also judged with the person's own answers to earlier parts.
@@ -113,7 +116,69 @@ class Exercise:
         texts = {
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
-        return grade(self.solution, texts)
+        graded = grade(self.solution, texts)
+        return Graded(
+            tuple(
+                part
+                if part.verdict is None
+                else replace(part, verdict=self.diagnosing.unmasked(part.part, part.typed, part.verdict))
+                for part in graded.parts
+            )
+        )
+
+    @cached_property
+    def diagnosing(self) -> Diagnosing:
+        """What diagnoses the wrong answers; it keeps what it finds out."""
+        return Diagnosing(self.solution)
+
+    def diagnose(
+        self,
+        answer: object,
+        part: str = "a",
+        earlier: Mapping[str, object] | None = None,
+        seconds: float | None = None,
+    ) -> Diagnosis:
+        """What a wrong answer comes from: a typical mistake, or one thing changed in the working.
+
+        Args:
+            answer: what was typed.
+            part: the part that it answers.
+            earlier: what was answered to earlier parts, for somebody who went on from there.
+            seconds: the time to search; without end if None.
+
+        Raises:
+            UsageError: the problem has no such part, or an answer is nothing that could be typed.
+        """
+        label = self._part(part).label
+        verdicts = {each.part: each.verdict for each in self.grade({**(earlier or {}), label: answer}).parts}
+        if (verdict := verdicts[label]) is None:
+            raise UsageError("The answer is missing; give a text or a number.")
+        return self.diagnosed(label, typed(answer, "The answer"), verdict, verdicts, seconds)
+
+    def diagnosed(
+        self,
+        label: str,
+        text: str,
+        verdict: Verdict,
+        verdicts: Mapping[str, Verdict | None],
+        seconds: float | None = None,
+    ) -> Diagnosis:
+        """What a wrong answer comes from that was judged already, as the earlier ones were."""
+        before = {
+            other: judged.value
+            for other, judged in verdicts.items()
+            if judged is not None and judged.value is not None and other < label and not judged.accepted
+        }
+        return self.diagnosing.diagnose(label, text, verdict, before, seconds)
+
+    def follow(self, lines: Iterable[str] | str) -> Followed:
+        """Somebody's own working held against the right one: where it departs, and what follows from there.
+
+        Args:
+            lines: as a person writes them, such as ``V1 = 8 + 1/2*4 = 10`` or a bare number; steps may be left out.
+        """
+        texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
+        return followed(self.diagnosing.search({}), texts)
 
     def _part(self, label: str) -> Part:
         for part in self.parts:
@@ -139,9 +204,9 @@ class Exercise:
         lines = self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)
         return Page(_written(abridged(lines)))
 
-    def answer(self, part: Part) -> Equation | Paragraph:
-        """The exact answer of a part, typeset, as a block; a table has a line for each of its keys."""
-        return answer_kind(part.kind).block(self.solution.answers[part.label])
+    def answer(self, part: Part) -> Equation:
+        """The answer of a part, exact and as a decimal, as a block; a table has a line for each of its keys."""
+        return answer_block(part, self.solution.answers[part.label])
 
     def formulas(self, part: str | None = None) -> tuple[Formula, ...]:
         """The formulas of the sheet that the working uses; their equations and hints are the hint.

@@ -1,21 +1,32 @@
 """Distances from centres, as solvers need them, and by other means."""
 
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.centres import Centred
-from rldrill.solutions.exact import exact
+from rldrill.problems.exact import Scalar
+from rldrill.solutions.exact import NoSolution, Value, exact, told
 from rldrill.solutions.oracle import Array, at
-from rldrill.solutions.sheet.function_approximation import DISTANCE
+from rldrill.solutions.sheet.function_approximation import DISTANCE, LINEAR_STATE_VALUE
+from rldrill.solutions.softmax import by_number
 from rldrill.solutions.work import Work
 
 
-def distances(given: Centred, work: Work) -> dict[str, Any]:
-    """Work out the distance from every centre; what comes back is known by the formulas' letters."""
-    axes = range(1, len(given.position) + 1)
+def distances(given: Centred, work: Work, position: Sequence[Value] = (), of: Iterable[int] = ()) -> dict[str, Any]:
+    """Work out the distance from every centre; what comes back is known by the formulas' letters.
+
+    Args:
+        given: the centres, and the state where it is known.
+        work: the working.
+        position: the state where it was found.
+        of: the numbers of the centres whose distances are needed; without them, of all.
+    """
+    position = tuple(map(exact, given.position)) if given.position else position
+    axes = range(1, len(position) + 1)
     known: dict[str, Any] = {
-        "position": dict(zip(axes, map(exact, given.position), strict=True)),
+        "position": dict(zip(axes, position, strict=True)),
         "centre": {
             (number, axis): exact(value)
             for number, centre in enumerate(given.centres, 1)
@@ -23,12 +34,48 @@ def distances(given: Centred, work: Work) -> dict[str, Any]:
         },
         "dimensions": tuple(axes),
     }
-    numbers = range(1, len(given.centres) + 1)
+    numbers = tuple(of) or range(1, len(given.centres) + 1)
     return {"s": "s", "distance": {number: work.step(DISTANCE, i=number, **known) for number in numbers}}
 
 
-def measured(given: Centred) -> Array:
+def found(given: Centred, work: Work, distance: Mapping[int, Value]) -> Value:
+    """The place on a line that is at these distances from two of the centres.
+
+    Raises:
+        NoSolution: there is none, or more than one.
+    """
+    sides = {}
+    for number, far in distance.items():
+        centre = exact(given.centres[number - 1][0])
+        sides[number] = (centre - far, centre + far)
+        low, high = (told(side) for side in sides[number])
+        work.say(f"So $φ_{{{number}}}(s)$ leaves ${low}$ and ${high}$ for the state.")
+    common = set.intersection(*map(set, sides.values()))
+    if len(common) != 1:
+        raise NoSolution("the known features do not fit exactly one state")
+    (state,) = common
+    work.say(f"Only $s = {told(state)}$ fits both.")
+    return state
+
+
+def value_of_state(work: Work, theta: Sequence[Scalar], features: Sequence[Value]) -> None:
+    """Answer with the weighted sum of all features."""
+    known = by_number([exact(weight) for weight in theta])
+    phi = {(number, "s"): value for number, value in enumerate(features, 1)}
+    work.answer(work.step(LINEAR_STATE_VALUE, s="s", phi=phi, **known))
+
+
+def measured(given: Centred, position: Sequence[float] = ()) -> Array:
     """The distances in floating point."""
-    state = np.array([at(value) for value in given.position])
+    state = np.array([at(value) for value in given.position] if given.position else position)
     centres = np.array([[at(value) for value in centre] for centre in given.centres])
     return np.asarray(np.linalg.norm(centres - state, axis=1))
+
+
+def nearest(given: Centred, distance: Mapping[int, float]) -> float:
+    """By trying: the place on a line that is at these distances from the centres."""
+    places = [at(given.centres[number - 1][0]) + way * far for number, far in distance.items() for way in (1, -1)]
+    return min(
+        places,
+        key=lambda x: sum(abs(abs(x - at(given.centres[number - 1][0])) - far) for number, far in distance.items()),
+    )

@@ -27,15 +27,21 @@ def minutes(solution: Solution) -> Fraction:
 
 def minutes_of(solution: Solution, label: str) -> Fraction:
     """The time that one part takes by hand, in minutes: what is written for it, and at least one minute."""
-    return max(LEAST, (PART + _seconds_of(solution.lines_of(label))) / Fraction(60))
+    return max(LEAST, (PART + seconds_of(solution.lines_of(label))) / Fraction(60))
 
 
 def points(solution: Solution) -> dict[str, int]:
     """What every part earns: a point for a minute and a half, so that a point is never less than 1 or more than 2."""
-    return {part.label: int((minutes_of(solution, part.label) + 1) * 2 / 3) for part in solution.problem.parts}
+    return {part.label: whole_points(minutes_of(solution, part.label)) for part in solution.problem.parts}
 
 
-def _seconds_of(lines: Iterable[Line]) -> Fraction:
+def whole_points(time: Fraction) -> int:
+    """The points for minutes, at least one: one up to two minutes, one more for every minute and a half then."""
+    return int((time + 1) * 2 / 3)
+
+
+def seconds_of(lines: Iterable[Line]) -> Fraction:
+    """The seconds that lines of a working take to be worked out and written."""
     seconds = Fraction(0)
     unknowns = 0
     for line in lines:

@@ -62,10 +62,7 @@ def no_value(loop: Loop, told: str, cure: str) -> str:
         cure: what to change, besides the discount.
     """
     state, gain = next(iter(loop.actions)), loop.gain
-    try:
-        side = sign(gain)
-    except NotReal:
-        side = None
+    side = _side(gain)
     match side:
         case 0:
             worth = f"{state} has no value"
@@ -76,6 +73,35 @@ def no_value(loop: Loop, told: str, cure: str) -> str:
             worth = f"the value of {state} is {'−' if side < 0 else '+'}∞"
             pays = f"a step earns {_short(gain)} on average"
     return f"with γ = 1 {worth}: {told} {loop}, where {pays}; {cure}, or take γ below 1"
+
+
+def no_expectation(loop: Loop, number: int) -> str:
+    """The sentence that says why there is no expected sum of a feature, by its number, in a loop of a policy.
+
+    Args:
+        loop: a loop that the policy never leaves, with the feature in place of the rewards.
+        number: the number of the feature.
+    """
+    name, gain = f"μ_{number}({next(iter(loop.actions))})", loop.gain
+    match _side(gain):
+        case 0:
+            worth, counts = "does not exist", "the feature cancels on average, so that its sum never settles"
+        case None:
+            worth, counts = "does not exist", "the feature counts for ever"
+        case side:
+            worth, counts = f"is {'−' if side < 0 else '+'}∞", f"the feature is {_short(gain)} on average"
+    return (
+        f"with γ = 1 {name} {worth}: the policy goes on for ever with {loop}, where {counts}; let it lead to an end, "
+        "let the feature be 0 there, or take γ below 1"
+    )
+
+
+def _side(gain: Value) -> int | None:
+    """The sign of what a step earns on average, if it has one."""
+    try:
+        return sign(gain)
+    except NotReal:
+        return None
 
 
 def _short(value: Value) -> str:

@@ -130,6 +130,18 @@ def _(value: sympy.Expr) -> int:
     return max((*far, *(length(fraction(number)) for number in value.atoms(sympy.Rational))), default=0)
 
 
+def terms(value: Any) -> int:
+    """How many terms the longer polynomial has of a quotient in a parameter that is left open; 0 for what is none."""
+    if not isinstance(value, RationalFunction):
+        return 0
+    return max(sum(coefficient != 0 for coefficient in poly.coeffs()) for poly in (value.top, value.bottom))
+
+
+def told(value: Value) -> str:
+    """A rational number as mathematics, for a sentence."""
+    return str(value).replace("-", "−")
+
+
 @singledispatch
 def digits(value: Value) -> int:
     """How many digits a person must write for a number; closed forms count the longest that stands in them."""
@@ -216,6 +228,9 @@ def ordered(expression: sympy.Expr) -> sympy.Expr:
 
 def _rank(term: sympy.Expr, letters: tuple[sympy.Symbol, ...]) -> tuple[int, object]:
     """The degree in the letters that are left open; without any, in what stands in their place, such as e."""
+    base, exponent = term.as_coeff_Mul()[1].as_base_exp()
+    if base in letters and exponent.is_Integer and exponent > 0:  # a term of a polynomial, of which there may be many
+        return int(exponent), sympy.default_sort_key(term)
     degree = sympy.total_degree(term, *letters) if term.is_polynomial(*(letters or term.free_symbols)) else 99
     return int(degree), sympy.default_sort_key(term)
 

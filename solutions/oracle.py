@@ -5,7 +5,7 @@ tries everything. Open parameters are replaced by ``OPEN``; exact answers are ev
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
@@ -24,16 +24,22 @@ Array: TypeAlias = NDArray[np.float64]
 OPEN = Fraction(7, 19)
 
 
-def at(number: Weight | int) -> float:
-    """A given number as a float; an open parameter takes the value ``OPEN``."""
+def at(number: Weight | int, left_open: float = float(OPEN)) -> float:
+    """A given number as a float; an open parameter takes the value ``OPEN``, or another."""
     if isinstance(number, Logarithm):
-        return math.log(at(number.of))
+        return math.log(at(number.of, left_open))
     if isinstance(number, Parameter):
-        return float(1 - OPEN if number.complement else OPEN)
+        return 1 - left_open if number.complement else left_open
     return float(number)
 
 
-def tensors(model: Dynamics, states: tuple[str, ...]) -> tuple[Array, Array]:
+def root(gap: Callable[[float], float]) -> float:
+    """Where a linear function is 0."""
+    first, last = gap(0.0), gap(1.0)
+    return first / (first - last)
+
+
+def tensors(model: Dynamics, states: tuple[str, ...], left_open: float = float(OPEN)) -> tuple[Array, Array]:
     """The model as arrays P and R of shape (states, actions, states).
 
     Actions that a state does not have are rows of zeros in P and −∞ in R.
@@ -45,8 +51,8 @@ def tensors(model: Dynamics, states: tuple[str, ...]) -> tuple[Array, Array]:
         R[states.index(state), names.index(action)] = 0.0
     for row in model.transitions:
         cell = states.index(row.state), names.index(row.action), states.index(row.next)
-        P[cell] = at(row.probability)
-        R[cell] = at(row.reward)
+        P[cell] = at(row.probability, left_open)
+        R[cell] = at(row.reward, left_open)
     return P, R
 
 

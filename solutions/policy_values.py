@@ -4,12 +4,12 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeAlias
 
 from rldrill.problems.models import Model
+from rldrill.problems.recurrence import end_components
 from rldrill.solutions import knowns
 from rldrill.solutions.endless import Loop, no_value
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.formula.notation import Vpi
-from rldrill.solutions.recurrence import end_components
 from rldrill.solutions.work import Work
 
 #: How somebody comes to the values of a policy, those of terminal states among them: from the policy's equation, in

@@ -25,7 +25,7 @@ def _softmax(preferences: Mapping[str, Weight], action: str) -> float:
 
 def outside(sample: Sample, given: Given) -> int:
     """On which side of the clipping range the ratio lies: −1 below, 1 above, 0 inside or at its edge."""
-    ratio, epsilon = new_chance(sample) / old_chance(sample), at(given.epsilon)
+    ratio, epsilon = new_chance(sample) / old_chance(sample), at(given.epsilon or 0)
     margin = 1e-9
     return (ratio > 1 + epsilon + margin) - (ratio < 1 - epsilon - margin)
 

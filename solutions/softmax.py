@@ -10,8 +10,7 @@ from rldrill.problems.softmax import SoftmaxRun
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, simplest
 from rldrill.solutions.oracle import Array, at
-from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
-from rldrill.solutions.sheet.policy_gradient import PREFERENCE, SCORE_FUNCTION, SOFTMAX_POLICY, G_t
+from rldrill.solutions.sheet.policy_gradient import PREFERENCE, RETURN_FROM_A_STEP, SCORE_FUNCTION, SOFTMAX_POLICY
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work
 
@@ -62,7 +61,7 @@ def returns(work: Work, known: Mapping[str, Any]) -> dict[int, Value]:
     """Work out the return from every step on, backwards in time."""
     G = {known["T"]: ZERO}
     for time in reversed(range(known["T"])):
-        G = {time: work.step(RETURN_RECURSIVE, into=G_t, t=time, r=known["r"], gamma=known["gamma"], G=G), **G}
+        G = {time: work.step(RETURN_FROM_A_STEP, t=time, r=known["r"], gamma=known["gamma"], G=G), **G}
     return {time: G[time] for time in range(known["T"])}
 
 

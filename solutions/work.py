@@ -1,10 +1,9 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, ValuesView
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import log2
-from typing import Any, TypeVar
+from typing import Any
 
 from sympy import Expr
 
@@ -12,7 +11,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, TooLong, Value, length, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
@@ -20,16 +19,10 @@ from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Negative, Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
+from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import generator, linear
 from rldrill.solutions.vector import Vector
-
-Written = TypeVar("Written")
-
-#: The most decimal digits of a whole number in a working. Python writes no more than 4300, and what is written of a
-#: step may hold the products of two numbers.
-MOST_DIGITS = 2000
-_LONGEST = MOST_DIGITS * log2(10)
 
 
 @dataclass(frozen=True)
@@ -62,12 +55,10 @@ class Step:
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
         written = self.put_in
-        if isinstance(written, Negative):  # a number that stands alone needs no brackets
-            written = written.args[0]
         rights = [typeset(self.right)] if self.own else []
-        rights.append(typeset(written))
+        rights.append(typeset(_alone(written)))
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [typeset(reduced(written)), shown_value(self.value)]
+            rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
         if self.label:
@@ -140,6 +131,11 @@ class Elimination:
         """The lines of it."""
         for line in elimination(self.names, self.equations):
             yield Note(line) if isinstance(line, str) else Equality(*line)
+
+
+def _alone(expression: Expr) -> Expr:
+    """A number that stands alone needs no brackets."""
+    return expression.args[0] if isinstance(expression, Negative) else expression
 
 
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination
@@ -279,12 +275,13 @@ class Work:
         Raises:
             NoSolution: every value solves the equation, or none.
         """
-        difference = left - right
-        slope, constant = linear(difference, letter)
+        slope, constant = linear(left - right, letter)
+        if sign(slope) < 0:
+            slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
         symbol = to_sympy(generator(letter))
         self.lines.append(Equality(left, (right,)))
-        if slope != 1 or constant != ZERO - right:
+        if slope != 1 and left != generator(letter) * slope:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
         self.lines.append(Equality(symbol, (value,)))
         return value
@@ -315,32 +312,6 @@ class Work:
         self.answers[label] = value
         self.ends[label] = len(self.lines)
         return self.carried.get(label, value)
-
-
-def bounded(value: Written) -> Written:
-    """A value, alone or in a vector, matrix or table, that can be written down.
-
-    Raises:
-        TooLong: a number in it has more digits than anybody writes, and than Python turns into text.
-    """
-    if any(length(number) > _LONGEST for number in _numbers(value)):
-        raise TooLong(
-            f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
-            "give shorter numbers, or fewer steps, sweeps or rewards"
-        )
-    return value
-
-
-def _numbers(value: Any) -> Iterator[Any]:
-    if isinstance(value, dict):
-        value = value.values()
-    elif is_matrix(value):
-        value = value.entries()
-    if isinstance(value, tuple | list | Vector | ValuesView):
-        for item in value:
-            yield from _numbers(item)
-    else:
-        yield value
 
 
 def _simplest(value: Any) -> Any:

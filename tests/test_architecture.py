@@ -19,7 +19,7 @@ from rldrill.solutions.sheet import SECTIONS, formulas
 from rldrill.solutions.solution import Solution, solver
 
 ROOT = Path(__file__).parent.parent
-NOT_TOPICS = {"formula", "sheet", "answers", "__pycache__"}
+NOT_TOPICS = {"formula", "diagnosis", "sheet", "answers", "__pycache__"}
 
 
 #: What each room of rldrill/ may import, beside itself; docs/architecture.md has the same table.

@@ -90,6 +90,12 @@ def says(folder: Path, name: str, content: str | bytes) -> tuple[str, int]:
     return failure.says, failure.exit_code
 
 
+@pytest.fixture(autouse=True)
+def a_point_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a part earns follows from its minutes, and is tested where these are; here it is one point."""
+    monkeypatch.setattr("rldrill.graded.points", lambda solution: {part.label: 1 for part in solution.problem.parts})
+
+
 # --- verdicts ---------------------------------------------------------------------------------------------
 
 
@@ -473,7 +479,7 @@ def test_students_are_told_apart(folder: Path) -> None:
 
 
 def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
-    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 2"\n')
+    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 7.3"\n')
     code, out, _ = run(path, "--json")
     data = json.loads(out)
     assert code == data["exit_code"] == 1
@@ -486,17 +492,28 @@ def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
         "problem": "sweep.toml",
         "part": "a",
         "line": 2,
-        "typed": "4, 2",
-        "read": "rim: 4, slope: 2",
+        "typed": "4, 7.3",
+        "read": "rim: 4, slope: 7.3",
         "verdict": "wrong",
         "accepted": False,
         "reason": "Not right at slope; the rest is right.",
         "points": {"exact": "1/2", "decimal": "0.5", "of": 1},
+        "diagnosis": None,
     }
     assert (second["verdict"], second["line"]) == ("missing", None)
     assert json.loads(run(path, "--json", "--show-key")[1])["files"][0]["students"][0]["answers"][0]["key"] == (
         "rim: 4, slope: 3/2"
     )
+
+
+def test_json_says_what_a_wrong_answer_comes_from(folder: Path) -> None:
+    # The key is rim: 4, slope: 3/2.
+    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 7.3"\nBen,sweep.toml,a,"3/2, 4"\n')
+    students = json.loads(run(path, "--json")[1])["files"][0]["students"]
+    assert students[0]["answers"][0]["diagnosis"] is None
+    diagnosis = students[1]["answers"][0]["diagnosis"]
+    assert diagnosis["kind"] == "exchanged-cells"
+    assert diagnosis["sentence"] == "It looks as if the answers for rim and slope are exchanged."
 
 
 def test_sentences_go_to_stderr_and_data_to_stdout(folder: Path) -> None:
@@ -536,3 +553,18 @@ def test_the_examples_say_what_their_comments_say() -> None:
     ]
     verdicts = [row.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
     assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]
+
+
+def test_what_a_program_wrote_in_a_problem_file_is_told_once(folder: Path) -> None:
+    thirds = {"prior": dict.fromkeys("abc", 0.3333333333333333), "measurements": ["hit"]}
+    thirds |= {"likelihood": {"hit": dict.fromkeys("abc", "1/2"), "miss": dict.fromkeys("abc", "1/2")}}
+    (folder / "thirds.json").write_text(json.dumps({"family": "bayes-rule", "given": thirds}))
+    # Whatever is seen tells nothing, so that the prior is kept: 1/3 each.
+    lines = "".join(f"{student},thirds.json,a,a: 1/3 b: 1/3 c: 1/3\n" for student in ("Ann", "Bob"))
+    path = write(folder, "a.csv", HEAD + lines)
+    name = str(folder / "thirds.json")
+    code, _, told = run(path)
+    assert (code, told) == (0, f"rldrill: {name}: read 0.3333333333333333 as 1/3\n")
+    data = json.loads(run(path, "--json")[1])
+    assert data["notes"] == {name: ["read 0.3333333333333333 as 1/3"]}
+    assert "notes" not in str(data["files"])

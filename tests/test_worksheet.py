@@ -13,20 +13,21 @@ import typer
 from typer.testing import CliRunner
 
 from printed import poppler, words
-from rldrill import load
+from rldrill import load, read
 from rldrill.commands import worksheet as worksheet_command
-from rldrill.exam.exam import Exam
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exam.manifest import manifest
 from rldrill.exam.planning import plan, version_code
 from rldrill.print.exam_files import write
 from rldrill.print.files import write_bytes_atomically
-from rldrill.print.key import answer_lines, key_source
+from rldrill.print.key import key_source
 from rldrill.print.paper import PAPERS, paper_of, pdf
 from rldrill.print.worksheet import worksheet_source
 from rldrill.problems.catalogue import families
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
 
 A4, LETTER = PAPERS["a4"], PAPERS["letter"]
@@ -58,6 +59,13 @@ def test_versions_share_families_and_levels_but_no_problem(exam: Exam) -> None:
 def test_a_version_repeats_no_problem() -> None:
     version = plan(["return"], 40, 1, 3, 1).versions[0]
     assert len({json.dumps(item.problem.data()) for item in version.exercises}) == 40
+
+
+def test_versions_earn_the_same_place_by_place() -> None:
+    versions = plan(["control", "bellman"], 5, 2, 8, 3).versions
+    earned = [[points_of(exercise) for exercise in version.exercises] for version in versions]
+    assert earned[0] == earned[1] == earned[2]
+    assert len({exercise.id for version in versions for exercise in version.exercises}) == 15
 
 
 def test_versions_are_lettered() -> None:
@@ -282,7 +290,25 @@ def test_a_part_has_room_for_each_line_of_its_working_and_a_problem_at_most_nine
 
     one_line = read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})  # R₁ = 4
     first, second = _spaces(one_line)
-    assert first == pytest.approx(1.2 + 0.6)
-    assert second == pytest.approx(1.2 + 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
+    assert first == pytest.approx(1.2 + 2 * 0.6)  # the formula, then its numbers
+    assert second == pytest.approx(1.2 + 2 * 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
     many = draw("value-iteration", 3, 0)
     assert sum(_spaces(many)) == pytest.approx(9)
+
+
+@pytest.mark.parametrize(("problems", "columns"), [(1, [2]), (13, [14]), (14, [8, 7]), (28, [10, 10, 9])])
+def test_points_stand_in_tables_of_at_most_fourteen_columns_as_wide_as_each_other(
+    problems: int, columns: list[int]
+) -> None:
+    version = plan(("td-zero", "epsilon-greedy"), problems, 1, 3, 1).versions[0]
+    tables = re.findall(r"points-table\(\(\[#?\"?Problem\"?;?\], ([^)]*)\)", worksheet_source(version, PAPERS["a4"]))
+    assert [len(table.split(", ")) for table in tables] == columns
+
+
+@pytest.mark.parametrize(("states", "rows"), [(1, [1]), (5, [5]), (6, [5, 1]), (11, [5, 5, 1])])
+def test_five_empty_cells_stand_side_by_side(states: int, rows: list[int]) -> None:
+    cycle = [[f"s{n}", "a", f"s{(n + 1) % states}", 1, 1] for n in range(states)]
+    exercise = read({"family": "policy-value", "given": {"mdp": {"transitions": cycle}, "gamma": "1/2"}})
+    version = Version("Title", 1, "A", (exercise,))
+    tables = re.findall(r"#empty-table\((.*)\)", worksheet_source(version, PAPERS["a4"]))
+    assert [len(table.split("$, $")) for table in tables] == rows

@@ -1,70 +1,142 @@
-"""One Bellman backup: the value of a state under a policy, from given values of the next states."""
+"""One Bellman backup: the value of a state under a policy, or the number that makes the value what it is."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Question
 from rldrill.problems.models import (
     Dynamics,
     Lookahead,
     PolicyField,
+    Transition,
     check_policy,
+    draw_letter,
     policy_table,
     transitions_table,
     values_table,
 )
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
+from rldrill.problems.phrases import discount, in_open, unknown
+from rldrill.problems.settings import Shape, draw_outcomes, draw_setting, draw_targets
+from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_apart
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Lookahead):
-    """What the actions of one state do, the policy there, the values of the next states and the discount."""
+    """What the actions of one state do, the policy there, the values of the next states and the discount.
+
+    Where the values hold the state itself, they are current ones, and the next is asked for; with ``find`` they are
+    the policy's.
+    """
 
     policy: PolicyField = Field(description="The policy in that state.")
 
     @model_validator(mode="after")
     def _policy_fits(self) -> Self:
         check_policy(self.policy, self.dynamics)
+        if self.find and self.state not in self.values:
+            raise ValueError(f"values: to find what is left open, the value of {self.state!r} is needed, too")
         return self
+
+    @property
+    def current(self) -> bool:
+        """Whether the values are those of an earlier sweep, not the policy's."""
+        return self.state in self.values and not self.find
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two actions with one outcome each; then with two; then with three, and the policy left open."""
+    """Two actions with one outcome each; then more of both, or current values; then a number to be found."""
+    if level == 3:
+        return _to_find(rng)
     setting = draw_setting(rng)
-    state = setting.states[0]
-    everything = setting.states[:3]
-    actions = setting.actions[:2]
-    shape = Shape(states=3, actions=2, branches=level, denominators=(2, 4, 5))
-    rows = [
-        row for action in actions for row in draw_outcomes(rng, state, action, rng.sample(everything, level), shape)
-    ]
-    reached = [name for name in everything if any(row.next == name for row in rows)]
-    chances = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
+    state = rng.choice(setting.states[1:3])
+    current = level == 2 and rng.chance(Fraction(1, 2))
+    gamma = rng.fraction("1/2", "4/5")
+    shape = Shape(states=4, actions=2, branches=level, reward=8)
+    actions = setting.actions[: 2 if level == 1 else 2 + rng.below(2)]
+    values = draw_values(rng, setting.states, gamma)
+    rows: list[Transition] = []
+    while not (rows and tells_apart(rows, values, gamma) and (not current or any(row.next == state for row in rows))):
+        rows = [
+            row
+            for action in actions
+            for targets in [
+                draw_targets(rng, setting, setting.states, (state, action), shape, None if current else state)
+            ]
+            for row in draw_outcomes(rng, state, action, targets, shape)
+        ]
+    chances = rng.split(len(actions), (2, 4) if len(actions) == 2 else (4,))
     return Given(
         dynamics=Dynamics(transitions=tuple(rows)),
         policy={state: dict(zip(actions, chances, strict=True))},
-        values={name: rng.nonzero(-4, 10) for name in reached},
-        gamma=rng.fraction("1/2", "4/5", "9/10"),
+        values={name: values[name] for name in setting.states if any(row.next == name for row in rows)},
+        gamma=gamma,
+    )
+
+
+def _to_find(rng: Draws) -> Given:
+    """The value of the state comes first; then a number is left open that can be found from it."""
+    setting = draw_setting(rng)
+    state = rng.choice(setting.states[1:3])
+    gamma = rng.fraction("1/2", "2/3", "4/5")
+    shape = Shape(states=4, actions=2, branches=2, denominators=(4,))
+    actions = setting.actions[: 2 + rng.below(2)]
+    values = draw_values(rng, setting.states, gamma)
+    chances = rng.split(len(actions), (4,))
+    worths = averaging(rng, chances, values[state]) or [values[state] + number for number in range(len(actions))]
+    rows = [
+        row
+        for action, worth in zip(actions, worths, strict=True)
+        for row in draw_paying(rng, setting, setting.states, (state, action), worth, values, gamma, shape)
+    ]
+    policy: PolicyField = {state: dict(zip(actions, chances, strict=True))}
+    left: Scalar = gamma
+    if len(actions) == 2 and rng.chance(Fraction(1, 2)):
+        policy = {state: dict(zip(actions, (Parameter("p"), Parameter("1-p")), strict=True))}
+    else:
+        rows, left, _ = draw_letter(rng, rows, gamma, ("x", "p", "gamma"))
+    return Given(
+        dynamics=Dynamics(transitions=tuple(rows)),
+        policy=policy,
+        values={n: values[n] for n in setting.states if n == state or any(row.next == n for row in rows)},
+        gamma=left,
+        find=True,
     )
 
 
 def question(given: Given) -> Question:
     """The model of one state, the policy and the values; one number is asked for."""
+    state = given.state
+    if given.find:
+        (letter,) = given.unknown
+        sign = shown(Parameter(letter))
+        told = "The values under the policy are known."
+        rate = "" if letter == "gamma" else f" {discount(given.gamma)}"
+        told += f"{rate} {unknown(letter)}"
+        part = Part(f"What is ${sign}$?", Number())
+    else:
+        told = (
+            "Policy evaluation has come to these values $V_0$."
+            if given.current
+            else "The values of the next states under the policy are known."
+        )
+        told += f" {discount(given.gamma)}"
+        of, after = ("V_1", ", the value after one Bellman backup") if given.current else ("V^π", "")
+        part = Part(f'What is ${of}("{state}")${after}{in_open(given)}?', Number())
     blocks = (
-        Paragraph(f"In state {given.state} the actions do this:"),
+        Paragraph(f"In state {state} the actions have these outcomes:"),
         transitions_table(given.dynamics),
-        Paragraph("The policy takes them with these probabilities:"),
+        Paragraph("The policy $π$ takes them with these probabilities:"),
         policy_table(given.policy),
-        Paragraph(f"The values of the next states under the policy are known. {discount(given.gamma)}"),
-        values_table(given.values, "V^π"),
+        Paragraph(told),
+        values_table(given.values, "V_0" if given.current else "V^π"),
     )
-    return Question(blocks, (Part(f'What is $V^π("{given.state}")${in_open(given)}?', Number()),))
+    return Question(blocks, (part,))

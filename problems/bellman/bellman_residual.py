@@ -9,11 +9,12 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
+from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
     Name,
-    Transition,
+    PolicyField,
     check_state_values,
     model_blocks,
     policy_blocks,
@@ -21,17 +22,23 @@ from rldrill.problems.models import (
 )
 from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
-from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.settings import Shape, draw_setting
+from rldrill.problems.valued import UNITS, draw_mixed, draw_valued, draw_values, draw_worth, tells_apart, worth
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ModelAndPolicy):
     """A model, a policy and the discount, and values that are claimed for it: the policy's, or the optimal ones."""
 
     values: dict[Name, Exact] = Field(description="The value that is claimed for every state.")
+    verdict: bool = Field(
+        default=True,
+        exclude_if=lambda verdict: verdict,
+        description="Whether it is asked, too, if the values are right.",
+    )
     optimal: bool = Field(
         default=False, description="Whether they are claimed to be the optimal values, not the policy's."
     )
@@ -47,81 +54,56 @@ class Given(ModelAndPolicy):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One action in each of two states; then two, for a policy or the optimum; then the optimum of three states.
+    """A reward process of two states; then two actions, for a policy or the optimum; then the optimum of three states.
 
-    The values come first, and rewards are chosen so that they are right; then mostly one value is changed.
+    The values come first, and rewards are chosen so that they are right; then they are changed, all or one or none.
     """
     setting = draw_setting(rng)
-    shape = Shape(states=3 if level == 3 else 2, actions=min(level, 2), branches=2, denominators=(2,))
-    mdp = draw_model(rng, setting, shape)
     optimal = level == 3 or (level == 2 and rng.chance(Fraction(1, 2)))
-    gamma = rng.fraction("1/2", "1/3", "2/3", "4/5") if level < 3 else rng.fraction("1/2", "4/5")
-    unit = gamma.denominator  # so that γ times a value is whole
-    counts = rng.distinct(len(mdp.states), 1, max(len(mdp.states) + 1, 12 // unit))
-    values = {state: unit * count for state, count in zip(mdp.states, counts, strict=True)}
-    chances = {
-        state: dict(zip(actions, rng.split(len(actions), (2, 4)) if len(actions) > 1 else (Fraction(1),), strict=True))
-        for state, actions in mdp.actions.items()
-    }
-    rows: list[Transition] = []
-    for state in mdp.states:
-        worth = _worth(rng, values[state], chances[state], optimal=optimal)
-        for action in mdp.actions[state]:
-            rows += _paying(rng, mdp.outcomes[state, action], worth[action], values, gamma)
-    if rng.chance(Fraction(2, 3)):
-        wrong = rng.choice(mdp.states)
-        values[wrong] += unit * rng.nonzero(-1, 1)
-    return Given(
-        mdp=Model(story=setting.story, transitions=tuple(rows), terminal=mdp.terminal),
-        policy=None if optimal else chances,
-        gamma=gamma,
-        values=values,
-        optimal=optimal,
-    )
-
-
-def _worth(rng: Draws, value: Fraction, chances: dict[str, Fraction], *, optimal: bool) -> dict[str, Fraction]:
-    """What each action is worth, if the state is worth that much: the best action, or the mean, is."""
-    actions = rng.shuffled(tuple(chances))
-    if len(actions) == 1:
-        return {actions[0]: value}
-    first, second = actions
+    gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
+    shape = Shape(states=3 if level == 3 else 2, actions=min(level, 2), branches=2, denominators=(2,))
+    policy: PolicyField | None = None
     if optimal:
-        return {first: value, second: value - rng.whole(1, 4)}
-    whole = chances[first].denominator  # so that what is added and taken away is whole
-    return {first: value + whole * chances[second], second: value - whole * chances[first]}
+        mdp, _, values = draw_valued(rng, setting, shape, gamma, (-4, -1), forked="own")
+    elif level == 2:
+        mdp, policy, values = draw_mixed(rng, setting, shape, gamma, (2, 4))
+    else:
+        values = draw_values(rng, setting.states[:2], gamma)
+        mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})
+    verdict = rng.chance(Fraction(1, 4))
+    wrong = (() if rng.chance(Fraction(1, 2)) else (rng.choice(mdp.states),)) if verdict else mdp.states
+    claimed = dict(values)
+    for _ in range(20):
+        claimed |= {state: values[state] + UNITS[gamma] * rng.nonzero(-2, 2) for state in wrong}
+        if all(_decided(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states):
+            break
+    return Given(mdp=mdp, policy=policy, gamma=gamma, values=claimed, optimal=optimal, verdict=verdict)
 
 
-def _paying(
-    rng: Draws, rows: tuple[Transition, ...], worth: Fraction, values: dict[str, Fraction], gamma: Fraction
-) -> list[Transition]:
-    """The outcomes of an action with rewards that make it worth that much."""
-    spread = rng.whole(0, 2)
-    signs = (0,) if len(rows) == 1 else (1, -1)
-    return [
-        row._replace(reward=worth - gamma * values.get(row.next, Fraction(0)) + sign * spread)
-        for row, sign in zip(rows, signs, strict=True)
-    ]
+def _decided(mdp: Model, state: str, values: dict[str, Fraction], gamma: Fraction, *, optimal: bool) -> bool:
+    """Whether all probabilities matter: actions and outcomes differ in worth, and those that have several are best."""
+    rows = [row for row in mdp.transitions if row.state == state]
+    if not tells_apart(rows, values, gamma):
+        return False
+    best = max(mdp.actions[state], key=lambda action: worth(mdp, (state, action), values, gamma))
+    return not optimal or all(action == best or len(mdp.outcomes[state, action]) == 1 for action in mdp.actions[state])
 
 
 def question(given: Given) -> Question:
     """The model and the claimed values; their residuals, then the verdict."""
-    of = "V^*" if given.optimal else "V^π"
+    of = "$V^*$" if given.optimal else "$V^π$" if given.mdp.chooses else "the value function of this process"
     policy: tuple[Block, ...] = () if given.optimal else policy_blocks(given)
     equation = "Bellman optimality equation" if given.optimal else "Bellman equation"
     blocks = (
         *model_blocks(given.mdp),
         *policy,
-        Paragraph(f"{discount(given.gamma)} Somebody claims that ${of}$ is this $V$:"),
+        Paragraph(f"{discount(given.gamma)} This table $V$ is a candidate for {of}:"),
         values_table(given.values),
         Paragraph(
-            f"The residual $δ(s)$ is the right side of the {equation} for $s$, worked out with this $V$, minus $V(s)$."
+            f"The residual $δ(s)$ is the right side of the {equation} for $s$, evaluated with $V$, minus $V(s)$."
         ),
     )
-    return Question(
-        blocks,
-        (
-            Part("What is the residual $δ(s)$ of every state?", Values("δ", given.mdp.states), zero=True),
-            Part(f"Is $V$ equal to ${of}$?", YesNo()),
-        ),
-    )
+    parts = [Part("What is the residual $δ(s)$ of every state?", Values("δ", given.mdp.states), zero=True)]
+    if given.verdict:
+        parts.append(Part(f"Is $V$ equal to {of}?", YesNo()))
+    return Question(blocks, tuple(parts))

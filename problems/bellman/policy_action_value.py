@@ -4,16 +4,17 @@ from fractions import Fraction
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, policy_blocks
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.valued import deterministic, draw_mixed, draw_valued
 
 TITLE = "Action values of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ModelAndPolicy):
@@ -23,16 +24,21 @@ class Given(ModelAndPolicy):
 def draw(level: int, rng: Draws) -> Given:
     """A deterministic policy; then one that chooses at random; then with a probability left open."""
     setting = draw_setting(rng)
-    shape = Shape(states=2, actions=2, branches=1 if level == 1 else 2, denominators=(2,))
-    mdp = draw_model(rng, setting, shape)
-    open_ = {mdp.states[0]: (Parameter("p"), Parameter("1-p"))} if level == 3 else {}
-    sure: tuple[tuple[Scalar, Scalar], ...] = ((Fraction(1), Fraction(0)), (Fraction(0), Fraction(1)))
-    policy: PolicyField = {}
-    for state, actions in mdp.actions.items():
-        chosen = open_.get(state) or rng.choice(sure)
-        chances: tuple[Scalar, ...] = rng.split(2, (2, 4)) if level == 2 else chosen
-        policy[state] = {action: chance for action, chance in zip(actions, chances, strict=True) if chance != 0}
-    return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3", "4/5"))
+    gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
+    if level == 1:
+        mdp, chosen, _ = draw_valued(rng, setting, Shape(states=2, actions=2, branches=1), gamma, (-4, 4))
+        return Given(mdp=mdp, policy=deterministic(chosen), gamma=gamma)
+    if level == 2:
+        mixed = draw_mixed(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)), gamma, (2, 4))
+        return Given(mdp=mixed.mdp, policy=mixed.policy, gamma=gamma)
+    mdp = draw_model(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)))
+    first, second = mdp.states
+    onward, back = setting.actions[:2]
+    policy: PolicyField = {
+        first: {onward: Parameter("p"), back: Parameter("1-p")},
+        second: {rng.choice((onward, back)): Fraction(1)},
+    }
+    return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3"))
 
 
 def question(given: Given) -> Question:

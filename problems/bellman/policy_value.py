@@ -1,21 +1,33 @@
 """The exact value of every state of a small MDP under a policy."""
 
+from fractions import Fraction
 from typing import Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import Model, ModelAndPolicy, Process, Transition, model_blocks, policy_blocks
+from rldrill.problems.model_forms import ALONE
+from rldrill.problems.models import (
+    Model,
+    ModelAndPolicy,
+    PolicyField,
+    Process,
+    Transition,
+    model_blocks,
+    never_left,
+    policy_blocks,
+)
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting
+from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ModelAndPolicy):
@@ -24,7 +36,18 @@ class Given(ModelAndPolicy):
     A Markov reward process has no actions: then the rows of its transitions are state, next state, probability, reward.
     """
 
+    # The average reward needs no discount, values do.
+    model_config = ConfigDict(
+        json_schema_extra={
+            "required": ["mdp"],
+            "if": {"properties": {"average": {"const": True}}, "required": ["average"]},
+            "then": {},
+            "else": {"required": ["gamma"]},
+        }
+    )
+
     mdp: Process
+    gamma: Discount = Field(description="The discount; left out where the average reward is asked for.")
     average: bool = Field(
         default=False,
         exclude_if=lambda average: not average,
@@ -47,49 +70,77 @@ class Given(ModelAndPolicy):
             raise ValueError(
                 "average: all steps count alike, so γ plays no part; leave out gamma, or give 1, or leave out average"
             )
+        if self.average and len(classes := never_left(self.mdp, self.chances)) > 1:
+            first, second, *_ = (f"{joined([*states[:4]])}{' and others' * (len(states) > 4)}" for states in classes)
+            raise ValueError(
+                f"average: it depends on the first state, for whoever comes to {first} stays there for ever, and so "
+                f"does whoever comes to {second}; rldrill asks for it only where it is the same from every state: "
+                "write a problem for each of them, without the states of the other, or let the one lead to the other"
+            )
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two states and one action in each; then two actions; then γ or a transition probability left open."""
+    """A reward process of two states; then a policy, three states or the long run; then a number left open."""
     setting = draw_setting(rng)
     if level == 3:
-        return _left_open(rng)
-    shape = Shape(states=2, actions=level, branches=2, denominators=(2,), reward=4 + 2 * level)
-    mdp = draw_model(rng, setting, shape)
-    while level == 2 and not _coupled(mdp):
-        mdp = draw_model(rng, setting, shape)
-    policy = {
-        state: dict(zip(actions, rng.split(len(actions), (2, 4)) if len(actions) > 1 else (1,), strict=True))
-        for state, actions in mdp.actions.items()
-    }
-    return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3", "4/5"))
+        return _left_open(rng, setting)
+    gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
+    form = "process" if level == 1 else rng.choice(("policy", "policy", "process", "average"))
+    if form == "average":
+        return _recurrent(rng, setting)
+    if form == "policy":
+        shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
+        mdp, policy, _ = draw_mixed(rng, setting, shape, gamma, (2, 4))
+        return Given(mdp=mdp, policy=policy, gamma=gamma)
+    shape = Shape(states=level + 1, actions=1, branches=2, denominators=(2,) if level == 1 else (2, 4))
+    values = draw_values(rng, setting.states[: shape.states], gamma)
+    worths = {(state, ALONE): value for state, value in values.items()}
+    return Given(mdp=draw_worth(rng, setting, shape, gamma, values, worths), gamma=gamma)
 
 
-def _coupled(mdp: Model) -> bool:
-    """Whether each of two states can be reached from the other, so that the equations must be solved together."""
-    first, second = mdp.states
-    moves = {(row.state, row.next) for row in mdp.transitions}
-    return (first, second) in moves and (second, first) in moves
+def _recurrent(rng: Draws, setting: Setting) -> Given:
+    """A reward process that goes on for ever between two states or three."""
+    states = setting.states[: 2 + rng.below(2)]
+    rows: list[Transition] = []
+    for index, state in enumerate(states):
+        onward = states[(index + 1) % len(states)]
+        targets = tuple(dict.fromkeys((state, onward) if rng.chance(Fraction(3, 4)) else (onward,)))
+        rows += draw_outcomes(rng, state, ALONE, targets, Shape(len(states), 1, 2, reward=8, denominators=(2, 4, 5)))
+    return Given(mdp=Model(story=setting.story, transitions=tuple(rows)), gamma=Fraction(1), average=True)
 
 
-def _left_open(rng: Draws) -> Given:
-    setting = draw_setting(rng)
+def _left_open(rng: Draws, setting: Setting) -> Given:
+    """Two states; left open is the discount, a probability of the process, or one of the policy."""
     first, second = setting.states[:2]
-    action = setting.actions[0]
-    p, rest = Parameter("p"), Parameter("1-p")
-    in_gamma = rng.chance(rng.fraction("1/2"))
+    letter = rng.choice(("gamma", "process", "policy"))
+    policy: PolicyField = {}
+    p = (Parameter("p"), Parameter("1-p"))
     half = rng.fraction("1/2", "1/4", "3/4")
-    stay, leave = (half, 1 - half) if in_gamma else (p, rest)
-    rows = (
-        Transition(first, action, first, stay, rng.nonzero(-3, 6)),
-        Transition(first, action, second, leave, rng.nonzero(-3, 6)),
-        Transition(second, action, first, rng.fraction("1/2"), rng.nonzero(-3, 6)),
-        Transition(second, action, setting.terminal, rng.fraction("1/2"), rng.nonzero(-3, 6)),
-    )
+    rewards = rng.distinct(4, -3, 6)
+    after = rng.choice(((first, setting.terminal), (second, setting.terminal), (first, second)))
+    even = Fraction(1, 2)
+    if letter == "policy":
+        onward, back = setting.actions[:2]
+        policy = {first: {onward: p[0], back: p[1]}, second: {onward: Fraction(1)}}
+        rows = [
+            Transition(first, onward, second, Fraction(1), rewards[0]),
+            Transition(first, back, first, Fraction(1), rewards[1]),
+        ]
+        name = onward
+    else:
+        stay, leave = (half, 1 - half) if letter == "gamma" else p
+        name = ALONE
+        rows = [Transition(first, name, first, stay, rewards[0]), Transition(first, name, second, leave, rewards[1])]
+    rows += [Transition(second, name, target, even, rewards[2 + i]) for i, target in enumerate(after)]
     return Given(
-        mdp=Model(story=setting.story, transitions=rows, terminal=(setting.terminal,)),
-        gamma=Parameter("gamma") if in_gamma else rng.fraction("1/2", "4/5"),
+        mdp=Model(
+            story=setting.story,
+            transitions=tuple(rows),
+            terminal=(setting.terminal,) if setting.terminal in after else (),
+        ),
+        policy=policy or None,
+        gamma=Parameter("gamma") if letter == "gamma" else rng.fraction("1/2", "2/3"),
     )
 
 
@@ -107,10 +158,14 @@ def question(given: Given) -> Question:
 def _in_the_long_run(given: Given) -> Question:
     reward = "$r(π)$, the average reward per step" if given.mdp.chooses else "the average reward per step"
     return Question(
-        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph("It goes on for ever. Nothing is discounted.")),
+        (
+            *model_blocks(given.mdp),
+            *policy_blocks(given),
+            Paragraph("The process never ends, and nothing is discounted."),
+        ),
         (
             Part(
-                f"What is $d(s)$, the share of all steps that begin in $s$ in the long run, for every state"
+                f"What is $d(s)$, the long-run fraction of the steps that begin in $s$, for every state"
                 f"{in_open(given)}?",
                 Values("d", given.mdp.states),
             ),

@@ -17,7 +17,7 @@ from rldrill.problems.parts import Number, Part, Policy, Values
 
 TITLE = "Principle of optimality"
 SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
-REVISION = 1
+REVISION = 2
 
 
 class Edge(NamedTuple):
@@ -108,25 +108,25 @@ _PLACES = (
     _Place("A drone carries a parcel across the town.", ("depot", "bridge", "park", "tower"), "house"),
     _Place("A boat sails between islands to its harbour.", ("cape", "reef", "bay", "rock"), "harbour"),
 )
-#: The edges of each level, by the places of their states; the goal comes last.
-_EDGES = {
-    1: ((0, 1), (0, 2), (1, 2), (1, 3), (2, 3)),
-    2: ((0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (2, 4), (3, 4)),
-    3: ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (1, 4), (2, 3), (2, 4), (3, 4)),
-}
+#: How many states lie before the goal at each level, and how many edges there are beside those from each to the next.
+_SIZES = {1: (3, 2), 2: (4, 3), 3: (4, 4)}
 
 
 def draw(level: int, rng: Draws) -> Given:
     """Three states before the goal; then four; then more edges, and a path that must go through a state."""
     place = rng.choice(_PLACES)
-    names = (*place.states[: 3 if level == 1 else 4], place.goal)
+    count, more = _SIZES[level]
+    names = (*place.states[:count], place.goal)
     bait = 1 + rng.below(2)  # good to go to, bad to go on from: the greedy path is not the best one
+    farther = [(here, after) for here in range(count) for after in range(here + 2, count + 1)]
+    ways = sorted([*((here, here + 1) for here in range(count)), *rng.sample(farther, more)])
     edges = tuple(
         Edge(names[here], names[after], rng.whole(-2, 5) + 4 * (after == bait) - 8 * (here == bait))
-        for here, after in _EDGES[level]
+        for here, after in ways
     )
-    through = names[bait] if level == 3 else None
-    return Given(edges=edges, start=names[0], goal=place.goal, through=through, story=place.story)
+    return Given(
+        edges=edges, start=names[0], goal=place.goal, through=names[bait] if level == 3 else None, story=place.story
+    )
 
 
 def question(given: Given) -> Question:
@@ -134,8 +134,8 @@ def question(given: Given) -> Question:
     negative = " (a cost, where it is negative)" if any(edge.reward < Fraction(0) for edge in given.edges) else ""
     blocks = (
         Paragraph(
-            f"{given.story} Nothing is left to chance: from each state one of these ways is taken, and it earns this "
-            f"reward{negative}. Rewards are added up without discount until {given.goal}, where it ends.".strip()
+            f"{given.story} The moves are deterministic. From each state one of these edges is taken, for this "
+            f"reward{negative}. The return is the undiscounted sum of the rewards up to {given.goal}.".strip()
         ),
         Table(
             header=("$s$", "$s'$", "$R_{s s'}$"),
@@ -145,14 +145,14 @@ def question(given: Given) -> Question:
     states = tuple(given.onward)
     parts = [
         Part(
-            f"What is $V^*(s)$, the greatest total reward of a path to {given.goal}, from every state $s$?",
+            f"What is $V^*(s)$, the greatest return of a path from $s$ to {given.goal}, for every state $s$?",
             Values("V^*", states),
         ),
     ]
     if given.forks:
-        ask = "To which state does a best path lead next, from every state where there is a choice?"
+        ask = "Which state does an optimal path visit next, from every state with a choice?"
         parts.append(Part(ask, Policy(given.forks)))
     if given.through is not None:
-        ask = f"What is the greatest total reward of a path from {given.start} to {given.goal} through {given.through}?"
+        ask = f"What is the greatest return of a path from {given.start} to {given.goal} that visits {given.through}?"
         parts.append(Part(ask, Number()))
     return Question(blocks, tuple(parts))

@@ -1,68 +1,126 @@
 """The value of states from given action values: under a policy, and the optimal one."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter
+from rldrill.problems.exact import Exact, Open, Parameter, Scalar, dot, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Part, Values
+from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, values_table
+from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import action_values_table
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "State values from action values"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
-    """The action values of some states, and a policy for them."""
+    """The action values of some states, and a policy for them.
 
-    values: dict[Name, dict[Name, Exact]] = Field(
-        min_length=1, description="For every state the values of its actions."
-    )
+    With known values of states, or values said to be equal, the one number that is left open is asked for.
+    """
+
+    values: dict[Name, dict[Name, Open]] = Field(min_length=1, description="For every state the values of its actions.")
     policy: PolicyField = Field(description="The policy in these states.")
+    known: dict[Name, Exact] | None = Field(
+        default=None, min_length=1, max_length=1, description="A state's value under the policy, by which to find it."
+    )
+    equal: bool = Field(
+        default=False,
+        exclude_if=lambda equal: not equal,
+        description="Whether what is left open is to make the values of the two states equal.",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        known = tuple(self.values)
-        check_keys(self.policy, known, "the policy", needed=known)
+        states = tuple(self.values)
+        check_keys(self.policy, states, "the policy", needed=states)
         for state, row in self.values.items():
             if not row:
                 raise ValueError(f"values: the action values of {state!r} are missing")
             check_chances(self.policy[state], state, tuple(row))
+        check_keys(self.known or {}, states, "the known value", needed=())
+        if self.equal and (self.known or len(states) != 2):
+            raise ValueError("equal: give two states, and no known value")
+        if self.finds and len(self.unknown) != 1:
+            raise ValueError("values: leave exactly one number open, such as p or x; it is asked for")
         return self
+
+    @property
+    def finds(self) -> bool:
+        """Whether what is left open is asked for."""
+        return self.equal or self.known is not None
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """What is left open, to be found or for good."""
+        return super().parameters()
+
+    def parameters(self) -> tuple[str, ...]:
+        """What answers are expressions in: nothing, where what is left open is asked for."""
+        return () if self.finds else self.unknown
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One state with two actions; then two with three; then four whose policy has a probability left open."""
+    """One state with two actions; then two or three with more; then a number is to be found."""
     setting = draw_setting(rng)
-    states = setting.states[: (1, 2, 4)[level - 1]]
-    actions = setting.actions[: 3 if level == 2 else 2]
-    values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
-    policy: PolicyField
     if level == 3:
-        ways = ((Parameter("p"), Parameter("1-p")), (Parameter("1-p"), Parameter("p")))
-        policy = {state: dict(zip(actions, rng.choice(ways), strict=True)) for state in states}
-    else:
-        policy = {state: dict(zip(actions, rng.split(len(actions), (4, 5, 10)), strict=True)) for state in states}
+        return _to_find(rng, setting)
+    states = setting.states[: 1 if level == 1 else 2 + rng.below(2)]
+    actions = setting.actions[: 2 if level == 1 else 2 + rng.below(2)]
+    values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
+    policy = {state: dict(zip(actions, rng.split(len(actions), (4, 5, 10)), strict=True)) for state in states}
     return Given(values=values, policy=policy)
+
+
+def _to_find(rng: Draws, setting: Setting) -> Given:
+    """A probability that two states share, an action value, or the probability that makes two states equal."""
+    states = setting.states[:2]
+    kind = rng.choice(("share", "missing", "equal"))
+    actions = setting.actions[: 3 if kind == "missing" else 2]
+    values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
+    p: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p"))
+    if kind == "missing":
+        return _without_one(rng, {s: values[s] for s in states[: 1 + rng.below(2)]})
+    chance = rng.fraction("1/4", "3/4", "1/3", "2/3", "2/5", "3/5")
+    ways = [p, rng.choice((p, p[::-1])) if kind == "share" else p[::-1]]
+    policy = {state: dict(zip(actions, way, strict=True)) for state, way in zip(states, ways, strict=True)}
+    first, second = (values[state] for state in states)
+    onward, back = actions
+    mean = chance * first[onward] + (1 - chance) * first[back]
+    if kind == "equal":  # (1 − p) Q(onward) + p Q(back) of the second state is the same
+        second[onward] = (mean - chance * second[back]) / (1 - chance)
+        return Given(values=values, policy=policy, equal=True)
+    return Given(values=values, policy=policy, known={states[0]: mean})
+
+
+def _without_one(rng: Draws, values: dict[str, dict[str, Fraction]]) -> Given:
+    """The value of the first state is known, but not that of one of its actions."""
+    policy = {s: dict(zip(row, rng.split(len(row), (4, 5, 10)), strict=True)) for s, row in values.items()}
+    state, row = next(iter(values.items()))
+    mean = dot(policy[state].values(), row.values())
+    shown_row: dict[str, Scalar] = {**row, rng.choice(tuple(row)): Parameter("x")}
+    return Given(values={**values, state: shown_row}, policy=policy, known={state: mean})
 
 
 def question(given: Given) -> Question:
     """The action values and the policy; the values under it, and the optimal ones unless something is left open."""
     states = tuple(given.values)
     every = f"for {states[0]}" if len(states) == 1 else "for every state"
-    blocks = (
+    blocks: list[Block] = [
         Paragraph("An agent has a table of action values:"),
         action_values_table(given.values),
-        Paragraph("Its policy is:"),
+        Paragraph("Its policy $π$ is:"),
         policy_table(given.policy),
-    )
+    ]
+    if given.finds:
+        return _found(given, blocks)
     parts = [
         Part(
             f"The table holds $Q^π$, the action values of this policy. What is $V^π(s)$ {every}{in_open(given)}?",
@@ -72,4 +130,19 @@ def question(given: Given) -> Question:
     if not given.parameters():
         ask = f"Suppose instead that the table holds $Q^*$, the optimal action values. What is $V^*(s)$ {every}?"
         parts.append(Part(ask, Values("V^*", states)))
-    return Question(blocks, tuple(parts))
+    return Question(tuple(blocks), tuple(parts))
+
+
+def _found(given: Given, blocks: list[Block]) -> Question:
+    sign = shown(Parameter(given.unknown[0]))
+    told = f"The table holds $Q^π$, the action values of this policy. The number ${sign}$ is not known."
+    if given.known is None:
+        first, second = given.values
+        ask = f'For which ${sign}$ is $V^π("{first}") = V^π("{second}")$?'
+        return Question((*blocks, Paragraph(told)), (Part(ask, Number()),))
+    blocks += [Paragraph(f"{told} This value is known, too:"), values_table(given.known, "V^π")]
+    parts = [Part(f"What is ${sign}$?", Number())]
+    if others := tuple(state for state in given.values if state not in given.known):
+        which = f'$V^π("{others[0]}")$' if len(others) == 1 else "$V^π(s)$ for every other state"
+        parts.append(Part(f"What is {which}?", Values("V^π", others)))
+    return Question(tuple(blocks), tuple(parts))

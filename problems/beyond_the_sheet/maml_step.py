@@ -1,5 +1,7 @@
-"""The inner and the outer step of MAML on quadratic losses."""
+"""The inner and the outer step of MAML on quadratic losses; or the parameter or step size with a given outcome."""
 
+from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -13,7 +15,7 @@ from rldrill.problems.phrases import in_open, step_size
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 2
+REVISION = 3
 
 
 class Task(NamedTuple):
@@ -24,65 +26,129 @@ class Task(NamedTuple):
 
 
 class Given(Givens):
-    """The shared parameter θ, the tasks, and the step sizes α of the adaptation and β of the outer step."""
+    """The shared parameter θ, the tasks, and the step sizes α of the adaptation and β of the outer step.
 
-    theta: Exact = Field(description="The shared parameter.")
+    Without θ and β that θ is asked for which the outer step does not change; without β alone, that β with which the
+    outer step leads to ``after``.
+    """
+
+    theta: Exact | None = Field(default=None, description="The shared parameter; without it, it is asked for.")
     tasks: tuple[Task, ...] = Field(
         min_length=1, max_length=12, description="The tasks, each by the curvature and the optimum of its loss."
     )
     alpha: StepSize = Field(description="The step size of the adaptation to a task.")
-    beta: Exact = Field(description="The step size of the outer step, above 0.")
+    beta: Exact | None = Field(default=None, description="The step size of the outer step, above 0.")
+    after: Exact | None = Field(default=None, description="The shared parameter after the outer step; instead of beta.")
+    first_order: bool = Field(
+        default=False,
+        exclude_if=lambda asked: not asked,
+        description="Whether the outer step of first-order MAML is asked for, too.",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if self.beta <= 0:
+        if self.beta is not None and self.beta <= 0:
             raise ValueError(f"beta is {self.beta}; it must be above 0")
         if any(task.curvature <= 0 for task in self.tasks):
             raise ValueError("tasks: a curvature is not above 0")
+        if self.theta is None and (self.beta is not None or self.after is not None):
+            raise ValueError("theta: which one the outer step leaves alone is asked without beta and after")
+        if self.theta is not None and (self.beta is None) == (self.after is None):
+            raise ValueError("give either beta or what theta is after the outer step")
+        if self.beta is None and isinstance(self.alpha, Parameter):
+            raise ValueError("alpha: give a number where theta or beta is to be found")
+        if self.first_order and self.beta is None:
+            raise ValueError("first_order: give theta and beta, too")
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One task; then two; then two with the step size of the adaptation left open."""
-    count = 1 if level == 1 else 2
-    theta, *optima = rng.distinct(count + 1, -4, 6)
-    tasks = tuple(Task(rng.choice((rng.whole(1, 3), rng.whole(1, 4))), optimum) for optimum in optima)
-    fine = ("1/4", "1/10", "1/5") if level > 1 else ("1/4",)
-    alpha = Parameter("alpha") if level == 3 else rng.fraction("1/2", *fine)
-    return Given(theta=theta, tasks=tasks, alpha=alpha, beta=rng.fraction("1/2", *fine))
+    """One task; then more, or first-order MAML, too; then α left open, or the θ that stays, or β from what follows."""
+    if level == 3:
+        return rng.choice((_open, _staying, _step_sought))(rng)
+    count, first_order = (1, False) if level == 1 else rng.choice(((2, False), (2, True), (1, True), (3, False)))
+    theta, tasks, alpha = _drawn(rng, count)
+    return Given(theta=theta, tasks=tasks, alpha=alpha, beta=rng.fraction("1/2", "1/4"), first_order=first_order)
+
+
+def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:
+    """No two tasks alike, and none that is learnt in one step, so that it would not count."""
+    theta, *optima = rng.distinct(count + 1, -3, 5)
+    alpha = rng.fraction("1/2", "1/4" if count < 3 else "1/2")
+    curvatures = [Fraction(curve) for curve in (1, 2, 3) if curve * alpha != 1]
+    return theta, tuple(Task(rng.choice(curvatures), optimum) for optimum in optima), alpha
+
+
+def _open(rng: Draws) -> Given:
+    theta, tasks, _ = _drawn(rng, rng.choice((1, 2)))
+    return Given(theta=theta, tasks=tasks, alpha=Parameter("alpha"), beta=rng.fraction("1/2", "1/4"))
+
+
+def _staying(rng: Draws) -> Given:
+    """Tasks of different curvature: with equal ones it is the mean of the optima."""
+    while True:
+        _, tasks, alpha = _drawn(rng, rng.choice((2, 3)))
+        if len({task.curvature for task in tasks}) > 1:
+            return Given(tasks=tasks, alpha=alpha)
+
+
+def _step_sought(rng: Draws) -> Given:
+    """First β, then what it leads to."""
+    theta, tasks, alpha = _drawn(rng, 2)
+    slope = sum((1 - alpha * c) ** 2 * c * (theta - m) for c, m in tasks)
+    if not slope:
+        return _step_sought(rng)
+    return Given(theta=theta, tasks=tasks, alpha=alpha, after=theta - rng.fraction("1/2", "1/4", "1/3", "1/5") * slope)
 
 
 def question(given: Given) -> Question:
-    """The losses; the adapted parameters, then the new shared one."""
-    count = len(given.tasks)
+    """The losses; the adapted parameters, then the new shared one; or what is to be found."""
     rows = tuple(
         (f"${index}$", f"${shown(task.curvature)}$", f"${shown(task.optimum)}$")
         for index, task in enumerate(given.tasks, 1)
     )
-    adapted = tuple(f"θ′_{index}" for index in range(1, count + 1))
-    open_ = in_open(given)
+    several = "one of several tasks" if len(given.tasks) > 1 else "a task"
+    start = "" if given.theta is None else f"The parameter is $θ = {shown(given.theta)}$. "
     inner = step_size(given.alpha).replace("step size", "step size of the adaptation")
     return Question(
         (
             Paragraph(
-                "A robot meets tasks that differ a little, and adapts its one parameter $θ$ to each. Task $i$ has the "
-                "loss $L_i(θ) = 1/2 · c_i (θ − m_i)^2$, in the adaptation as well as after it:"
+                f"A robot has a parameter $θ$ that is to be adapted to {several}. Task $i$ has the loss "
+                "$L_i(θ) = 1/2 · c_i (θ − m_i)^2$, before the adaptation as well as after it:"
             ),
             Table(("task $i$", "$c_i$", "$m_i$"), rows),
             Paragraph(
-                f"The parameter is $θ = {shown(given.theta)}$. MAML adapts it to every task by one step of gradient "
-                "descent on the task's loss. Then it changes $θ$ by one step of gradient descent on the sum of the "
-                "losses after adaptation, with the full gradient through the adaptation. "
-                f"{inner} That of the outer step is $β = {shown(given.beta)}$."
+                f"{start}MAML adapts it to every task by one step of gradient descent on the task's loss, from $θ$ to "
+                "$θ′_i$. In the outer step it changes $θ$ by one step of gradient descent on $J = Σ_i L_i(θ′_i)$, with "
+                f"the full gradient through the adaptation. {inner}{_outer(given)}"
             ),
         ),
-        (
-            Part(
-                f"What {'is the adapted parameter' if count == 1 else 'are the adapted parameters'} "
-                f"${', '.join(adapted)}${open_}?",
-                Numbers(adapted) if count > 1 else Number(),
-                zero=True,
-            ),
-            Part(f"What is $θ$ after the outer step{open_}?", Number(), zero=True),
-        ),
+        tuple(_parts(given)),
     )
+
+
+def _outer(given: Given) -> str:
+    if given.beta is not None:
+        return f" That of the outer step is $β = {shown(given.beta)}$."
+    return "" if given.after is None else f" The outer step leads to $θ = {shown(given.after)}$."
+
+
+def _parts(given: Given) -> Iterator[Part]:
+    numbers, opened = range(1, len(given.tasks) + 1), in_open(given)
+    if given.theta is None:
+        slopes = tuple(f"dθ′_{index}/dθ" for index in numbers)
+        yield Part(f"What are the derivatives ${', '.join(slopes)}$ of the adapted parameters?", Numbers(slopes))
+        yield Part("Which $θ$ does the outer step leave unchanged?", Number(), zero=True)
+        return
+    adapted = tuple(f"θ′_{index}" for index in numbers)
+    if len(adapted) == 1:
+        yield Part(f"What is the adapted parameter ${adapted[0]}${opened}?", Number(), zero=True)
+    else:
+        yield Part(f"What are the adapted parameters ${', '.join(adapted)}${opened}?", Numbers(adapted), zero=True)
+    if given.beta is None:
+        yield Part("What is the step size $β$ of the outer step?", Number())
+        return
+    yield Part(f"What is $θ$ after the outer step{opened}?", Number(), zero=True)
+    if given.first_order:
+        ask = "What would $θ$ be after the outer step of first-order MAML, which treats $dθ′_i/dθ$ as $1$"
+        yield Part(f"{ask}{opened}?", Number(), zero=True)

@@ -1,10 +1,12 @@
 """The two tables of double Q-learning after updates of the one or the other along a run."""
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.asking_back import BackRun, back_asked, draw_back, draw_rates, draw_rows
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
@@ -12,14 +14,20 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_ends
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import CUT_OFF, ActionRun, action_values_table, draw_action_run, draw_row, run_situation
+from rldrill.problems.runs import CUT_OFF, action_values_table, draw_action_run, run_situation
+from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 1
+REVISION = 2
+DISTRACTORS = (
+    "values.*",  # both tables have the values of other pairs, too
+    "second.*",
+    "trajectory.actions.*",  # the last action is Sarsa's business
+)
 
 
-class Given(ActionRun):
+class Given(BackRun):
     """A run, two tables of action values before it, α and γ, and which table every transition updates."""
 
     second: dict[Name, dict[Name, Exact]] = Field(description="The second table of action values before the run.")
@@ -48,25 +56,56 @@ class Given(ActionRun):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition; then two, one for each table; then four over three states to the end."""
-    visits = {1: "ab", 2: "aba", 3: "abac."}[level]
-    trajectory, values = draw_action_run(rng, visits, 2 if level == 1 else 3, last=False, same=level == 3)
+    """One transition; then two, one for each table; then one back from its outcome, or three over three states."""
+    if level == 3 and rng.chance(Fraction(2, 3)):
+        return _back(rng)
+    visits = {1: ("ab",), 2: ("aba", "abc", "abb", "ab."), 3: ("abac.", "abcb", "abab")}[level]
+    alpha, gamma, unit = draw_rates(rng)
+    trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, last=False, same=level == 3)
+    rows = draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), unit)
     first = rng.choice((1, 2))
-    turns = {1: (first,), 2: (first, 3 - first), 3: (first, 3 - first, 3 - first, first)}[level]
-    return Given(
+    given = Given(
         trajectory=trajectory,
-        values=values,
-        second={state: _other_row(rng, row) for state, row in values.items()},
-        updates=turns,
-        alpha=Fraction(1, 2) if level == 1 else rng.fraction("1/2", "1/4", "1/5"),
-        gamma=rng.fraction("1/2", "4/5") if level == 1 else rng.fraction("1/2", "4/5", "9/10"),
+        values=rows,
+        second={state: _other_row(rng, row, unit) for state, row in rows.items()},
+        updates=tuple(first if time % 2 == 0 else 3 - first for time in range(len(trajectory.rewards))),
+        alpha=alpha,
+        gamma=gamma,
     )
+    return given if _moves(given) else draw(level, rng)
 
 
-def _other_row(rng: Draws, row: dict[str, Fraction]) -> dict[str, Fraction]:
+def _moves(given: Given) -> bool:
+    """Whether the first transition, at least, changes a value."""
+    mine, other = (given.values, given.second) if given.updates[0] == 1 else (given.second, given.values)
+    state, after = given.trajectory.states[:2]
+    ahead = Fraction(0)
+    if after not in given.terminal:
+        ahead = other[after][max(mine[after], key=mine[after].__getitem__)]
+    target = given.trajectory.rewards[0] + Fraction(str(given.gamma)) * ahead
+    return target != mine[state][given.trajectory.actions[0]]
+
+
+def _back(rng: Draws) -> Given:
+    """A value of one table from which α or γ follows."""
+    seen: list[dict[str, Fraction]] = []
+
+    def worth(row: Mapping[str, Fraction], _: str) -> Fraction:
+        seen.append(_other_row(rng, row, 4))
+        return seen[-1][max(row, key=row.__getitem__)]
+
+    found = draw_back(rng, draw_setting(rng), 3, worth, rng.choice(("alpha", "gamma")))
+    mine, entered = found.pop("values"), found["trajectory"].states[-1]
+    other = {state: seen[-1] if state == entered else _other_row(rng, row, 4) for state, row in mine.items()}
+    table = rng.choice((1, 2))
+    tables = (mine, other) if table == 1 else (other, mine)
+    return Given(values=tables[0], second=tables[1], updates=(table,), **found)
+
+
+def _other_row(rng: Draws, row: Mapping[str, Fraction], unit: int) -> dict[str, Fraction]:
     """New values for the same actions, with another action as the best one."""
     best = max(row, key=row.__getitem__)
-    other = draw_row(rng, tuple(row))
+    other = draw_rows(rng, ("here",), tuple(row), unit)["here"]
     top = max(other, key=other.__getitem__)
     instead = rng.choice([action for action in row if action != best])
     return other if top != best else other | {best: other[instead], instead: other[best]}
@@ -76,9 +115,9 @@ def question(given: Given) -> Question:
     """The run and both tables before it; the updated pairs of each table are a part."""
     steps = len(given.updates)
     turns = (
-        f"A coin says that the transition updates $Q_{given.updates[0]}$."
+        f"A coin has chosen $Q_{given.updates[0]}$ for this transition."
         if steps == 1
-        else "A coin says which table each transition updates: "
+        else "A coin has chosen the table for each transition: "
         + ", ".join(f"$Q_{table}$ at $t = {time}$" for time, table in enumerate(given.updates))
         + "."
     )
@@ -90,9 +129,13 @@ def question(given: Given) -> Question:
         ),
         Paragraph(
             f"Double Q-learning updates one table after every transition, with the values that are current then. "
-            f"{turns} Of equally good actions the one that stands first in the table is selected."
+            f"{turns} Among equally good actions, the one that stands first in the table is selected."
         ),
     )
+    if given.outcome:
+        last = given.updates[-1]
+        mine = given.second if last == 2 else given.values
+        return Question(blocks, (back_asked(given, given.outcome, mine, f"Q_{last}"),))
     parts = []
     for table in given.asked:
         pairs = given.updated_in(table)

@@ -1,11 +1,13 @@
 """The action values after real transitions, and after the planned updates that Dyna-Q makes with its model."""
 
 from collections import Counter
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.asking_back import draw_rates, draw_rows, readable
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
@@ -13,12 +15,17 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, draw_row, run_situation
+from rldrill.problems.runs import ActionMove, ActionRun, Trajectory, action_values_table, run_situation
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Dyna-Q"
 SOURCE = "Sutton & Barto 2018, sections 8.2 and 8.3"
-REVISION = 1
+REVISION = 2
+DISTRACTORS = (
+    "values.*",  # a table has the values of other pairs, too
+    "model.0.2",  # what the model held is replaced by what was tried last
+    "changed.0.2",  # what nobody has tried is not known
+)
 
 Pair = tuple[Name, Name]
 
@@ -103,11 +110,12 @@ class Given(ActionRun):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition and a remembered pair; then two, the model often empty; then two in a changed environment."""
+    """One transition and a remembered pair; then one or two, the model often empty; then a changed environment."""
     setting = draw_setting(rng)
     first, second, third = rng.shuffled(setting.states)[:3]
     choices = rng.sample(setting.actions, 2)
-    last = {1: (), 2: (rng.choice((first, setting.terminal)),), 3: (rng.choice((first, third)),)}[level]
+    alpha, gamma, unit = draw_rates(rng)
+    last = () if level == 1 or rng.chance(Fraction(1, 2)) else (rng.choice((first, third, setting.terminal)),)
     run = Trajectory(
         states=(first, second, *last),
         actions=tuple(rng.choice(choices) for _ in (first, *last)),
@@ -115,32 +123,37 @@ def draw(level: int, rng: Draws) -> Given:
         terminal=tuple(state for state in last if state == setting.terminal),
     )
     tried = tuple(zip(run.states, run.actions, strict=False))
-    away = second if level == 1 else third
-    remembered = Entry(away, rng.choice(choices), rng.nonzero(-4, 8), first)
+    remembered = Entry(second if level == 1 else third, rng.choice(choices), rng.nonzero(-4, 8), first)
     model: tuple[Entry, ...] = (remembered,)
     changed: tuple[Entry, ...] = ()
-    planned: tuple[tuple[str, str], ...]
-    if level == 1:
-        planned = (remembered.pair,)
-    elif level == 2 and rng.chance(Fraction(1, 2)):
-        planned = rng.shuffled((remembered.pair, tried[0]))
+    planned: tuple[tuple[str, str], ...] = (remembered.pair,)
+    if level == 2 and last:
+        model, planned = (), rng.shuffled(tried)[: rng.choice((1, 2))]
     elif level == 2:
-        one, other = rng.shuffled(tried)
-        model, planned = (), (one, other, one)[: rng.choice((2, 3))]
-    else:
+        planned = rng.shuffled((remembered.pair, *tried))
+    elif level == 3:
         model = (Entry(*tried[0], rng.nonzero(-4, 8), third), remembered)
         changed = (Entry(*remembered.pair, rng.nonzero(-4, 8), second),)
-        planned = rng.shuffled((remembered.pair, *tried))
+        planned = rng.shuffled((remembered.pair, tried[0]))
     named = {*run.states, *(entry.state for entry in model)} - {setting.terminal}
-    return Given(
+    given = Given(
         trajectory=run,
-        values={state: draw_row(rng, choices) for state in setting.states if state in named},
+        values=draw_rows(rng, [state for state in setting.states if state in named], choices, unit),
         model=model,
         planned=planned,
         changed=changed,
-        alpha=Fraction(1, 2),
-        gamma=rng.fraction("1/2", "4/5"),
+        alpha=alpha,
+        gamma=gamma,
     )
+    updates = [*given.tried, *(given.learned[pair] for pair in planned)]
+    moves = [ActionMove(entry.state, entry.action, entry.next, entry.reward) for entry in updates]
+    if remembered.pair in tried or not readable(given.values, moves, run.terminal, alpha, gamma, _greatest):
+        return draw(level, rng)
+    return given
+
+
+def _greatest(row: Mapping[str, Fraction], _: str) -> Fraction:
+    return max(row.values())
 
 
 def question(given: Given) -> Question:

@@ -1,10 +1,13 @@
 """The probabilities with which an ε-greedy policy takes its actions, also where best actions are tied."""
 
-from pydantic import Field
+from fractions import Fraction
+from typing import NamedTuple, Self
+
+from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, OpenProbability, Parameter
+from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
@@ -14,13 +17,20 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "ε-greedy policy"
 SOURCE = "Sutton & Barto 2018, sections 2.2 and 5.4"
-REVISION = 1
+REVISION = 2
 
 _MOVES = ("up", "right", "down", "left")
 
 
+class Taken(NamedTuple):
+    """An action, and the probability with which it is taken."""
+
+    action: Name
+    probability: Probability
+
+
 class Given(Givens):
-    """The action values of one state, ε, and whether the state's value under the policy is asked for too."""
+    """The action values of one state, ε, and what is asked: also the state's value, or ε itself from what it does."""
 
     state: Name = Field(default="s", description="The name of the state.")
     values: dict[Name, Exact] = Field(min_length=2, max_length=50, description="The value of every action.")
@@ -29,6 +39,36 @@ class Given(Givens):
         default=False, description="Whether the value of the state under the policy is asked for, too."
     )
 
+    taken: Taken | None = Field(
+        default=None,
+        description="An action and its probability, from which epsilon follows, which is left open.",
+        examples=[["left", "3/4"]],
+    )
+    state_value: Exact | None = Field(
+        default=None, description="The value of the state under the policy, from which epsilon follows."
+    )
+
+    @model_validator(mode="after")
+    def _follows(self) -> Self:
+        if self.taken and self.state_value is not None:
+            raise ValueError("give either taken or state_value")
+        if self.backwards and not super().parameters():
+            raise ValueError("epsilon: leave it open, for it is asked for")
+        if self.taken and self.taken.action not in self.values:
+            raise ValueError(f"taken: {self.taken.action!r} has no value")
+        if self.state_value is not None and len(self.best) == len(self.values):
+            raise ValueError("state_value: all actions are equally good, so the state is worth that for every ε")
+        return self
+
+    @property
+    def backwards(self) -> bool:
+        """Whether ε is asked for."""
+        return self.taken is not None or self.state_value is not None
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none where ε is asked for."""
+        return () if self.backwards else super().parameters()
+
     @property
     def best(self) -> tuple[str, ...]:
         """The actions whose value is the greatest."""
@@ -36,46 +76,67 @@ class Given(Givens):
         return tuple(action for action, value in self.values.items() if value == greatest)
 
 
+#: Exploration rates by the number of actions: the share of each action is a simple number.
+_RATES = {
+    2: ("1/5", "2/5", "1/2", "3/5", "4/5"),
+    3: ("3/10", "3/5", "3/4", "1/2", "3/8"),
+    4: ("2/5", "1/5", "1/2", "4/5", "3/5"),
+}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Three actions; then four and the state's value; then four of which some are tied, with ε left open."""
-    if level == 1:
+    """Probabilities; then the state's value or ε from a probability; then ε from the value, or left open with ties."""
+    count = 3 if level == 1 else rng.choice((2, 3, 4))
+    if count < 4:
         setting = draw_setting(rng)
-        state, actions = rng.choice(setting.states), setting.actions
+        state, actions = rng.choice(setting.states), setting.actions[:count]
     else:
         state, actions = f"r{1 + rng.below(4)}c{1 + rng.below(4)}", _MOVES
+    epsilon = rng.fraction(*_RATES[count])
     values = draw_row(rng, actions)
-    if level == 3:
-        greatest = max(values.values())
-        tied = rng.sample(actions, rng.choice((2, 3)))
-        values |= dict.fromkeys(tied, greatest)
-        values |= {action: greatest - rng.whole(1, 5) for action in actions if action not in tied}
-    return Given(
+    greatest, mean = max(values.values()), sum(values.values()) / count
+    backwards = level > 1 and rng.chance(Fraction(1, 2))
+    if level > 1 and count > 2 and rng.chance(Fraction(1, 2) if level == 2 else Fraction(2, 3)):
+        tied = rng.sample(actions, rng.choice(range(2, count)))
+        values = {a: greatest if a in tied else greatest - rng.whole(1, 5) for a in actions}
+        mean = sum(values.values()) / count
+    given = Given(
         state=state,
         values=values,
-        epsilon=Parameter("epsilon") if level == 3 else rng.fraction("1/10", "1/5", "3/10", "2/5", "1/2", "3/5"),
-        valued=level > 1,
+        epsilon=Parameter("epsilon") if level == 3 or backwards else epsilon,
+        valued=level > 1 and not (level == 3 and backwards),
     )
+    if backwards and level == 2:
+        chance = (1 - epsilon) / len(given.best) + epsilon / count
+        return given.model_copy(update={"taken": Taken(rng.choice(given.best), chance)})
+    if backwards:
+        return given.model_copy(update={"state_value": (1 - epsilon) * greatest + epsilon * mean})
+    return given
 
 
 def question(given: Given) -> Question:
     """The action values and ε; the probability of every action, then what the state is worth."""
     tied = " Actions that are tied for the best share the greedy probability evenly." if len(given.best) > 1 else ""
     blocks = (
-        Paragraph(f"An agent is in state {given.state}. These are its action values there:"),
+        Paragraph(f"An agent in state {given.state} has these action values:"),
         action_values_table({given.state: given.values}),
         Paragraph(
-            "It chooses ε-greedily: with probability $1 − ε$ greedily, with probability $ε$ any of all its actions, "
-            f"each with the same probability. {exploration(given.epsilon)}{tied}"
+            "It acts ε-greedily: with probability $1 − ε$ it takes the greedy action, with probability $ε$ one of all "
+            f"its actions, each with the same probability. {exploration(given.epsilon)}{tied}"
         ),
     )
     where = f'"{given.state}"'
-    parts = [
-        Part(
-            f"With which probability $π(a|{where})$ is every action taken{in_open(given)}?",
-            Values("π", tuple(given.values)),
-        )
-    ]
+    valued = "If these action values are those of the policy, what is"
+    if given.state_value is not None:
+        worth = f"These action values are those of the policy, and $V^π({where}) = {shown(given.state_value)}$."
+        return Question(blocks, (Part(f"{worth} What is the exploration rate $ε$?", Number()),))
+    if given.taken:
+        action, chance = given.taken
+        ask = f'It takes {action} with probability $π("{action}"|{where}) = {shown(chance)}$. What is $ε$?'
+        asked = [Part(ask, Number())]
+    else:
+        every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
+        asked = [Part(every, Values("π", tuple(given.values)))]
     if given.valued:
-        ask = f"If these action values are those of the policy, what is $V^π({where})${in_open(given)}?"
-        parts.append(Part(ask, Number()))
-    return Question(blocks, tuple(parts))
+        asked.append(Part(f"{valued} $V^π({where})${in_open(given)}?", Number()))
+    return Question(blocks, tuple(asked))

@@ -5,21 +5,27 @@ from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from rldrill.problems.asking_back import BackRun, Worth, back_asked, draw_back, draw_forward
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import OpenProbability, Parameter
+from rldrill.problems.exact import OpenProbability, Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import exploration, in_open
-from rldrill.problems.runs import ActionRun, action_values_table, draw_action_run, run_blocks
+from rldrill.problems.runs import action_values_table, run_blocks
+from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 1
+REVISION = 2
+DISTRACTORS = (
+    "values.*",  # a table has the values of other pairs, too
+    "trajectory.actions.*",  # the last action is Sarsa's business
+)
 
 
-class FixedPolicy(ActionRun):
+class FixedPolicy(BackRun):
     """A run, the action values before it, α and γ; and the policy, which stays as it is."""
 
     policy: PolicyField = Field(description="The policy, which stays as it is; instead of epsilon.")
@@ -38,7 +44,7 @@ class FixedPolicy(ActionRun):
         return tuple(dict.fromkeys(state for state in run.states[1:] if state not in run.terminal))
 
 
-class EpsilonGreedy(ActionRun):
+class EpsilonGreedy(BackRun):
     """A run, the action values before it, α and γ; and the ε with which the policy chooses ε-greedily."""
 
     epsilon: OpenProbability = Field(
@@ -66,30 +72,47 @@ Given = Annotated[
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition and a given policy; then two that are ε-greedy; then three to the end, with ε left open."""
-    visits = {1: "ab", 2: "aba", 3: "abc."}[level]
-    trajectory, values = draw_action_run(rng, visits, 2 if level == 1 else 3)
-    half = Fraction(1, 2)
-    if level == 1:
-        after = trajectory.states[1]
-        chance = rng.fraction("1/4", "3/4", "2/5", "3/5")
-        policy = {after: dict(zip(values[after], (chance, 1 - chance), strict=True))}
-        return FixedPolicy(trajectory=trajectory, values=values, alpha=half, gamma=half, policy=policy)
-    return EpsilonGreedy(
-        trajectory=trajectory,
-        values=values,
-        epsilon=rng.fraction("3/10", "3/5") if level == 2 else Parameter("epsilon"),
-        alpha=rng.fraction("1/2", "1/4") if level == 3 else half,
-        gamma={2: rng.fraction("1/2", "4/5"), 3: rng.fraction("1/2", "9/10")}[level],
-    )
+    """One transition and a given policy; then two, ε-greedy too; then ε left open, or one back from its outcome."""
+    if level == 3 and rng.chance(Fraction(3, 4)):
+        return _back(rng)
+    if level == 1 or (level == 2 and rng.chance(Fraction(1, 2))):
+        chances = rng.split(level + 1, (4, 5))
+        visits = "ab" if level == 1 else rng.choice(("aba", "abc", "abb"))
+        found = draw_forward(rng, visits, level + 1, lambda row, _: dot(chances, row.values()))
+        policy = {state: dict(zip(row, chances, strict=True)) for state, row in found["values"].items()}
+        entered = found["trajectory"].states[1:]
+        return FixedPolicy(policy={state: row for state, row in policy.items() if state in entered}, **found)
+    visits = rng.choice(("aba", "abc", "abb") if level == 2 else ("ab", "abc", "abc."))
+    epsilon = _drawn_epsilon(rng)
+    found = draw_forward(rng, visits, 3, _greedily(epsilon))
+    return EpsilonGreedy(epsilon=epsilon if level == 2 else Parameter("epsilon"), **found)
+
+
+def _back(rng: Draws) -> Given:
+    """A value from which ε, α or γ of an ε-greedy policy's update follows."""
+    sought, epsilon = rng.choice(("epsilon", "epsilon", "alpha", "gamma")), _drawn_epsilon(rng)
+    found = draw_back(rng, draw_setting(rng), 3, _greedily(epsilon), sought)
+    return EpsilonGreedy(**{"epsilon": epsilon} | found)
+
+
+def _drawn_epsilon(rng: Draws) -> Fraction:
+    return rng.fraction("3/4", "3/5", "3/8", "3/10")
+
+
+def _greedily(epsilon: Fraction) -> Worth:
+    """What a state is worth to an ε-greedy policy."""
+    return lambda row, _: (1 - epsilon) * max(row.values()) + epsilon * sum(row.values()) / len(row)
 
 
 def question(given: Given) -> Question:
     """The run, the table before it and the policy; all updated pairs are asked for."""
+    blocks = (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *_policy(given))
+    if given.outcome:
+        return Question(blocks, (back_asked(given, given.outcome, given.values),))
     pairs = given.updated
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
-        (*run_blocks(given, action_values_table(given.values), "Expected Sarsa"), *_policy(given)),
+        blocks,
         (Part(f"What is {asked} after the run{in_open(given)}?", Values("Q", pairs)),),
     )
 
@@ -97,12 +120,12 @@ def question(given: Given) -> Question:
 def _policy(given: Given) -> tuple[Block, ...]:
     match given:
         case FixedPolicy():
-            return (Paragraph("The policy is the same all the time:"), policy_table(given.policy))
+            return (Paragraph("The policy does not change:"), policy_table(given.policy))
         case EpsilonGreedy():
             return (
                 Paragraph(
                     "The policy is ε-greedy for the values that are current at each update. "
-                    f"{exploration(given.epsilon)} Exploring picks any of all actions with the same probability; tied "
+                    f"{exploration(given.epsilon)} Exploring takes each of all actions with the same probability; tied "
                     "best actions share the greedy probability evenly."
                 ),
             )

@@ -1,13 +1,14 @@
 """The importance sampling ratios of some episodes, and the ordinary and the weighted estimate of a state's value."""
 
 from fractions import Fraction
+from math import prod
 from typing import Annotated, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter, Scalar, shown
+from rldrill.problems.exact import Discount, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import (
     DistributionField,
@@ -25,7 +26,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Importance sampling"
 SOURCE = "Sutton & Barto 2018, section 5.5"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -74,29 +75,74 @@ class Given(Givens):
         )
 
 
+#: Probabilities of the first action under b and under π, whose ratios are simple numbers.
+_PAIRS = (
+    ("1/2", "1/4"),
+    ("1/4", "1/2"),
+    ("1/4", "3/4"),
+    ("1/3", "2/3"),
+    ("1/5", "3/5"),
+    ("2/5", "1/5"),
+    ("1/2", "3/4"),
+)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One episode of two steps; then three; then three whose target policy is left open in one state."""
+    """One episode of two steps; then two or three; then the same with the target policy left open in one state."""
     setting = draw_setting(rng)
     first, second = rng.shuffled(setting.states)[:2]
-    behaviour = {state: _chances(rng, setting, ("1/2", "1/4", "3/4")) for state in (first, second)}
-    target: dict[str, dict[str, Scalar]] = {
-        state: {**_chances(rng, setting, ("1/4", "3/4", "1/3", "2/3"))} for state in behaviour
-    }
-    if level == 3:
-        left, right = setting.actions[:2]
-        target |= {first: {left: Parameter("p"), right: Parameter("1-p")}, second: target[second]}
-    lengths = {1: (2,), 2: rng.shuffled((1, 2, 2)), 3: rng.shuffled((1, 2, 2))}[level]
-    return Given(
+    behaviour, target = {}, {}
+    for state in (first, second):
+        pair = rng.choice(_PAIRS)
+        actions = setting.actions[:2] if rng.chance(Fraction(1, 2)) else setting.actions[1::-1]
+        chances = [dict(zip(actions, (Fraction(text), 1 - Fraction(text)), strict=True)) for text in pair]
+        behaviour[state], target[state] = chances
+    lengths = {1: (2,), 2: rng.choice(((1, 2), (2, 2), (1, 2, 2))), 3: rng.choice(((1, 2), (2, 2), (1, 1, 2)))}[level]
+    lengths = rng.shuffled(lengths)
+    given = Given(
         episodes=tuple(_episode(rng, setting, (first, second)[:length]) for length in lengths),
         target=target,
         behaviour=behaviour,
-        gamma=Fraction(1) if level == 1 else rng.fraction("1/2", "1"),
+        gamma=rng.fraction("1/2", "1") if level > 1 else rng.fraction("1/2", "4/5"),
     )
+    if not _telling(given):
+        return draw(level, rng)
+    if level == 3:
+        left, right = setting.actions[:2]
+        return given.model_copy(update={"target": target | {first: {left: Parameter("p"), right: Parameter("1-p")}}})
+    return given
 
 
-def _chances(rng: Draws, setting: Setting, left: tuple[str, ...]) -> dict[str, Fraction]:
-    chance = rng.fraction(*left)
-    return dict(zip(setting.actions, (chance, 1 - chance), strict=False))
+def _telling(given: Given) -> bool:
+    """Whether the ratios differ, and the returns, and the weighted estimate is readable."""
+    ratios: list[Fraction] = []
+    returns: list[Fraction] = []
+    for episode in given.episodes:
+        shares = [
+            Fraction(str(given.target[state][action])) / Fraction(str(given.behaviour[state][action]))
+            for state, action in zip(episode.states, episode.actions, strict=False)
+        ]
+        ratios.append(prod(shares, start=Fraction(1)))
+        returns.append(
+            sum(
+                (reward * Fraction(str(given.gamma)) ** time for time, reward in enumerate(episode.rewards)),
+                Fraction(0),
+            )
+        )
+    weighed = [ratio * earned for ratio, earned in zip(ratios, returns, strict=True)]
+    later = [ratio * episode.rewards[1] for ratio, episode in zip(ratios, given.episodes, strict=True)
+             if len(episode.rewards) > 1]  # fmt: skip
+    total = sum(weighed, Fraction(0))
+    different = (
+        len(set(ratios)) == len(set(returns)) == len(ratios)
+        and 1 not in ratios
+        and 0 not in returns
+        and sum(later) != 0
+    )
+    return different and all(
+        abs(number.numerator) <= 200 and number.denominator <= 60
+        for number in (total / len(weighed), total / sum(ratios))
+    )
 
 
 def _episode(rng: Draws, setting: Setting, states: tuple[str, ...]) -> Trajectory:
@@ -118,13 +164,13 @@ def question(given: Given) -> Question:
         runs.append(timeline(episode))
     blocks = (
         Paragraph(
-            "The behaviour policy $b$ acted; the values of the target policy $π$ are wanted. They take an action $a$ "
-            "in state $s$ with these probabilities:"
+            "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. They take "
+            "action $a$ in state $s$ with these probabilities:"
         ),
         policy_table(given.target, b=given.behaviour),
         *(Paragraph(f"The probability ${shown(Parameter(p))}$ is left open.") for p in left_open),
         Paragraph(
-            f"The agent acted for {f'{len(given.episodes)} episodes' if several else 'one episode'}. "
+            f"The agent has followed $b$ for {f'{len(given.episodes)} episodes' if several else 'one episode'}. "
             f"{discount(given.gamma)}"
         ),
         *runs,

@@ -1,19 +1,19 @@
 """The action values after Q-learning updates along a run of transitions."""
 
+from collections.abc import Mapping
+from fractions import Fraction
 from typing import Annotated
 
 from pydantic import Tag
 
+from rldrill.problems.asking_back import BackMoves, BackRun, back_asked, draw_back, draw_forward
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import (
     RUN_OR_MOVES,
-    ActionMoves,
-    ActionRun,
     AskErrors,
-    Trajectory,
     action_values_table,
     after,
     errors_asked,
@@ -23,16 +23,21 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 1
+REVISION = 2
+DISTRACTORS = (
+    "values.*",  # a table has the values of other pairs, too
+    "trajectory.actions.*",  # the last action is Sarsa's business
+    "transitions.*.4",
+)
 
 
-class AlongRun(ActionRun):
+class AlongRun(BackRun):
     """A run with its actions, the action values before it, the step size and the discount."""
 
     td_errors: AskErrors = False
 
 
-class Separate(ActionMoves):
+class Separate(BackMoves):
     """Transitions that need not join, the action values before them, the step size and the discount."""
 
     td_errors: AskErrors = False
@@ -41,32 +46,33 @@ class Separate(ActionMoves):
 Given = Annotated[Annotated[AlongRun, Tag("run")] | Annotated[Separate, Tag("transitions")], RUN_OR_MOVES]
 
 
+#: The order of visits of the runs at each level; a full stop is the end.
+_VISITS = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba.")}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One transition; then three that come back to a state; then four over three states."""
-    setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
-    choices = setting.actions[: 2 if level == 1 else 3]
-    states = {1: (first, second), 2: (first, second, first, second), 3: (first, second, third, second, first)}[level]
-    named = [state for state in setting.states if state in states]
-    values = {state: dict(zip(choices, rng.distinct(len(choices), -3, 9), strict=True)) for state in named}
-    return AlongRun(
-        trajectory=Trajectory(
-            states=states,
-            actions=tuple(rng.choice(choices) for _ in states),
-            rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
-        ),
-        values=values,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=rng.fraction("1/2", "4/5", "9/10"),
-    )
+    """One transition; then some that come back to a state, or one back from its outcome; then γ after two updates."""
+    if level == 3:
+        found = draw_back(rng, draw_setting(rng), 3, _ahead, "gamma", steps=2)
+        return Separate(**found if rng.chance(Fraction(3, 4)) else found | {"outcome": None})
+    if level == 2 and rng.chance(Fraction(1, 3)):
+        return AlongRun(**draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma"))))
+    return AlongRun(**draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead))
+
+
+def _ahead(row: Mapping[str, Fraction], _: str) -> Fraction:
+    return max(row.values())
 
 
 def question(given: Given) -> Question:
     """The run and the table before it; all updated pairs are asked for."""
+    blocks = run_blocks(given, action_values_table(given.values), "Q-learning")
+    if given.outcome:
+        return Question(blocks, (back_asked(given, given.outcome, given.values),))
     pairs = given.updated
     asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
     return Question(
-        run_blocks(given, action_values_table(given.values), "Q-learning"),
+        blocks,
         (
             *([errors_asked(given)] if given.td_errors else []),
             Part(f"What is {asked} {after(given)}{in_open(given)}?", Values("Q", pairs)),

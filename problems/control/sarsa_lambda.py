@@ -5,18 +5,20 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.asking_back import BackRun, Outcome, back_asked, draw_rows
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, Replacing, action_values_table, draw_action_run, run_situation
+from rldrill.problems.runs import Replacing, action_values_table, draw_action_run, run_situation
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 1
+REVISION = 2
+DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
     "The TD error takes the greatest action value of the next state. Where an action is taken that is not greedy, all "
@@ -25,7 +27,7 @@ _CUT = (
 )
 
 
-class Given(ActionRun):
+class Given(BackRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
     lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
@@ -57,31 +59,61 @@ class Given(ActionRun):
         return tuple(dict.fromkeys((*self.updated, *before)))
 
 
+#: γ and λ, whose product is a simple number.
+_DECAYS = (("1", "1/2"), ("1/2", "1/2"), ("3/4", "2/3"))
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One transition with a trace from before; then three that come back to a pair; then the same with λ left open."""
-    visits = {1: "ab", 2: "abab", 3: "abac."}[level]
-    trajectory, values = draw_action_run(rng, visits, 2 if level == 1 else 3, same=level > 1)
+    """One transition with a trace from before; then two, also back to a pair; then λ left open, or asked back for."""
+    if level == 3 and rng.chance(Fraction(2, 3)):
+        return _back(rng)
+    visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: ("aba.", "abab", "abac", "aab")}[level]
+    trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, same=level > 1)
+    gamma, lam = map(Fraction, rng.choice(_DECAYS[:level]))
     traces = None
     if level == 1:
         traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))
         traces = {
             state: {action: Fraction((state, action) == traced) for action in row} for state, row in values.items()
         }
+    comes_back = len(set(trajectory.states[:-1])) < len(trajectory.states) - 1
     return Given(
         trajectory=trajectory,
-        values=values,
+        values=draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), 4 if level == 2 else 2),
         alpha=Fraction(1, 2),
-        gamma=Fraction(1) if level == 3 else rng.fraction("1/2", "1"),
-        lam=Parameter("lambda") if level == 3 else Fraction(1, 2),
+        gamma=Fraction(1) if level == 3 else gamma,
+        lam=Parameter("lambda") if level == 3 else lam,
         traces=traces,
+        replacing=level == 2 and comes_back and rng.chance(Fraction(1, 2)),
     )
+
+
+def _back(rng: Draws) -> Given:
+    """Two transitions, and the value of the first pair after them, from which λ follows."""
+    run, table = draw_action_run(rng, rng.choice(("abc", "ab.", "aba", "abb")), 3)
+    rows = draw_rows(rng, tuple(table), tuple(next(iter(table.values()))), 2)
+    first, second = zip(run.states[:2], run.actions[:2], strict=True)
+    old, middle = rows[first[0]][first[1]], rows[second[0]][second[1]]
+    alpha, lam = rng.fraction("1/2", "1/4"), rng.fraction("1/2", "1/4", "3/4", "2/5", "4/5")
+    gamma = rng.fraction("1", "1/2")
+    moved = old + alpha * (run.rewards[0] + gamma * middle - old)
+    last = run.states[2]
+    ahead = Fraction(0) if last in run.terminal else rows[last][run.actions[2]]
+    if (last, *run.actions[2:]) == first:
+        ahead = moved
+    error = run.rewards[1] + gamma * ahead - middle
+    end = moved + alpha * error * gamma * lam
+    if error == 0 or end.denominator > 10 or end == old:
+        return _back(rng)
+    outcome = Outcome(*first, end)
+    return Given(trajectory=run, values=rows, alpha=alpha, gamma=gamma, lam=Parameter("lambda"), outcome=outcome)
 
 
 def question(given: Given) -> Question:
     """The run, the table and the traces before it; then traces and values of all pairs that have a trace."""
-    decay = "is left open" if isinstance(given.lam, Parameter) else f"is $λ = {shown(given.lam)}$"
+    decay = "$λ$ is left open" if isinstance(given.lam, Parameter) else f"is $λ = {shown(given.lam)}$"
     begin = (
-        (Paragraph("The eligibility traces before the run are these:"), action_values_table(given.traces, "e(s, a)"))
+        (Paragraph("Before the run the eligibility traces are:"), action_values_table(given.traces, "e(s, a)"))
         if given.traces
         else (Paragraph("Before the run all eligibility traces are $0$."),)
     )
@@ -96,13 +128,14 @@ def question(given: Given) -> Question:
         ),
         *((Paragraph(_CUT),) if given.watkins else ()),
     )
+    if given.outcome:
+        return Question(blocks, (back_asked(given, given.outcome, given.values),))
+    pairs = joined([f"({state}, {action})" for state, action in given.eligible])
+    every = f"the pair {pairs}" if len(given.eligible) == 1 else f"each of the pairs {pairs}"
     return Question(
         blocks,
         (
-            Part(f"What is the trace of these pairs after the run{in_open(given)}?", Values("e", given.eligible)),
-            Part(
-                f"What is the action value of these pairs after the run{in_open(given)}?",
-                Values("Q", given.eligible),
-            ),
+            Part(f"What is the trace $e(s, a)$ of {every} after the run{in_open(given)}?", Values("e", given.eligible)),
+            Part(f"What is $Q(s, a)$ of {every} after the run{in_open(given)}?", Values("Q", given.eligible)),
         ),
     )

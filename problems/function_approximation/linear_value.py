@@ -1,43 +1,70 @@
-"""Action values that are linear in features, with one block of weights for every action."""
+"""Action values that are linear in features, with one block of weights for every action; or where two are equal."""
 
+from collections.abc import Iterator
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.centres import Centred, centres_table, draw_on_a_line, place
-from rldrill.problems.document import Block, Paragraph, joined
+from rldrill.problems.centres import (
+    Centred,
+    asked_features,
+    centres_table,
+    check_line,
+    draw_on_a_line,
+    feature_names,
+    place,
+    tents,
+)
+from rldrill.problems.document import Document, Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, weights
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Numbers, Part, Policy, Values
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.parts import Number, Numbers, Part, Policy, Values
+from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear action values"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 1
+REVISION = 2
 
 
 class Bumps(Centred):
-    """Piecewise linear basis functions, and the state whose features they give."""
+    """Piecewise linear basis functions, and the state whose features they give.
+
+    Without the state it is asked for: between the two centres, where both actions are worth the same.
+    """
 
     width: Exact = Field(gt=0, description="The distance from its centre at which a feature reaches 0, above 0.")
+
+    @model_validator(mode="after")
+    def _between(self) -> Self:
+        if self.position is None:
+            check_line(self.centres)
+            if len(self.centres) != 2 or not 0 < self.centres[1][0] - self.centres[0][0] <= self.width:
+                raise ValueError(
+                    "position: it can only be found between two centres, the left one first, within the width"
+                )
+        return self
 
 
 class Given(Givens):
     """The weights, block by block; the actions in the order of the blocks; and the features of the state.
 
-    The features are given as they are, or as those of a state by piecewise linear basis functions.
+    The features are given as they are, or as those of a state by piecewise linear basis functions. One weight may be
+    the letter w: then it is asked from which w on its action is greedy.
     """
 
-    theta: tuple[Exact, ...] = Field(min_length=1, max_length=40, description="The weights, a block for every action.")
+    theta: tuple[Open, ...] = Field(
+        min_length=1, max_length=40, description="The weights, a block for every action; one of them may be w."
+    )
     actions: tuple[Name, ...] = Field(min_length=2, description="The actions in the order of the blocks.")
     features: FeatureVector | None = Field(default=None, description="The features of the state; instead of bumps.")
     bumps: Bumps | None = Field(
         default=None, description="The state with basis functions that give its features; instead of features."
     )
-    action: Name = Field(description="The action whose value is asked for.")
+    action: Name | None = Field(default=None, description="The action whose stacked vector is asked for, if any.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -45,71 +72,144 @@ class Given(Givens):
             raise ValueError("give either features or bumps")
         if len(set(self.actions)) < len(self.actions):
             raise ValueError("actions: one is named twice")
-        if self.action not in self.actions:
+        if self.action is not None and self.action not in self.actions:
             raise ValueError(f"action: {self.action!r} is not among the actions")
         if len(self.theta) != self.size * len(self.actions):
             raise ValueError(
                 f"theta: {self.size} features and {len(self.actions)} actions need "
                 f"{self.size * len(self.actions)} weights, not {len(self.theta)}"
             )
+        self._check_sought()
         return self
+
+    def _check_sought(self) -> None:
+        opened = [weight for weight in self.theta if isinstance(weight, Parameter)]
+        if opened not in ([], ["w"]):
+            raise ValueError("theta: only one weight may be left open, and it is called w")
+        if opened and (self.features is None or self.features[self.theta.index(opened[0]) % self.size] <= 0):
+            raise ValueError("theta: the feature that belongs to w must be given, and above 0")
+        if self.between and (opened or len(self.actions) != 2):
+            raise ValueError("bumps: without the position there must be two actions, and numbers for all weights")
+        if self.action is not None and (opened or self.between):
+            raise ValueError("action: its vector is only asked for where nothing is to be found")
 
     @property
     def size(self) -> int:
         """How many features a state has."""
         return len(self.features or ()) if self.bumps is None else len(self.bumps.centres)
 
+    @property
+    def between(self) -> bool:
+        """Whether a state between two centres is to be found."""
+        return self.bumps is not None and self.bumps.position is None
+
+    @property
+    def raised(self) -> str | None:
+        """The action with the weight w, if there is one."""
+        places = [place for place, weight in enumerate(self.theta) if isinstance(weight, Parameter)]
+        return self.actions[places[0] // self.size] if places else None
+
+    def parameters(self) -> tuple[str, ...]:
+        """None: w is found, not left open."""
+        return ()
+
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two features and two actions; then three and three; then features that must be worked out."""
+    """Two features and two actions; then more, or basis functions; then a weight or a state from equal values."""
     setting = draw_setting(rng)
-    actions = setting.actions[: 2 if level == 1 else 3]
-    size = 2 if level == 1 else 3
-    theta = tuple(rng.nonzero(-3, 5) for _ in range(size * len(actions)))
-    action = rng.choice(actions[1:])
-    if level < 3:
-        features = tuple(rng.whole(0, 4) if level == 1 else rng.fraction("0", "1/2", "1", "2", "3/2")
-                         for _ in range(size))  # fmt: skip
-        return Given(theta=theta, actions=actions, features=features, action=action)
-    width = rng.whole(3, 5)
-    first, second = rng.distinct(2, 1, int(width) - 1)
-    centred = draw_on_a_line(rng, rng.shuffled((first, second, width + rng.whole(0, 2))))
+    if level == 3:
+        return rng.choice((_weight_sought, _state_sought))(rng, setting)
+    count, size = (2, 2) if level == 1 else rng.choice(((3, 2), (2, 3), (3, 3)))
+    actions = setting.actions[:count]
+    theta = tuple(rng.nonzero(-3, 5) for _ in range(size * count))
+    if level == 1 or rng.choice((True, False)):
+        features = tuple(
+            rng.whole(1, 4) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
+        )
+        return Given(theta=theta, actions=actions, features=features)
+    width = rng.whole(4, 6)
+    centred = draw_on_a_line(rng, rng.distinct(size, 1, int(width) - 1))
     bumps = Bumps(position=centred.position, centres=centred.centres, width=width)
-    return Given(theta=theta, actions=actions, bumps=bumps, action=action)
+    return Given(theta=theta, actions=actions, bumps=bumps)
+
+
+def _weight_sought(rng: Draws, setting: Setting) -> Given:
+    """From which w on an action is better than the others."""
+    actions = setting.actions[: rng.choice((2, 3, 3))]
+    size = rng.choice((2, 3))
+    theta: list[Fraction | Parameter] = [rng.nonzero(-3, 5) for _ in range(size * len(actions))]
+    theta[rng.below(len(theta))] = Parameter("w")
+    return Given(
+        theta=tuple(theta),
+        actions=actions,
+        features=tuple(rng.fraction("2/3", "3/2", "3", "5/3", "3/4") for _ in range(size)),
+    )
+
+
+def _state_sought(rng: Draws, setting: Setting) -> Given:
+    """The state first, then weights for which both actions are worth the same there."""
+    near, far = rng.shuffled((rng.fraction("1", "2", "3/2"), rng.fraction("5/2", "3", "4")))
+    width = near + far + rng.whole(0, 1)
+    ratio = (width - far) / (width - near)
+    left, right = ratio.numerator, ratio.denominator
+    if max(left, right) > 6:
+        return _state_sought(rng, setting)
+    side = rng.choice((1, -1))
+    first = (rng.nonzero(-3, 5), rng.nonzero(-3, 5))
+    second = (first[0] - side * left, first[1] + side * right)
+    start = rng.whole(-2, 4)
+    return Given(
+        theta=(*first, *second),
+        actions=rng.sample(setting.actions, 2),
+        bumps=Bumps(centres=((start,), (start + near + far,)), width=width),
+    )
 
 
 def question(given: Given) -> Question:
-    """Features and weights; the stacked features of one action, then all values and the best action."""
-    names = tuple(f"φ_{{{number}}}(s)" for number in range(1, given.size + 1))
-    blocks: tuple[Block, ...]
-    parts: list[Part] = []
+    """Features and weights; all values and the best action are asked for, or when two are equal."""
+    return Question((*_state(given), *_weights(given)), tuple(_parts(given)))
+
+
+def _state(given: Given) -> Document:
     if given.bumps is None:
-        features = ", ".join(
-            f"{name} = {shown(value)}" for name, value in zip(names, given.features or (), strict=True)
-        )
-        blocks = (Paragraph(f"In state $s$ the features are ${features}$."),)
-    else:
-        blocks = (
-            place(given.bumps),
-            centres_table(given.bumps.centres),
-            Paragraph(
-                f"They are piecewise linear radial basis functions of the width $b = {shown(given.bumps.width)}$."
-            ),
-        )
-        parts.append(Part(f"What are the features ${', '.join(names)}$, in this order?", Numbers(names)))
-    last = given.size * len(given.actions)
-    stacked = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, last + 1))
-    blocks += (
-        Paragraph(
-            "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features are stacked, one block "
-            f"for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are 0. "
-            f"The weights are ${weights(given.theta)}$."
-        ),
+        names = feature_names(range(1, given.size + 1))
+        told = ", ".join(f"{name} = {shown(value)}" for name, value in zip(names, given.features or (), strict=True))
+        return (Paragraph(f"In state $s$ the features are ${told}$."),)
+    where = (
+        Paragraph("The state of a robot is its position, $s = x$. The features have these centres:")
+        if given.between
+        else place(given.bumps)
     )
-    asked = (
-        (f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(stacked)),
-        ("What is $Q̂(s, a)$ of every action?", Values("Q̂", tuple(("s", action) for action in given.actions))),
-        ("Which action is greedy?", Policy({"s": given.actions})),
+    return (where, centres_table(given.bumps.centres), Paragraph(tents(given.bumps.width)))
+
+
+def _weights(given: Given) -> Document:
+    order = (
+        "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features are stacked, one block for "
+        f"each action, in the order {joined(list(given.actions))}; the blocks of the other actions are $0$. "
     )
-    parts += [Part(ask, kind, zero=True) for ask, kind in asked]
-    return Question(blocks, tuple(parts))
+    return (Paragraph(f"{order}The weights are ${weights(given.theta)}$."),)
+
+
+def _parts(given: Given) -> Iterator[Part]:
+    actions = given.actions
+    if given.between:
+        yield Part("At which $x$ between the centres do both actions have the same value?", Number(), zero=True)
+        yield Part("What is this value?", Number(), zero=True)
+        yield Part("Which action is greedy at the centre $c_1$?", Policy({"s": actions}))
+        return
+    if given.bumps is not None:
+        yield asked_features(given.bumps, ())
+    if given.action is not None:
+        names = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, len(given.theta) + 1))
+        yield Part(f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(names), zero=True)
+    valued = tuple(("s", action) for action in actions if action != given.raised)
+    if given.raised is None:
+        yield Part("What is $Q̂(s, a)$ of every action?", Values("Q̂", valued), zero=True)
+        yield Part("Which action is greedy?", Policy({"s": actions}))
+        return
+    others = "the other action" if len(valued) == 1 else "every other action"
+    yield Part(
+        f"The weight $w$ belongs to {given.raised}. What is $Q̂(s, a)$ of {others}?", Values("Q̂", valued), zero=True
+    )
+    yield Part(f"Above which $w$ is {given.raised} the greedy action?", Number(), zero=True)

@@ -1,58 +1,152 @@
-"""Radial basis functions: the features of a state for several centres."""
+"""Radial basis functions: the features of a state for several centres; or the width or the state from some of them."""
 
 from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.centres import Centred, bumps, centres_table, draw_in_the_plane, draw_on_a_line, place
+from rldrill.problems.centres import (
+    Centred,
+    asked_features,
+    bumps,
+    centres_table,
+    check_known,
+    check_line,
+    draw_in_the_plane,
+    draw_on_a_line,
+    feature_names,
+    place,
+    square,
+    value_block,
+)
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, WidthField, shown
+from rldrill.problems.exact import Exact, Parameter, WidthField, shown
 from rldrill.problems.family import Question
-from rldrill.problems.parts import Numbers, Part
+from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Centred):
-    """The state, the centres, and the width σ of all features, which may be left open."""
+    """The state, the centres, and the width σ of all features, which may be left open.
 
-    sigma: WidthField = Field(description="The width of all features, above 0.")
+    One of state and width may be left out: it is then to be found from features that are known.
+    """
+
+    sigma: WidthField | None = Field(default=None, description="The width of all features, above 0.")
+    logarithms: dict[int, Exact] = Field(
+        default={},
+        exclude_if=lambda known: not known,
+        description="The logarithms of the known features by the numbers of their centres: one without the width, two "
+        "without the state.",
+        examples=[{"1": "-1/2"}],
+    )
+    theta: tuple[Exact, ...] = Field(
+        default=(),
+        exclude_if=lambda theta: not theta,
+        description="The weights of the features, where the value of the state is asked for, too.",
+    )
 
     @model_validator(mode="after")
     def _wide(self) -> Self:
         if isinstance(self.sigma, Fraction) and self.sigma <= 0:
             raise ValueError(f"sigma: the width must be above 0, not {self.sigma}")
+        if self.sigma is None and self.position is None:
+            raise ValueError("give the width or the position; both cannot be found")
+        check_known(self.logarithms, self.centres, 2 if self.position is None else 1 if self.sigma is None else 0)
+        if self.position is None:
+            check_line(self.centres)
+            if isinstance(self.sigma, Parameter):
+                raise ValueError("sigma: the position can only be found where it is a number")
+        if not all(value < 0 for value in self.logarithms.values()):
+            raise ValueError("logarithms: a feature that tells how far away the state is lies between 0 and 1")
+        if self.theta and len(self.theta) != len(self.centres):
+            raise ValueError(f"theta: {len(self.centres)} features need as many weights, not {len(self.theta)}")
         return self
 
 
+#: Steps across and up to a centre in the plane, at whole distances and at others.
+_WHOLE_STEPS = ((0, 1), (0, 2), (0, 3), (3, 4))
+_OTHER_STEPS = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3))
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two centres on a line; then three in the plane at whole distances; then three, and σ left open."""
+    """Two centres on a line; then three, or the plane, or a value; then σ is open, or it or the state is found."""
+    if level == 3:
+        return rng.choice((_open, _width_sought, _state_sought))(rng)
     if level == 1:
         centred = draw_on_a_line(rng, rng.distinct(2, 1, 4))
+    elif rng.choice((True, False)):
+        centred = draw_on_a_line(rng, rng.distinct(3, 1, 4))
     else:
-        centred = draw_in_the_plane(rng, 3, 0) if level == 2 else draw_in_the_plane(rng, 1, 2)
-    sigma = Parameter("sigma") if level == 3 else rng.choice(((3, 4), (3, 5))[level - 1])
-    return Given(position=centred.position, centres=centred.centres, sigma=sigma)
+        centred = draw_in_the_plane(rng, rng.shuffled(_WHOLE_STEPS[:3])[: rng.choice((2, 3))])
+    valued = level == 2 and rng.choice((True, False))
+    return Given(
+        position=centred.position,
+        centres=centred.centres,
+        sigma=rng.whole(2, 3) if level == 1 else Fraction(3),
+        theta=tuple(rng.nonzero(-3, 5) for _ in centred.centres) if valued else (),
+    )
+
+
+def _open(rng: Draws) -> Given:
+    centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[:2]))
+    return Given(position=centred.position, centres=centred.centres, sigma=Parameter("sigma"))
+
+
+def _width_sought(rng: Draws) -> Given:
+    """One feature tells the width, and with it the others."""
+    sigma = rng.whole(4, 6)
+    if rng.choice((True, False)):
+        centred = draw_on_a_line(rng, rng.distinct(3, 1, 5))
+    else:
+        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((1, 2))]))
+    squares = [square(centred.position or (), centre) for centre in centred.centres]
+    number = rng.choice([n for n, far in enumerate(squares, 1) if far in (1, 4, 9, 16, 25)])
+    return Given(
+        position=centred.position, centres=centred.centres, logarithms={number: -squares[number - 1] / (2 * sigma**2)}
+    )
+
+
+def _state_sought(rng: Draws) -> Given:
+    """Two features tell the state, on one side of both centres or between them, and with it the third."""
+    sigma, far = rng.whole(4, 6), rng.distinct(3, 1, 6)
+    centred = draw_on_a_line(rng, far)
+    known = {number: -(far[number - 1] ** 2) / (2 * sigma**2) for number in rng.sample((1, 2, 3), 2)}
+    return Given(centres=centred.centres, sigma=sigma, logarithms=known)
 
 
 def question(given: Given) -> Question:
-    """The state and the centres; the features are asked for, in order."""
-    names = tuple(f"φ_{{{number}}}(s)" for number in range(1, len(given.centres) + 1))
-    width = (
-        f"The width ${shown(given.sigma)} > 0$ is left open."
-        if isinstance(given.sigma, Parameter)
-        else f"The width is $σ = {shown(given.sigma)}$."
-    )
+    """The centres with the state and the width, or known features in the place of one; what follows is asked for."""
+    width = "σ" if given.sigma is None or isinstance(given.sigma, Parameter) else f"σ = {shown(given.sigma)}"
+    known = [
+        f"{name} = exp({shown(value)})"
+        for name, value in zip(feature_names(given.logarithms), given.logarithms.values(), strict=True)
+    ]
     blocks = (
         place(given),
         centres_table(given.centres),
-        Paragraph(f"All features are Gaussian radial basis functions of the same width. {width}"),
+        Paragraph(
+            "All features are Gaussian radial basis functions of the Euclidean distance from their centres, with the "
+            f"value $1$ there and the standard deviation ${width}$."
+            + (" Here $σ > 0$ is left open." if isinstance(given.sigma, Parameter) else "")
+            + (f" It is known that ${'$ and $'.join(known)}$." if known else "")
+        ),
         *bumps(given, given.sigma, "gaussian"),
+        *value_block(given.theta),
     )
-    ask = f"What are the features ${', '.join(names)}$, in this order{in_open(given)}?"
-    return Question(blocks, (Part(ask, Numbers(names)),))
+    parts = [
+        *([Part("What is the standard deviation $σ$?", Number())] if given.sigma is None else []),
+        *([Part("What is the state $s$?", Number(), zero=True)] if given.position is None else []),
+        *(
+            [asked_features(given, given.logarithms, in_open(given))]
+            if len(given.logarithms) < len(given.centres)
+            else []
+        ),
+        *([Part(f"What is the value $V̂(s)${in_open(given)}?", Number(), zero=True)] if given.theta else []),
+    ]
+    return Question(blocks, tuple(parts))

@@ -1,12 +1,14 @@
 """Semi-gradient TD(0) or Sarsa: the weights of a linear value after one or more transitions."""
 
+from collections.abc import Iterator
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter, StepSize
+from rldrill.problems.exact import Discount, Exact, Parameter, StepSize, dot
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
 from rldrill.problems.models import Name, check_keys
@@ -17,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Semi-gradient TD"
 SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -67,16 +69,25 @@ class Given(Givens):
                 raise ValueError(f"trajectory: {action!r} is taken but has no block of weights")
 
 
+#: Weights at level 2: half an estimate is whole.
+_EVEN = (Fraction(-4), Fraction(-2), Fraction(2), Fraction(4))
+#: The states of a run at level 2, by their numbers, the last one terminal if it is None; the features of each; and
+#: whether it is Sarsa.
+_RUNS: tuple[tuple[tuple[int | None, ...], int, bool], ...] = (
+    ((0, 1, None), 3, False), ((0, 1, 0), 2, False), ((0, 1, 2), 2, False), ((0, 1), 2, True), ((0, 1), 3, True),
+)  # fmt: skip
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One step of TD(0); then two of them; then two of Sarsa, the step size left open."""
+    """One step of TD(0); then two of them, or one of Sarsa; then two of Sarsa, the step size left open."""
     setting = draw_setting(rng)
-    first, second = rng.shuffled(setting.states)[:2]
-    states = {1: (first, second), 2: (first, second, setting.terminal), 3: (first, second, first)}[level]
-    size = 3 if level == 2 else 2
-    choices = setting.actions[:2] if level == 3 else ()
+    order = rng.shuffled(setting.states)
+    visits, size, sarsa = {1: ((0, 1), 2, False), 3: ((0, 1, 0), 2, True)}.get(level) or rng.choice(_RUNS)
+    states = tuple(setting.terminal if visit is None else order[visit] for visit in visits)
+    choices = setting.actions[:2] if sarsa else ()
     named = [state for state in setting.states if state in states]
     habit = {state: rng.choice(choices) for state in named if choices}  # so the first step counts in the second
-    return Given(
+    given = Given(
         trajectory=Trajectory(
             states=states,
             actions=tuple(habit[state] for state in states if choices),
@@ -84,11 +95,42 @@ def draw(level: int, rng: Draws) -> Given:
             terminal=tuple(state for state in states if state == setting.terminal),
         ),
         features={state: tuple(rng.whole(0, 2) for _ in range(size)) for state in named},
-        theta=tuple(rng.nonzero(-3, 4) for _ in range(size * max(1, len(choices)))),
+        theta=tuple(
+            rng.choice(_EVEN) if level == 2 else rng.nonzero(-3, 4) for _ in range(size * max(1, len(choices)))
+        ),
         actions=choices,
-        alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/10"),
-        gamma=rng.fraction("1/2", "1/2", "1") if level != 2 else rng.fraction("1/2", "4/5", "9/10"),
+        alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/5" if len(states) == 2 else "1/2"),
+        gamma=rng.fraction("1/2", "1/2", "1"),
     )
+    return given if all(map(any, given.features.values())) and all(_matters(given)) else draw(level, rng)
+
+
+def _matters(given: Given) -> Iterator[Fraction]:
+    """The TD errors, and the estimates that γ stands with: none is 0, or something given would not count.
+
+    With the step size left open these are those of the first step only.
+    """
+    run, theta = given.trajectory, list(given.theta)
+    gamma = Fraction(1) if isinstance(given.gamma, Parameter) else given.gamma
+    size = len(theta) // max(1, len(given.actions))
+
+    def block(time: int) -> slice:
+        first = given.actions.index(run.actions[time]) * size if given.actions else 0
+        return slice(first, first + size)
+
+    def estimate(time: int) -> Fraction:
+        state = run.states[time]
+        return Fraction(0) if state in run.terminal else dot(theta[block(time)], given.features[state])
+
+    for time, reward in enumerate(run.rewards):
+        error = reward + gamma * estimate(time + 1) - estimate(time)
+        yield error
+        if run.states[time + 1] not in run.terminal:
+            yield estimate(time + 1)
+        if isinstance(given.alpha, Parameter):
+            return
+        rows = zip(theta[block(time)], given.features[run.states[time]], strict=True)
+        theta[block(time)] = [weight + given.alpha * error * feature for weight, feature in rows]
 
 
 def question(given: Given) -> Question:
@@ -107,21 +149,22 @@ def question(given: Given) -> Question:
         model = "Values are estimated as $V̂(s) = θ^⊤ φ(s)$, with these features:"
     ends: tuple[Block, ...] = ()
     if run.terminal:
-        ends = (Paragraph(f"The run ends in {run.states[-1]}, a terminal state, whose value is always $0$."),)
-    when = "after the transition" if steps == 1 else "after every transition, with the weights that are current then"
+        ends = (Paragraph(f"The episode ends in {run.states[-1]}, a terminal state, whose value is always $0$."),)
+    when = "after the transition" if steps == 1 else "after every transition"
     blocks = (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        Paragraph("An agent follows this trajectory (each reward stands at the time at which it is received):"),
         trajectory_table(run),
         *ends,
         Paragraph(model),
         features_table(given.features, what="s", of="φ", about="s"),
         Paragraph(
-            f"Before the run the weights are ${weights(given.theta)}$. {method} updates them {when}. "
+            f"At first the weights are ${weights(given.theta)}$. {method} updates them {when}. "
             f"{step_size(given.alpha)} {discount(given.gamma)}"
         ),
     )
     errors = tuple(f"δ_{{{time}}}" for time in range(steps))
     first = f"What {'is the TD error' if steps == 1 else 'are the TD errors'} ${', '.join(errors)}${in_open(given)}?"
-    second = f"What are the weights $θ$ after the run{in_open(given)}?"
+    learnt = "after the transition" if steps == 1 else "after the last transition"
+    second = f"What are the weights $θ$ {learnt}{in_open(given)}?"
     names = weight_names(range(size * max(1, len(given.actions))))
     return Question(blocks, (Part(first, Numbers(errors)), Part(second, Numbers(names))))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import NamedTuple, Self
+from typing import NamedTuple, Self, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -23,11 +23,12 @@ from rldrill.problems.models import (
 )
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.reversible import Reversible, letter_asked
+from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 1
+REVISION = 2
 
 _MOST = 200
 
@@ -39,10 +40,11 @@ class Episode(NamedTuple):
     transitions: tuple[Transition, ...]
 
 
-class Given(ModelAndPolicy):
+class Given(Reversible, ModelAndPolicy):
     """A start distribution, a model in which every episode ends soon, a policy and the discount.
 
-    Without a policy every action is equally probable.
+    Without a policy every action is equally probable. Where ``known`` is the expected return, the probability that is
+    left open is asked for.
     """
 
     start: OpenDistributionField = Field(min_length=1, description="The probability of every state to start in.")
@@ -84,40 +86,97 @@ class Given(ModelAndPolicy):
                         yield from self._onward(row.next, (*before, row))
 
 
+#: Branches: a state, an action and where it may lead, in numbers; 3 is the end.
+Tree: TypeAlias = tuple[tuple[int, int, tuple[int, ...]], ...]
+#: Small trees, and the states to start in.
+_TREES: tuple[tuple[Tree, tuple[int, ...]], ...] = (
+    (((0, 0, (1, 2)), (0, 1, (2, 3)), (1, 0, (3,)), (2, 0, (3,))), (0, 2)),
+    (((0, 0, (1, 3)), (1, 0, (2, 3)), (1, 1, (3,)), (2, 0, (3,))), (0, 1)),
+    (((0, 0, (1, 2)), (1, 0, (3,)), (1, 1, (2,)), (2, 0, (3,))), (0,)),
+    (((0, 0, (1,)), (0, 1, (2, 3)), (1, 0, (2, 3)), (2, 0, (3,))), (0, 1)),
+)
+_FIRST_TREE: tuple[Tree, tuple[int, ...]] = (((0, 0, (1,)), (0, 1, (3,)), (1, 0, (3,))), (0, 1))
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two starts and one action in each; then a choice of two actions; then its probability left open."""
+    """Two starts and a choice of two actions; then branches of chance; then a probability left open or asked for."""
     setting = draw_setting(rng)
-    first, second, third = setting.states[:3]
-    end = setting.terminal
-    denominators = (2,) if level == 1 else (2, 4, 5)
-    if level == 1:
-        branches = [(first, 0, (second, end)), (second, 0, (end,))]
-        starts = (first, second)
-    else:
-        branches = [(first, 0, (second, third)), (first, 1, (third, end)), (second, 0, (end,)), (third, 0, (end,))]
-        starts = (first, third) if level == 2 else (first, second)
-    rows = tuple(
-        Transition(state, setting.actions[action], after, chance, rng.nonzero(-4, 9))
-        for state, action, targets in branches
-        for after, chance in zip(
-            targets, rng.split(len(targets), denominators) if len(targets) > 1 else (Fraction(1),), strict=True
-        )
-    )
-    mdp = Model(story=setting.story, transitions=rows, terminal=(end,))
+    tree, starts = _FIRST_TREE if level == 1 else rng.choice(_TREES)
+    gamma = rng.fraction("1/2") if level == 1 else rng.fraction("1/2", "4/5")
+    given = _given(level, rng, setting, tree, starts, gamma)
+    while not _all_matters(given):
+        given = _given(level, rng, setting, tree, starts, gamma)
+    mdp = given.mdp
+    if level < 3:
+        return given
+    kind = rng.below(3)
+    if kind < 2 or len(starts) == 1:  # the policy left open, or asked for
+        known = None if kind == 0 else _expected(given)
+        return given.model_copy(update={"policy": _policy(mdp, (Parameter("p"), Parameter("1-p"))), "known": known})
+    opened = dict(zip(given.start, (Parameter("p"), Parameter("1-p")), strict=True))
+    return given.model_copy(update={"start": opened, "known": _expected(given)})
+
+
+def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[int, ...], gamma: Fraction) -> Given:
+    """Numbers for a tree; what is earned last is whole when it is discounted."""
+    named = (*setting.states[:3], setting.terminal)
+    quarters = level > 1 and rng.chance(Fraction(1, 2))
+    rows = []
+    for state, action, targets in tree:
+        chances = rng.split(len(targets), (4,) if quarters else (2,)) if len(targets) > 1 else (Fraction(1),)
+        unit = gamma if targets == (3,) else Fraction(1)
+        for target, chance in zip(targets, chances, strict=True):
+            reward = _reward(rng, unit)
+            rows.append(Transition(named[state], setting.actions[action], named[target], chance, reward))
+    mdp = Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,))
+    first = rng.split(len(starts), (2, 4)) if len(starts) > 1 else (Fraction(1),)
+    policy = _policy(mdp, rng.split(2, (2,) if quarters else (4,)))
     return Given(
-        start=dict(zip(starts, rng.split(2, (2, 4, 5)), strict=True)),
-        mdp=mdp,
-        policy=_policy(level, rng, mdp),
-        gamma=rng.fraction("1/2") if level == 1 else rng.fraction("1/2", "4/5", "9/10"),
+        start=dict(zip((named[place] for place in starts), first, strict=True)), mdp=mdp, policy=policy, gamma=gamma
     )
 
 
-def _policy(level: int, rng: Draws, mdp: Model) -> PolicyField:
-    chances: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p")) if level == 3 else rng.split(2, (2, 4, 5))
+def _reward(rng: Draws, factor: Fraction) -> Fraction:
+    return rng.fitting(-5, 10, lambda reward: (factor * reward).denominator == 1)
+
+
+def _all_matters(given: Given) -> bool:
+    """Whether no two starts are worth the same, nor two actions of a state, nor two branches of an action."""
+    gamma, ahead = Fraction(given.gamma), dict.fromkeys(given.mdp.terminal, Fraction(0))
+    for state, actions in reversed(given.mdp.actions.items()):
+        worth = {}
+        for action in actions:
+            rows = given.mdp.outcomes[state, action]
+            branches = [Fraction(row.reward) + gamma * ahead[row.next] for row in rows]
+            if len(set(branches)) < len(branches):
+                return False
+            worth[action] = sum((Fraction(r.probability) * b for r, b in zip(rows, branches, strict=True)), Fraction(0))
+        if len(set(worth.values())) < len(worth):
+            return False
+        ahead[state] = sum((Fraction(given.chances[state][a]) * value for a, value in worth.items()), Fraction(0))
+    undiscounted = given.model_copy(update={"gamma": Fraction(1)})
+    return len({ahead[state] for state in given.start}) == len(given.start) and _expected(given) != _expected(
+        undiscounted
+    )
+
+
+def _policy(mdp: Model, chances: tuple[Scalar, ...]) -> PolicyField:
     return {
         state: dict(zip(actions, chances if len(actions) > 1 else (Fraction(1),), strict=True))
         for state, actions in mdp.actions.items()
     }
+
+
+def _expected(given: Given) -> Fraction:
+    """The expected return where nothing is left open."""
+    total = Fraction(0)
+    for episode in given.episodes():
+        chance, earned = Fraction(given.start[episode.start]), Fraction(0)
+        for time, row in enumerate(episode.transitions):
+            chance *= Fraction(row.probability) * Fraction(given.chances[row.state][row.action])
+            earned += Fraction(given.gamma) ** time * Fraction(row.reward)
+        total += chance * earned
+    return total
 
 
 def question(given: Given) -> Question:
@@ -126,12 +185,15 @@ def question(given: Given) -> Question:
         start: list[Block] = [Paragraph(f"Every episode starts in {next(iter(given.start))}.")]
     else:
         start = [
-            Paragraph("An episode starts in one of these states, with these probabilities:"),
+            Paragraph("The start state $s_0$ of an episode has these probabilities:"),
             Table(
                 header=("$s$", *given.start),
                 rows=(("$Pr(s_0 = s)$", *(f"${shown(chance)}$" for chance in given.start.values())),),
             ),
         ]
     blocks = (*model_blocks(given.mdp), *start, *policy_blocks(given), Paragraph(discount(given.gamma)))
+    if given.known is not None:
+        told = Paragraph(f"The expected return is $𝔼_π(R_0) = {shown(given.known)}$.")
+        return Question((*blocks, told), (letter_asked(given),))
     ask = f"What is the expected return $𝔼_π(R_0)${in_open(given)}?"
     return Question(blocks, (Part(ask, Number()),))

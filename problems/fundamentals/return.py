@@ -1,28 +1,37 @@
 """The return of a finite sequence of rewards, from the start and from later times."""
 
-from pydantic import Field, model_validator
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Annotated
+
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discounts, Exact, Parameter, shown
+from rldrill.problems.exact import Discount, Discounts, Exact, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.parts import Number, Numbers, Part
+from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.runs import per_step
 
 TITLE = "Return"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 1
+REVISION = 2
+
+#: The two episodes that are compared.
+EPISODES = {"A": "the first", "B": "the second"}
 
 
-class Given(Givens):
+class Single(Reversible):
     """The rewards r_1 … r_T of an episode, the discount, and the time from which the return is asked.
 
     Without ``time`` the returns from all times are asked for. Instead of one discount there may be a list with one for
-    every step: the first multiplies all that comes after the first reward.
+    every step: the first multiplies all that comes after the first reward. Where ``known`` is the return from the
+    start, the reward or the discount that is left open is asked for.
     """
 
-    rewards: tuple[Exact, ...] = Field(
+    rewards: tuple[Open, ...] = Field(
         min_length=1, max_length=500, description="The rewards of the episode from the first, r_1, to the last."
     )
     gamma: Discounts
@@ -31,7 +40,7 @@ class Given(Givens):
     )
 
     @model_validator(mode="after")
-    def _inside(self) -> "Given":
+    def _inside(self) -> "Single":
         if self.time is not None and self.time >= len(self.rewards):
             raise ValueError(f"time is {self.time}, but the episode ends at {len(self.rewards)}")
         per_step(self.gamma, len(self.rewards))
@@ -39,23 +48,105 @@ class Given(Givens):
         return self
 
 
-def draw(level: int, rng: Draws) -> Given:
-    """Three or four rewards; then all returns; then an expression in γ."""
+class Compared(Givens):
+    """The rewards of two episodes, and their discount; one left open is asked for, so that both are equally good."""
+
+    rewards: tuple[Exact, ...] = Field(min_length=1, max_length=100, description="The rewards of the first episode.")
+    others: tuple[Exact, ...] = Field(min_length=1, max_length=100, description="The rewards of the second episode.")
+    gamma: Discount
+
+    @property
+    def sought(self) -> bool:
+        """Whether the discount at which both are equally good is asked for."""
+        return isinstance(self.gamma, Parameter)
+
+    def parameters(self) -> tuple[str, ...]:
+        """None that an answer may contain: a discount left open is asked for."""
+        return ()
+
+
+def _kind(given: object) -> str:
+    return "compared" if isinstance(given, dict) and "others" in given else "single"
+
+
+Given = Annotated[Annotated[Single, Tag("single")] | Annotated[Compared, Tag("compared")], Discriminator(_kind)]
+
+
+def draw(level: int, rng: Draws) -> Single | Compared:
+    """A return and the one from the start; all returns, or two episodes; then a letter left open or asked for."""
     if level == 1:
-        rewards = tuple(rng.nonzero(-2, 8) for _ in range(4))
-        return Given(rewards=rewards, gamma=rng.fraction("1/2", "1/3", "1/10"), time=1)
+        gamma = rng.fraction("1/2", "1/3")
+        return Single(rewards=_rewards(rng, 4, gamma), gamma=gamma, time=1)
+    gamma = rng.fraction("1/2", "2/3", "3/4", "4/5")
+    count = 5 if gamma.denominator < 4 else 4
+    kind = rng.below(4)
     if level == 2:
-        rewards = tuple(rng.nonzero(-4, 9) for _ in range(5))
-        return Given(rewards=rewards, gamma=rng.fraction("1/2", "1/3", "2/3", "9/10", "1/5"))
-    rewards = tuple(rng.nonzero(-4, 9) for _ in range(5))
-    return Given(rewards=rewards, gamma=Parameter("gamma"), time=rng.choice((1, 2)))
+        if kind == 0:
+            return _compared(rng, gamma, count)
+        return Single(rewards=_rewards(rng, count, gamma), gamma=gamma, time=rng.choice((None, 2)))
+    if kind == 0:
+        return _equally_good(rng)
+    if kind == 1:
+        rewards = tuple(rng.nonzero(-4, 9) for _ in range(4 + rng.below(2)))
+        return Single(rewards=rewards, gamma=Parameter("gamma"), time=rng.choice((1, 2)))
+    rewards = _rewards(rng, count, gamma)
+    hidden = 1 + rng.below(len(rewards) - 1)
+    seen: tuple[Scalar, ...] = (*rewards[:hidden], Parameter("x"), *rewards[hidden + 1 :])
+    return Single(rewards=seen, gamma=gamma, known=_total(rewards, gamma))
 
 
-def question(given: Given) -> Question:
-    """All returns as a vector, or one of them and then the return from the start."""
+def _rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
+    """Rewards whose returns are not 0, and whole at the end."""
+    rewards: tuple[Fraction, ...] = (gamma.denominator * rng.nonzero(-2, 3),)
+    for number in range(1, count):
+        multiple = gamma.denominator if number == 1 else 1
+        rewards = (_reward_before(rng, gamma * _total(rewards, gamma), multiple), *rewards)
+    return rewards
+
+
+def _reward_before(rng: Draws, after: Fraction, multiple: int) -> Fraction:
+    """A reward that makes a multiple of a number with what comes after it, where that is whole; but never 0."""
+    whole = multiple if after.denominator == 1 else Fraction(1, after.denominator)
+    return rng.fitting(-4, 9, lambda reward: reward + after != 0 and (reward + after) % whole == 0)
+
+
+def _total(rewards: Sequence[Fraction], gamma: Fraction) -> Fraction:
+    return sum((gamma**time * reward for time, reward in enumerate(rewards)), Fraction(0))
+
+
+def _compared(rng: Draws, gamma: Fraction, count: int) -> Compared:
+    """Two episodes; in half of them the one with the larger return has the smaller sum of rewards."""
+    deceives, swapped = (rng.chance(Fraction(1, 2)) for _ in range(2))
+    while True:
+        better, worse = _rewards(rng, count - 1, gamma), _rewards(rng, count - 2, gamma)
+        lead = _total(better, gamma) - _total(worse, gamma)
+        undiscounted = sum(better) - sum(worse)
+        if lead and undiscounted and (undiscounted * lead < 0) == deceives:
+            break
+    first, second = (better, worse) if (lead > 0) != swapped else (worse, better)
+    return Compared(rewards=first, others=second, gamma=gamma)
+
+
+def _equally_good(rng: Draws) -> Compared:
+    """Two episodes that pay the same at a discount between 0 and 1."""
+    gamma = rng.fraction("1/2", "1/3", "2/3", "1/4", "3/4", "2/5", "3/5", "4/5")
+    now, later = rng.nonzero(-2, 6), rng.nonzero(-3, 6)
+    times = rng.choice((1, 1, 2)) * rng.choice((1, -1))
+    first = (now + gamma.numerator * times, later)
+    return Compared(rewards=first, others=(now, later + gamma.denominator * times), gamma=Parameter("gamma"))
+
+
+def question(given: Single | Compared) -> Question:
+    """All returns as a vector, or one of them and then the return from the start; or two episodes to compare."""
+    if isinstance(given, Compared):
+        return _comparison(given)
     end = len(given.rewards)
-    rewards = ", ".join(f"r_{{{time + 1}}} = {shown(reward)}" for time, reward in enumerate(given.rewards))
-    blocks = (Paragraph(f"An episode earns the rewards ${rewards}$ and ends at $T = {end}$. {discount(given.gamma)}"),)
+    told = unknown(given, f"{_letter_told(given)}{discount(given.gamma)}")
+    if given.known is not None:
+        told += f" The return from the start is $R_0 = {shown(given.known)}$."
+    blocks = (Paragraph(f"An episode has the rewards ${_listed(given.rewards)}$ and ends at $T = {end}$. {told}"),)
+    if given.known is not None:
+        return Question(blocks, (letter_asked(given),))
     if given.time is None:
         entries = tuple(f"R_{{{time}}}" for time in range(end))
         ask = f"What are the returns $R_0, …, R_{{{end - 1}}}$, in this order{in_open(given)}?"
@@ -64,3 +155,37 @@ def question(given: Given) -> Question:
     if given.time:
         parts.append(Part(f"What is the return $R_0${in_open(given)}?", Number()))
     return Question(blocks, tuple(parts))
+
+
+def _letter_told(given: Single) -> str:
+    hidden = next((reward for reward in given.rewards if isinstance(reward, Parameter)), None)
+    return f"The reward ${shown(hidden)}$ is left open. " if hidden else ""
+
+
+def _listed(rewards: Sequence[Scalar]) -> str:
+    return ", ".join(f"r_{{{time}}} = {shown(reward)}" for time, reward in enumerate(rewards, 1))
+
+
+def _comparison(given: Compared) -> Question:
+    told = "$γ$ is the discount of both." if given.sought else f"The discount of both is $γ = {shown(given.gamma)}$."
+    blocks = (
+        Paragraph(
+            f"An episode has the rewards ${_listed(given.rewards)}$. A second one has the rewards "
+            f"${_listed(given.others)}$. Each ends after its last reward. {told}"
+        ),
+    )
+    if given.sought:
+        return Question(
+            blocks,
+            (
+                Part("For which discount $γ$ do both have the same return $R_0$?", Number()),
+                Part("Which of them has the larger return $R_0$ if $γ$ is larger than that?", Choice(EPISODES)),
+            ),
+        )
+    return Question(
+        blocks,
+        (
+            Part("What is the return $R_0$ of the first and of the second, in this order?", Numbers(("R_0", "R_0′"))),
+            Part("Which of them would have the larger return if nothing were discounted ($γ = 1$)?", Choice(EPISODES)),
+        ),
+    )

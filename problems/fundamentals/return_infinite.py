@@ -2,27 +2,31 @@
 
 from fractions import Fraction
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter, Scalar, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import Discount, Open, Parameter, Scalar, shown
+from rldrill.problems.family import Question
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 1
+REVISION = 2
 
 
-class Given(Givens):
-    """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount."""
+class Given(Reversible):
+    """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount.
 
-    first: tuple[Exact, ...] = Field(
+    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for.
+    """
+
+    first: tuple[Open, ...] = Field(
         default=(), max_length=200, description="The rewards that come once, before the others."
     )
-    repeated: tuple[Exact, ...] = Field(
+    repeated: tuple[Open, ...] = Field(
         min_length=1, max_length=60, description="The rewards that come round and round after them."
     )
     gamma: Discount
@@ -34,14 +38,55 @@ class Given(Givens):
             raise ValueError("must be below 1, or rewards without an end have no sum")
         return gamma
 
+    @model_validator(mode="after")
+    def _one_open(self) -> "Given":
+        check_one_open(self)
+        return self
+
 
 def draw(level: int, rng: Draws) -> Given:
-    """One reward and then a constant; then two and a round of two; then the same with γ left open."""
-    first = tuple(rng.nonzero(-4, 9) for _ in range(min(level, 2)))
-    repeated = tuple(rng.nonzero(-4, 9) for _ in range(min(level, 2)))
-    if level == 3:
-        return Given(first=first, repeated=repeated, gamma=Parameter("gamma"))
-    return Given(first=first, repeated=repeated, gamma=rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5", "9/10"))
+    """One reward and then a constant; then rounds of two or three; then a letter left open or asked for."""
+    if level == 1:
+        gamma = rng.fraction("1/2", "1/3", "2/3", "3/4")
+        return Given(first=(rng.nonzero(-4, 9),), repeated=(rng.nonzero(-4, 9),), gamma=gamma)
+    gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
+    if level == 2:
+        length = rng.choice((2, 2, 3)) if gamma == Fraction(1, 2) else 2
+        first = _first(rng, rng.below(3))
+        unit = Fraction(1, gamma.denominator if len(first) < 2 else 1)
+        return Given(first=first, repeated=_round(rng, length, gamma, unit), gamma=gamma)
+    kind = rng.below(3)
+    if kind == 0:
+        return Given(first=_first(rng, 1 + rng.below(2)), repeated=_first(rng, 2), gamma=Parameter("gamma"))
+    if kind == 1:
+        opening, always = rng.distinct(2, 1, 9)
+        known = opening + gamma * always / (1 - gamma)
+        return Given(first=(opening,), repeated=(always,), gamma=Parameter("gamma"), known=known)
+    first, (one, other) = _first(rng, rng.below(2)), _round(rng, 2, gamma)
+    known = _from_start((*first, one, other), len(first), gamma)
+    hidden = (Parameter("x"), other) if rng.chance(Fraction(1, 2)) else (one, Parameter("x"))
+    return Given(first=first, repeated=hidden, gamma=gamma, known=known)
+
+
+def _first(rng: Draws, count: int) -> tuple[Fraction, ...]:
+    return tuple(rng.nonzero(-4, 9) for _ in range(count))
+
+
+def _round(rng: Draws, length: int, gamma: Fraction, unit: Fraction = Fraction(1)) -> tuple[Fraction, ...]:
+    """Rewards of a round, not all equal, whose return is a multiple of the unit."""
+    opening = _first(rng, length - 1)
+
+    def fits(last: Fraction) -> bool:
+        worth = _from_start((*opening, last), 0, gamma)
+        return worth != 0 and worth % unit == 0 and last != opening[0]
+
+    return (*opening, rng.fitting(-9, 12, fits))
+
+
+def _from_start(rewards: tuple[Fraction, ...], first: int, gamma: Fraction) -> Fraction:
+    """The return of rewards that come again and again after the first ones."""
+    worth = [gamma**time * reward for time, reward in enumerate(rewards)]
+    return sum(worth[:first], Fraction(0)) + sum(worth[first:], Fraction(0)) / (1 - gamma ** (len(rewards) - first))
 
 
 def question(given: Given) -> Question:
@@ -56,10 +101,14 @@ def question(given: Given) -> Question:
         told = f"{since}, every reward is ${shown(given.repeated[0])}$."
     else:
         round_ = ", ".join(shown(reward) for reward in given.repeated)
-        told = f"{since}, the rewards are ${round_}$, and again ${round_}$, and so on for ever."
+        told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
     limits = " It is at least $0$ and below $1$." if isinstance(given.gamma, Parameter) else ""
-    blocks = (Paragraph(f"{opening}{told} {discount(given.gamma)}{limits}"),)
+    letter = "The reward $x$ is left open. " if "x" in given.letters else ""
+    more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
+    if given.known is not None:
+        more += f" The return from the start is $R_0 = {shown(given.known)}$."
+        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given),))
     parts = [Part(f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
     if k:
         parts.append(Part(f"What is the return $R_{{0}}${in_open(given)}?", Number()))
-    return Question(blocks, tuple(parts))
+    return Question((Paragraph(f"{opening}{told} {more}"),), tuple(parts))

@@ -1,20 +1,23 @@
 """Apprenticeship learning by projection: distances, projected points and the weights of the next reward."""
 
+from collections.abc import Sequence
 from fractions import Fraction
+from math import gcd, isqrt
 from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
-from rldrill.problems.parts import Number, Numbers, Part
+from rldrill.problems.models import Name
+from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 2
+REVISION = 3
 
 Mu = tuple[Fraction, ...]
 
@@ -28,10 +31,20 @@ class Given(Givens):
         min_length=1, max_length=8, description="The feature expectations of the policies after it, in their order."
     )
 
+    tolerance: Exact | None = Field(
+        default=None, gt=0, description="The distance at which the algorithm stops; asks whether it does."
+    )
+    candidates: dict[Name, tuple[Exact, ...]] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=8,
+        description="Policies of which the best for the last weights comes next; asks for it, and projects.",
+    )
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
         later = {f"policy {number}": mu for number, mu in enumerate(self.policies, 1)}
-        check_lengths({"expert": self.expert, "first": self.first} | later, "features")
+        check_lengths({"expert": self.expert, "first": self.first} | later | (self.candidates or {}), "features")
         point = self.first
         for number, mu in enumerate(self.policies, 1):
             if mu == point:
@@ -44,23 +57,92 @@ class Given(Givens):
         return self
 
 
+#: The denominator and the numerator of the share of the way that a projection goes.
+_SHARES = ((2, 1), (3, 1), (3, 2), (4, 1), (4, 3), (5, 2), (5, 3))
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One projection of two features; one of three; two of two features."""
-    size = 3 if level == 2 else 2
-    expert, first = _vector(rng, size), _vector(rng, size)
-    point, policies = first, []
-    for _ in range(2 if level == 3 else 1):
-        found = _beyond(rng, point, expert, 5 if level == 3 else 100)
-        if found is None:
-            return draw(level, rng)
-        mu, share = found
-        policies.append(mu)
-        point = tuple(here + share * (there - here) for here, there in zip(point, mu, strict=True))
-    return Given(expert=expert, first=first, policies=tuple(policies))
+    """One projection of two features; of two or three, or whether it stops; then the next policy and its projection."""
+    if level == 3:
+        return _two_steps(rng)
+    size = 2 if level == 1 else rng.choice((2, 3))
+    way, (whole, share) = _direction(rng, size), rng.choice(_SHARES)
+    rest = _across(rng, way)
+    far = dot(rest, rest)
+    if not 0 < far <= share * (whole - share) * dot(way, way):  # the policy would be worse than the expert
+        return draw(level, rng)
+    points = [(Fraction(0),) * size, _scaled(whole, way), _sum(_scaled(share, way), rest)]
+    first, policy, expert = _placed(rng, points)
+    given = Given(expert=expert, first=first, policies=(policy,))
+    if level == 2 and rng.chance(Fraction(2, 3)):
+        return given.model_copy(update={"tolerance": _limit(rng, far)})
+    return given
 
 
-def _vector(rng: Draws, size: int) -> Mu:
-    return tuple(rng.whole(0, 6) for _ in range(size))
+def _limit(rng: Draws, far: Fraction) -> Fraction:
+    """A number at or above the root of a square, or one below it, as often the one as the other."""
+    root = isqrt(int(far))
+    if rng.chance(Fraction(1, 2)):
+        return Fraction(root if root * root == far else root + 1)
+    below = root - 1 if root * root == far else root
+    return Fraction(below) if below else Fraction(1, 2)
+
+
+def _two_steps(rng: Draws) -> Given:
+    """Two projections in the plane; the second policy is the best of some for the weights after the first."""
+    second, (whole, share) = _direction(rng, 2), rng.choice(_SHARES)
+    turn = rng.nonzero(-2, 2)
+    weights = _sum(_scaled(share, second), _scaled(turn, (-second[1], second[0])))
+    common = gcd(*map(int, weights))
+    way = (weights[1] / (common or 1), -weights[0] / (common or 1))
+    whole_1, share_1 = rng.choice(_SHARES)
+    if turn**2 > share * (whole - share) or 0 in weights or common**2 > share_1 * (whole_1 - share_1):
+        return _two_steps(rng)
+    foot = _scaled(share_1, way)
+    best = _sum(foot, _scaled(whole, second))
+    others = [tuple(rng.whole(int(x) - 4, int(x) + 4) for x in best) for _ in range(2)]
+    if any(dot(weights, other) >= dot(weights, best) for other in others) or len({best, *others}) <= len(others):
+        return _two_steps(rng)
+    points = [(Fraction(0),) * 2, _scaled(whole_1, way), _sum(foot, weights)]
+    if rng.chance(Fraction(2, 3)):
+        first, policy, expert, *candidates = _placed(rng, [*points, *rng.shuffled([best, *others])])
+        given = Given(
+            expert=expert, first=first, policies=(policy,), candidates=dict(zip("ABC", candidates, strict=True))
+        )
+    else:
+        first, policy, expert, following = _placed(rng, [*points, best])
+        given = Given(expert=expert, first=first, policies=(policy, following))
+    left = turn**2 * dot(second, second)
+    return given.model_copy(update={"tolerance": _limit(rng, left)}) if rng.chance(Fraction(1, 2)) else given
+
+
+def _placed(rng: Draws, points: Sequence[Mu]) -> list[Mu]:
+    """Points moved to where no component is negative."""
+    lows = [min(column) - rng.whole(0, 2) for column in zip(*points, strict=True)]
+    return [tuple(value - low for value, low in zip(point, lows, strict=True)) for point in points]
+
+
+def _direction(rng: Draws, size: int) -> Mu:
+    return tuple(rng.nonzero(-2, 2) for _ in range(size))
+
+
+def _across(rng: Draws, way: Mu) -> Mu:
+    """A whole vector at right angles to a way."""
+    if len(way) == 2:
+        return _scaled(rng.nonzero(-2, 2), (-way[1], way[0]))
+    while True:
+        one, two = rng.whole(-2, 2), rng.whole(-2, 2)
+        last = -(one * way[0] + two * way[1]) / way[2]
+        if last.denominator == 1 and (one or two):
+            return one, two, last
+
+
+def _scaled(by: Fraction | int, vector: Mu) -> Mu:
+    return tuple(by * value for value in vector)
+
+
+def _sum(first: Mu, second: Mu) -> Mu:
+    return tuple(one + two for one, two in zip(first, second, strict=True))
 
 
 def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
@@ -71,28 +153,15 @@ def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
     return along, dot(way, way)
 
 
-def _beyond(rng: Draws, point: Mu, expert: Mu, finest: int) -> tuple[Mu, Fraction] | None:
-    """A policy as the algorithm finds it: at least as good as the expert for the weights, so not short of it.
-
-    The projection then lies between the point and the policy; also returned is where, as a share of the way, whose
-    denominator is at most ``finest``. None where no small policy will do.
-    """
-    for _ in range(16):
-        mu = _vector(rng, len(point))
-        along, far = _shares(point, mu, expert)
-        _, goal = _shares(point, expert, expert)
-        beside = along**2 < goal * far  # or the expert would be on the line, and be met
-        if beside and goal <= along < far and (along / far).denominator <= finest:
-            return mu, along / far
-    return None
-
-
 def question(given: Given) -> Question:
     """The vectors; a distance, then projection and weights policy by policy, then the distance left."""
     count, size = len(given.policies), len(given.expert)
     named = (("μ(π_E)", given.expert), *((f"μ(π_{{{n}}})", mu) for n, mu in enumerate((given.first, *given.policies))))
     blocks = (
-        Paragraph("An apprentice wants the feature expectations of the expert's policy $π_E$. So far there are:"),
+        Paragraph(
+            "Apprenticeship learning looks for a policy with the expert's feature expectations $μ(π_E)$. These are "
+            "known:"
+        ),
         Table(
             header=("", *(f"component ${index}$" for index in range(1, size + 1))),
             rows=tuple((f"${name}$", *(f"${shown(value)}$" for value in mu)) for name, mu in named),
@@ -103,11 +172,28 @@ def question(given: Given) -> Question:
             "are then $w = μ(π_E) − μ̄$."
         ),
     )
-    parts = [Part("What is the distance $‖μ(π_1) − μ(π_E)‖$ (Euclidean)?", Number())]
+    point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
+    weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
+    parts = [Part("What is the Euclidean distance $‖μ(π_1) − μ(π_E)‖$?", Number())] if not given.candidates else []
     for number in range(1, count + 1):
-        point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
-        weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
-        parts.append(Part(f"Where is $μ̄$ after $π_{{{number}}}$?", point, 2))
+        parts.append(Part(f"What is $μ̄$ after $π_{number}$?", point))
         parts.append(Part("What are the weights $w$ then?", weights, zero=True))
-    parts.append(Part(f"What is the distance $‖w‖$ that is left after $π_{{{count}}}$?", Number()))
-    return Question(blocks, tuple(parts))
+    if given.candidates:
+        options = dict(zip(given.candidates, given.candidates, strict=True))
+        parts.append(Part(f"Which of these policies is $π_{count + 1}$?", Choice(options)))
+        parts.append(Part(f"What is $μ̄$ after $π_{count + 1}$?", point))
+    last = count + bool(given.candidates)
+    parts.append(Part(f"What distance $‖w‖$ to the expert is left after $π_{last}$?", Number()))
+    if given.tolerance is not None:
+        parts.append(Part(f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$. Does it stop now?", YesNo()))
+    return Question((*blocks, *_candidates(given)), tuple(parts))
+
+
+def _candidates(given: Given) -> tuple[Block, ...]:
+    if not given.candidates:
+        return ()
+    number = len(given.policies) + 1
+    told = f"The next policy $π_{number}$ is that with the greatest $w^⊤ μ(π)$ for the last weights. There are:"
+    header = ("", *(f"component ${index}$" for index in range(1, len(given.expert) + 1)))
+    rows = tuple((name, *(f"${shown(value)}$" for value in mu)) for name, mu in given.candidates.items())
+    return Paragraph(told), Table(header=header, rows=rows)

@@ -1,23 +1,25 @@
 """The feature expectations of a policy, estimated from trajectories that were recorded."""
 
+from collections.abc import Mapping
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Parameter
+from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Numbers, Part
+from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Feature expectations from trajectories"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -28,9 +30,14 @@ class Given(Givens):
         min_length=1, max_length=50, description="The trajectories, each as the list of its states."
     )
     gamma: Discount
+    estimate: Exact | None = Field(
+        default=None, description="The estimate for the first feature, from which gamma follows, which is left open."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.estimate is not None and (not super().parameters() or self.size < 2):
+            raise ValueError("estimate: leave gamma open, for it is asked for, and give two features at least")
         if not all(self.trajectories):
             raise ValueError("trajectories: one of them has no states")
         check_features(self.features, self.features)
@@ -40,16 +47,67 @@ class Given(Givens):
                 raise ValueError(f"features: {state!r} is visited, but its features are missing")
         return self
 
+    @property
+    def size(self) -> int:
+        """How many features there are."""
+        return len(next(iter(self.features.values())))
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none where the discount is asked for."""
+        return () if self.estimate is not None else super().parameters()
+
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two short trajectories; three longer ones; two with the discount left open."""
+    """Two short trajectories; two to four longer ones; the discount left open, or asked for."""
     setting = draw_setting(rng)
     states = setting.states[: 2 if level == 1 else 3]
-    count, length = {1: (2, 3), 2: (3, 4), 3: (2, 5)}[level]
+    count, length = {1: (2, 3), 2: rng.choice(((2, 4), (4, 3), (3, 3))), 3: rng.choice(((2, 3), (2, 4)))}[level]
+    if level == 3 and rng.chance(Fraction(2, 3)):
+        return _back(rng, states)
+    while True:
+        runs = _distinct_runs(rng, states, count, length)
+        features = draw_features(rng, states, 2, 4)
+        if {state for run in runs for state in run} == set(states) and _different(runs, features):
+            break
     return Given(
-        features=draw_features(rng, states, 2, 4),
-        trajectories=tuple(_distinct_runs(rng, states, count, length)),
-        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/3", "1/10"),
+        features=features,
+        trajectories=tuple(runs),
+        gamma=Parameter("gamma") if level == 3 else Fraction(1, 2),
+    )
+
+
+def _different(runs: list[tuple[str, ...]], features: Mapping[str, tuple[Fraction, ...]]) -> bool:
+    """Whether no trajectory has the mean of all, with γ = 1/2: then it would not matter."""
+    sums = [
+        tuple(
+            dot([Fraction(1, 2**time) for time in range(len(run))], column)
+            for column in zip(*(features[s] for s in run), strict=True)
+        )
+        for run in runs
+    ]
+    mean = tuple(sum(column) / len(runs) for column in zip(*sums, strict=True))
+    return mean not in sums
+
+
+def _back(rng: Draws, states: tuple[str, ...]) -> Given:
+    """Trajectories of at most two states, so that γ follows from the estimate for a feature."""
+    count = rng.choice((2, 3, 4))
+    runs = [run[: 1 + (index > 0 or rng.chance(Fraction(1, 2)))]
+            for index, run in enumerate(_distinct_runs(rng, states, count, 2))]  # fmt: skip
+    features = draw_features(rng, states, 2, 4)
+    gamma = rng.fraction("1/2", "1/3", "2/3", "1/4", "3/4", "2/5", "4/5")
+    first, later = (sum((features[run[time]][0] for run in runs if len(run) > time), Fraction(0)) for time in (0, 1))
+    if (
+        {state for run in runs for state in run} != set(states)
+        or not later
+        or not any(features[r[1]][1] for r in runs[1:])
+    ):
+        return _back(rng, states)
+    return Given(
+        features=features,
+        trajectories=tuple(runs),
+        gamma=Parameter("gamma"),
+        estimate=(first + gamma * later) / count,
     )
 
 
@@ -70,12 +128,20 @@ def question(given: Given) -> Question:
         for number, trajectory in enumerate(given.trajectories, 1)
     )
     blocks = (
-        Paragraph("Every state has a vector $φ(s)$ of features:"),
+        Paragraph("Each state has a feature vector $φ(s)$:"),
         features_table(given.features, "s", "φ", "s"),
-        Paragraph("These trajectories of an expert were recorded; nothing counts after the last state of each:"),
+        Paragraph("An expert was recorded on these trajectories; nothing counts after the last state of each:"),
         Table(header=("trajectory", *(f"$s_{{{time}}}$" for time in range(longest))), rows=rows),
         Paragraph(discount(given.gamma)),
     )
-    size = len(next(iter(given.features.values())))
-    ask = f"Which estimate of the feature expectations $μ(π)$ of the expert's policy do they give{in_open(given)}?"
-    return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, size + 1)))),))
+    if given.estimate is not None:
+        told = f"They give the estimate $μ_1(π) = {shown(given.estimate)}$ for the expert's policy."
+        others = tuple(f"μ_{{{index}}}" for index in range(2, given.size + 1))
+        rest = (
+            Part("What is the estimate of $μ_2(π)$ then?", Number())
+            if given.size == 2
+            else Part("What are the estimates for the other features then, in their order?", Numbers(others))
+        )
+        return Question(blocks, (Part(f"{told} What is the discount $γ$?", Number()), rest))
+    ask = f"What estimate of the feature expectations $μ(π)$ of the expert's policy do they give{in_open(given)}?"
+    return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, given.size + 1)))),))

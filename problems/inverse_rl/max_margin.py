@@ -1,5 +1,6 @@
 """Which max-margin constraints hold for given weights, and the smallest slack with which all do."""
 
+from fractions import Fraction
 from string import digits
 from typing import Self
 
@@ -7,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, dot, shown
+from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.models import Name
@@ -15,7 +16,7 @@ from rldrill.problems.parts import Number, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 2
+REVISION = 3
 
 EXPERT = "expert"
 _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
@@ -37,7 +38,9 @@ class Rival(Givens):
 class Given(Givens):
     """The weights of the reward, the expert's feature expectations, and the other policies."""
 
-    w: tuple[Exact, ...] = Field(description="The weights of the reward.")
+    w: tuple[Open, ...] = Field(
+        description="The weights of the reward; one may be left open, and is asked for.", examples=[["x", 2]]
+    )
     expert: tuple[Exact, ...] = Field(description="The expert's feature expectations.")
     policies: dict[Name, Rival] = Field(min_length=1, max_length=20, description="The other policies by their names.")
 
@@ -48,29 +51,82 @@ class Given(Givens):
         check_lengths(
             {"w": self.w, EXPERT: self.expert} | {name: rival.mu for name, rival in self.policies.items()}, "features"
         )
+        if len(super().parameters()) > 1 or len([weight for weight in self.w if isinstance(weight, Parameter)]) > 1:
+            raise ValueError("w: leave one weight open at most")
+        if self.asked_for:
+            place = self.w.index(self.asked_for)
+            for name, rival in self.policies.items():
+                if rival.mu[place] >= self.expert[place]:
+                    raise ValueError(
+                        f"policies: {name!r} must have less of the feature whose weight is left open than the expert, "
+                        "or its constraint does not hold from some weight on"
+                    )
         return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none, for a weight that is left open is asked for."""
+        return ()
+
+    @property
+    def asked_for(self) -> Parameter | None:
+        """The weight that is left open."""
+        return next((weight for weight in self.w if isinstance(weight, Parameter)), None)
+
+    @property
+    def missing(self) -> dict[str, Fraction]:
+        """By how much every constraint is violated without slack; negative where it holds."""
+        weights = [weight for weight in self.w if isinstance(weight, Fraction)]
+        worth = dot(weights, self.expert)
+        return {name: dot(weights, rival.mu) + rival.margin - worth for name, rival in self.policies.items()}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two policies and two features; three policies; four policies and three features."""
-    size = 3 if level == 3 else 2
-    w = tuple(rng.nonzero(-2, 3) for _ in range(size))
-    expert = tuple(rng.whole(1, 6) for _ in range(size))
-    policies = {}
-    for number in range(1, level + 2):
-        mu = tuple(rng.whole(0, 6) for _ in range(size))
-        policies[f"π{str(number).translate(_LOW)}"] = Rival(mu=mu, margin=rng.whole(1, 6))
-    worth = dot(w, expert)
-    needed = [dot(w, rival.mu) + rival.margin for rival in policies.values()]
-    if worth in needed or worth < min(needed):  # a tie, or no constraint holds
-        return draw(level, rng)
-    return Given(w=w, expert=expert, policies=policies)
+    """Two policies and two features; two or three of each; the weight from which on all constraints hold."""
+    size, count = (2, 2) if level == 1 else (rng.choice((2, 3)), rng.choice((2, 3)))
+    holding = rng.chance(Fraction(1, 4))
+    while True:
+        w = tuple(rng.nonzero(-2, 3) for _ in range(size))
+        expert = tuple(rng.whole(1, 6) for _ in range(size))
+        policies = {
+            f"π{str(number).translate(_LOW)}": Rival(
+                mu=tuple(rng.whole(0, 6) for _ in range(size)), margin=rng.whole(1, 6)
+            )
+            for number in range(1, count + 1)
+        }
+        given = Given(w=w, expert=expert, policies=policies)
+        missing = given.missing.values()
+        if level == 3:
+            opened = _opened(rng, given)
+            if opened:
+                return opened
+        elif 0 not in missing and len(set(missing)) == count and (max(missing) < 0) == holding:
+            return given
+
+
+def _opened(rng: Draws, given: Given) -> Given | None:
+    """The same with one weight left open, if each constraint holds from another readable weight on."""
+    place = rng.below(len(given.w))
+    if any(rival.mu[place] >= given.expert[place] for rival in given.policies.values()):
+        return None
+    drawn = [weight for weight in given.w if isinstance(weight, Fraction)][place]
+    least = {
+        drawn + Fraction(missing, given.expert[place] - given.policies[name].mu[place])
+        for name, missing in given.missing.items()
+    }
+    weighed = all(
+        any(rival.mu[index] != value for rival in given.policies.values()) for index, value in enumerate(given.expert)
+    )
+    if not weighed or 0 in least or len(least) < len(given.policies) or any(value.denominator > 4 for value in least):
+        return None
+    w = tuple(Parameter("x") if index == place else weight for index, weight in enumerate(given.w))
+    return given.model_copy(update={"w": w})
 
 
 def question(given: Given) -> Question:
     """The vectors and margins; values, then how many constraints hold, then the slack."""
     components = range(1, len(given.w) + 1)
     weights = ", ".join(f"w_{{{index}}} = {shown(weight)}" for index, weight in zip(components, given.w, strict=True))
+    opened = f", where ${shown(given.asked_for)}$ is left open" if given.asked_for else ""
     rows = (
         ("$π_E$ (expert)", *(f"${shown(value)}$" for value in given.expert), "–"),
         *(
@@ -79,21 +135,34 @@ def question(given: Given) -> Question:
         ),
     )
     blocks = (
-        Paragraph("For the reward $w^⊤ φ(s)$ an expert's policy $π_E$ is to be better than all these others:"),
+        Paragraph(
+            "With the reward $w^⊤ φ(s)$ the expert's policy $π_E$ has to be better than these other policies, with a "
+            "margin $m$:"
+        ),
         Table(
             header=("$π$", *(f"$μ_{{{index}}}(π)$" for index in components), "$m(π_E, π)$"),
             rows=rows,
         ),
         Paragraph(
-            f"The weights are ${weights}$. The constraints are $w^⊤ μ(π_E) ≥ w^⊤ μ(π) + m(π_E, π) − ξ$, "
+            f"The weights are ${weights}${opened}. The constraints are $w^⊤ μ(π_E) ≥ w^⊤ μ(π) + m(π_E, π) − ξ$, "
             "one for every other policy $π$, with the same slack $ξ ≥ 0$ in all of them."
         ),
     )
+    if given.asked_for:
+        letter = shown(given.asked_for)
+        equal = f"For which ${letter}$ does each of the constraints hold with equality if $ξ = 0$?"
+        return Question(
+            blocks,
+            (
+                Part(equal, Values(letter, tuple(given.policies)), zero=True),
+                Part(f"From which ${letter}$ on do all of them hold with $ξ = 0$?", Number(), zero=True),
+            ),
+        )
     return Question(
         blocks,
         (
-            Part("What is $w^⊤ μ(π)$ of every policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
+            Part("What is the value $w^⊤ μ(π)$ of each policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
             Part("How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
-            Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), 2, zero=True),
+            Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), zero=True),
         ),
     )

@@ -120,6 +120,9 @@ def question(given: Given) -> Question:
         ]  # fmt: skip
     wanted.append((f"What is the best first action ${u}_0$", Matrix(m, 1)))
     blocks = _plain(given) if given.plain and not in_costs else _costs(given)
+    if len(given.asked) < given.horizon:
+        first = f"Only the first {len(given.asked)} of the {given.horizon} times are asked for"
+        blocks = (*blocks, Paragraph(f"{first}; the recursion begins at the horizon all the same."))
     parts = [Part(ask + in_open(given) + "?", kind, zero=n > 1) for ask, kind in wanted]
     if given.action is not None:
         told = f"The best first action is ${u}_0 = {shown(given.action)}$. What is the price $ρ$ of the action?"

@@ -66,8 +66,8 @@ class Given(Conventional):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        n, m = len(self.A), len(self.B[0]) if self.B else 0
-        if not 1 <= n <= _LARGEST:
+        n, m = len(self.A), len(self.B[0])
+        if n > _LARGEST:
             raise ValueError(f"A has {n} rows; {_LARGEST} are the most")
         where = f"with A {n}×{n} and {m} actions "
         for name, matrix, rows, columns in (

@@ -5,7 +5,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, Weight, shown
 from rldrill.problems.family import Question
@@ -19,7 +19,7 @@ from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_poli
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 1
+REVISION = 2
 
 
 class Given(SoftmaxRun):
@@ -55,10 +55,13 @@ def draw(level: int, rng: Draws) -> Given:
         trajectory=draw_run(rng, states, actions, setting.terminal),
         theta=theta,
         features=features,
-        values={state: rng.nonzero(-3, 8) for state in _in_order(setting, states)},
+        values={
+            state: 2 * rng.nonzero(-2, 4) if level == 2 and state == second else rng.nonzero(-3, 8)
+            for state in _in_order(setting, states)
+        },
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/5", "1/10"),
-        beta=rng.fraction("1/2", "1/4", "1/3") if level > 1 else rng.fraction("1", "1/4"),
-        gamma=rng.fraction("1/2", "1/2", "4/5") if level > 1 else rng.fraction("1/2", "1"),
+        beta=rng.fraction("1/2", "1/4", "1/3" if level == 3 else "1/2") if level > 1 else rng.fraction("1", "1/4"),
+        gamma=rng.fraction("1/2", "1/2", "4/5") if level == 3 else rng.fraction("1/2", "1"),
     )
 
 
@@ -91,26 +94,30 @@ def question(given: Given) -> Question:
     several = steps > 1
     pace = step_size(given.alpha).replace("The step size", "The critic's step size")
     learning = (
-        "After every transition the critic and the actor both learn from the same TD error $δ_t$, which is worked out "
-        "first, with the values that are current then; the actor's score uses the weights that are current then."
+        "After every transition the TD error $δ_t$ is computed from the current values; then the critic and the actor "
+        "are both updated with it. The actor's score is that of its current weights."
         if several
-        else "After the transition the critic and the actor both learn from the same TD error $δ_0$, which is worked "
-        "out before either of them changes."
+        else "After the transition the TD error $δ_0$ is computed; then critic and actor are both updated with it."
     )
     blocks = (
-        Paragraph("An actor-critic agent was seen to do this (a reward stands at the time at which it is received):"),
+        Paragraph(
+            "An actor-critic agent follows this trajectory (each reward stands at the time at which it is received):"
+        ),
         trajectory_table(run),
         *terminal_note(run.terminal),
-        Paragraph("The critic's values before it are:"),
+        Paragraph("Before it the critic's values are:"),
         values_table(given.values),
         *policy_blocks(given.features, given.theta),
         Paragraph(
-            f"{learning} {pace} The actor's is $β = {shown(given.beta)}$, and its step has no further factor $γ^t$. "
+            f"{learning} {pace} The actor's is $β = {shown(given.beta)}$; its step has no further factor $γ^t$. "
             f"{discount(given.gamma)}"
         ),
     )
-    asked = f'What is the critic\'s $V("{given.visited[0]}")$' if len(given.visited) == 1 else "What are the critic's "
-    values = asked if len(given.visited) == 1 else f"{asked}values of the states that the agent left"
+    values = (
+        f'What is the critic\'s value $V("{given.visited[0]}")$'
+        if len(given.visited) == 1
+        else f"What are the critic's values of {joined(list(given.visited))}"
+    )
     opened = in_open(given)
     return Question(
         blocks,

@@ -1,6 +1,7 @@
 """The advantage of every action in a state; or generalised advantage estimates along a run."""
 
 from fractions import Fraction
+from itertools import combinations
 from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -26,7 +27,7 @@ from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 2
+REVISION = 3
 
 
 class Lookahead(Givens):
@@ -160,9 +161,12 @@ def draw(level: int, rng: Draws) -> Given:
     needed = {state, *(row.next for row in rows)} if level == 1 else {row.next for row in rows}
     gamma = rng.fraction("1/2", "1")
     values = {name: 2 * rng.nonzero(-3, 5) for name in setting.states if name in needed}
+    worth = {row: row.reward + gamma * values[row.next] for row in rows if isinstance(row.reward, Fraction)}
+    if any(a.action == b.action and worth[a] == worth[b] for a, b in combinations(rows, 2)):
+        return draw(level, rng)  # their probabilities would not count
     if level == 1:  # every action has one outcome; one is better than the policy, and one is worse
-        worth = [row.reward + gamma * values[row.next] for row in rows if isinstance(row.reward, Fraction)]
-        between = [Fraction(value) for value in range(-30, 30) if value and min(worth) < value < max(worth)]
+        low, high = min(worth.values()), max(worth.values())
+        between = [Fraction(value) for value in range(-30, 30) if value and low < value < high]
         if not between:
             return draw(level, rng)
         values[state] = rng.choice(between)
@@ -186,14 +190,14 @@ def _of_one_state(given: OfValue | OfPolicy) -> Question:
     ahead, state = given.lookahead, given.lookahead.state
     pairs = tuple((state, action) for action in ahead.dynamics.actions[state])
     opening: tuple[Block, ...] = (
-        Paragraph(f"In state {state} the actions do this:"),
+        Paragraph(f"In state {state} the actions have these outcomes:"),
         transitions_table(ahead.dynamics),
     )
     parts = [Part(f"What are the action values $Q^π(s, a)$ in {state}?", Values("Q^π", pairs), zero=True)]
-    of_states = "The values of the states under the policy $π$ are estimated as follows."
+    of_states = "The agent's policy $π$ has the values below."
     if isinstance(ahead, PolicyLookahead):
         opening += (Paragraph("The policy $π$ takes them with these probabilities:"), policy_table(ahead.policy))
-        of_states = "The values of the next states under it are known."
+        of_states = "Its values in the next states are known."
         parts.append(Part(f'What is the value $V^π("{state}")$?', Number(), zero=True))
     parts.append(Part(f"What is the advantage $A(s, a)$ of every action in {state}?", Values("A", pairs)))
     blocks = (*opening, Paragraph(f"{of_states} {discount(given.gamma)}"), values_table(ahead.values, "V^π"))
@@ -206,18 +210,18 @@ def _along(given: AlongRun) -> Question:
     errors = tuple(f"δ_{{{time}}}" for time in times)
     estimates = tuple(f"Â_{{{time}}}" for time in times)
     blocks = (
-        Paragraph("An agent was seen to do this (a reward stands at the time at which it is received):"),
+        Paragraph("An agent follows this trajectory (each reward stands at the time at which it is received):"),
         trajectory_table(run.trajectory),
         *terminal_note(run.trajectory.terminal),
         Paragraph(f"The critic's values are these. {discount(given.gamma)} {trace_parameter(run.lam)}"),
         values_table(run.values),
         Paragraph(
-            f"Advantages are estimated by generalised advantage estimation, from the TD errors of this run: the last "
-            f"one is $δ_{{{len(times) - 1}}}$. The values are not changed."
+            "Advantages are estimated by generalised advantage estimation (GAE) from the TD errors of this trajectory; "
+            f"the last one is $δ_{{{len(times) - 1}}}$. The values stay as they are."
         ),
     )
-    ask = f"What are the estimates ${', '.join(estimates)}$, in this order{in_open(given)}?"
+    ask = f"What are the estimates ${', '.join(estimates)}${in_open(given)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
         return Question(blocks, (Part(ask, Numbers(estimates)),))
-    first = f"What are the TD errors ${', '.join(errors)}$, in this order?"
+    first = f"What are the TD errors ${', '.join(errors)}$?"
     return Question(blocks, (Part(first, Numbers(errors), zero=True), Part(ask, Numbers(estimates))))

@@ -1,8 +1,9 @@
 """PPO: the probability ratios, the two terms and the clipped objective of one or more samples."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any, Self
+from itertools import product
+from typing import Self
 
 from pydantic import Field, model_validator
 
@@ -12,11 +13,11 @@ from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, Weight
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part, YesNo
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "PPO: clipped objective"
 SOURCE = "Schulman et al. 2017, section 3"
-REVISION = 1
+REVISION = 2
 
 
 class Sample(Givens):
@@ -59,10 +60,24 @@ class Sample(Givens):
 
 
 class Given(Givens):
-    """Samples of the old policy, and the clipping range ε."""
+    """Samples of the old policy, and the clipping range ε.
+
+    Without ``epsilon`` it is asked for: that which gives the ``objective``, or the largest that cuts off a gradient.
+    """
 
     samples: tuple[Sample, ...] = Field(min_length=1, max_length=20, description="The actions that were taken.")
-    epsilon: Exact = Field(gt=0, lt=1, description="The clipping range, above 0 and below 1.")
+    epsilon: Exact | None = Field(
+        default=None, gt=0, lt=1, description="The clipping range, above 0 and below 1; without it, it is asked for."
+    )
+    objective: Exact | None = Field(
+        default=None, description="The objective of the samples, from which the clipping range is to be found."
+    )
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if self.epsilon is not None and self.objective is not None:
+            raise ValueError("give either epsilon or the objective from which it is to be found, not both")
+        return self
 
     @model_validator(mode="after")
     def _alike(self) -> Self:
@@ -91,66 +106,116 @@ class Given(Givens):
 _MORE = (("1/2", "3/4"), ("2/5", "3/5"), ("1/5", "3/10"), ("1/4", "1/2"), ("1/5", "2/5"), ("3/10", "3/5"))
 _LESS = tuple((new, old) for old, new in _MORE)
 _NEAR = (("1/2", "11/20"), ("1/2", "9/20"), ("2/5", "9/25"), ("1/5", "9/50"))
-#: The same where the new policy has the preferences ln n and 0: old probability, n, and which of them is taken.
-_MORE_BY_PREFERENCE = (("1/3", 2, 0), ("2/5", 2, 0), ("1/2", 3, 0), ("3/8", 3, 0), ("2/5", 4, 0), ("1/2", 4, 0))
-_LESS_BY_PREFERENCE = (("2/3", 2, 1), ("1/2", 2, 1), ("1/2", 3, 1), ("3/8", 3, 1), ("2/5", 4, 1), ("3/10", 4, 1))
-_NEAR_BY_PREFERENCE = (("3/10", 2, 1), ("3/5", 2, 0), ("4/5", 3, 0), ("3/10", 3, 1))
+#: The same where the new policy has the preferences ln n and 0: old probability, n, and which of them is taken. No
+#: ratio is 2 or more, so that some ε below 1 reaches it.
+_MORE_BY_PREFERENCE = (("9/20", 2, 0), ("11/20", 3, 0), ("9/20", 3, 0), ("3/5", 4, 0), ("1/2", 2, 0), ("2/5", 2, 0))
+_LESS_BY_PREFERENCE = (("9/20", 2, 1), ("7/20", 3, 1), ("9/20", 3, 1), ("7/20", 4, 1), ("11/20", 2, 1), ("1/2", 3, 1))
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sample; then three, one of them cut and one kept; then the new policy is given by its preferences."""
+    """One sample; then two or three; then the clipping range is found, from the objective or as the largest that cuts.
+
+    In half of the samples clipping cuts off the gradient.
+    """
     setting = draw_setting(rng)
-    states = rng.shuffled(setting.states)
-    actions = setting.actions[:2]
-    more, less, near = (
-        (_MORE_BY_PREFERENCE, _LESS_BY_PREFERENCE, _NEAR_BY_PREFERENCE) if level == 3 else (_MORE, _LESS, _NEAR)
-    )
-    moves: list[tuple[Sequence[tuple[Any, ...]], int]] = [
-        rng.choice(((more, 1), (less, -1))),  # clipping cuts
-        rng.choice(((more, -1), (less, 1))),  # the minimum keeps the unclipped term
-        (near, rng.choice((1, -1))),
-    ]
-    drawn = rng.shuffled(moves) if level > 1 else (rng.choice(moves[:2]),)
+    if level == 3:
+        return _searched(rng, setting)
+    count = 1 if level == 1 else rng.choice((2, 3))
+    cuts = [rng.choice((True, True, False, False if level == 1 else None)) for _ in range(count)]
+    if cuts.count(None) == count:
+        return draw(level, rng)
     samples = []
-    for state, (pairs, sign) in zip(states, drawn, strict=False):
-        old, *new = rng.choice(pairs)
-        advantage = sign * rng.whole(1, 6)
-        if level == 3:
-            (number, taken), order = new, rng.shuffled(actions)
-            preferences = {order[0]: Logarithm(f"ln {number}"), order[1]: Fraction(0)}
-            in_order = {action: preferences[action] for action in actions}
-            samples.append(Sample(state=state, action=order[taken], old=old, preferences=in_order, advantage=advantage))
-        else:
-            action = rng.choice(actions)
-            samples.append(Sample(state=state, action=action, old=old, new=new[0], advantage=advantage))
+    for state, cut in zip(rng.shuffled(setting.states), cuts, strict=False):
+        more, sign = rng.choice((True, False)), rng.choice((1, -1))
+        if cut is not None:
+            sign = 1 if more == cut else -1
+        old, new = rng.choice(_NEAR if cut is None else _MORE if more else _LESS)
+        samples.append(
+            Sample(
+                state=state,
+                action=rng.choice(setting.actions[:2]),
+                old=old,
+                new=new,
+                advantage=sign * count * rng.whole(1, 6 // count),
+            )
+        )
     return Given(samples=tuple(samples), epsilon=rng.fraction("1/5", "1/4"))
 
 
+def _searched(rng: Draws, setting: Setting) -> Given:
+    """Samples with the new policy's preferences, and the clipping range to be found."""
+    by_objective = rng.choice((True, False))
+    cuts = rng.shuffled((True, False)) if by_objective else rng.choice(_SOME_CUT)
+    samples, objective = [], Fraction(0)
+    epsilon = rng.fraction("1/10", "1/5", "3/20")
+    for state, cut in zip(rng.shuffled(setting.states), cuts, strict=False):
+        more = rng.choice((True, False))
+        old, number, taken = rng.choice(_MORE_BY_PREFERENCE if more else _LESS_BY_PREFERENCE)
+        order = rng.shuffled(setting.actions[:2])
+        preferences = {order[0]: Logarithm(f"ln {number}"), order[1]: Fraction(0)}
+        advantage = (1 if more == cut else -1) * rng.whole(1, 6)
+        ratio = Fraction(number if taken == 0 else 1, number + 1) / Fraction(old)
+        held = 1 + epsilon if more else 1 - epsilon
+        objective += (held if cut else ratio) * advantage / len(cuts)
+        in_order = {action: preferences[action] for action in setting.actions[:2]}
+        samples.append(Sample(state=state, action=order[taken], old=old, preferences=in_order, advantage=advantage))
+    return Given(samples=tuple(samples), objective=objective if by_objective else None)
+
+
+#: Of which samples clipping can cut off the gradient: of some, not of all.
+_SOME_CUT = tuple(cuts for cuts in product((True, False), repeat=3) if len(set(cuts)) > 1)
+
+
 def question(given: Given) -> Question:
-    """A table of samples; ratios, terms, the objective, and for every sample whether its gradient is cut."""
+    """A table of samples; ratios, terms, the objective, and for every sample whether its gradient is cut; or ε."""
     times = range(len(given.samples))
-    parts = [
-        _asked("probability ratio", "ρ", times),
-        _asked("unclipped term", "u", times),
-        _asked("clipped term", "c", times),
-        Part("What is the objective $L$, the mean over the samples?" if len(times) > 1
-             else "What is the objective $L_0$?", Number(), zero=True),
-    ]  # fmt: skip
-    for time in times:
-        ask = f"Does clipping cut off the gradient of $L_{{{time}}}$, so that it does not change $θ$?"
-        parts.append(Part(ask, YesNo()))
-    wanted = "samples" if len(times) > 1 else "sample"
+    several = len(times) > 1
     blocks: tuple[Block, ...] = (
-        Paragraph(f"PPO learns from the {wanted} below, taken by the old policy; $A_t$ is the estimated advantage."),
+        Paragraph(
+            f"PPO learns from {'these samples' if several else 'this sample'} of the old policy; $A_t$ is the "
+            "estimated advantage of the action $a_t$."
+        ),
         _samples_table(given),
         *([Paragraph("The new policy is softmax in its preferences $h(s, a)$.")] if given.actions else []),
         *([Paragraph("The old policy is softmax in its preferences $h_{old}(s, a)$.")] if given.old_actions else []),
-        Paragraph(
-            "With the ratio $ρ_t$ of new to old probability, the unclipped term is $u_t = ρ_t A_t$ and the clipped one "
-            f"$c_t$ has $ρ_t$ clipped to the range from $1 − ε$ to $1 + ε$, with $ε = {shown(given.epsilon)}$."
-        ),
+        Paragraph(_terms(given)),
     )
-    return Question(blocks, tuple(parts))
+    return Question(blocks, tuple(_parts(given, times)))
+
+
+def _terms(given: Given) -> str:
+    """What the letters of the question stand for."""
+    mean = ", and $L$ their mean" if len(given.samples) > 1 else ""
+    objective = f"PPO's clipped objective for the sample at time $t$ is called $L_t${mean}."
+    ratio = "The ratio $ρ_t$ is the new probability of the action divided by the old one."
+    if given.epsilon is None and given.objective is None:
+        return f"{ratio} {objective} In it $ρ_t$ is clipped to the range from $1 − ε$ to $1 + ε$."
+    if given.epsilon is None:
+        return (
+            f"{ratio} The unclipped term is $u_t = ρ_t A_t$. {objective} The clipping range $ε$ was not noted, but "
+            f"with it the objective is $L = {shown(given.objective or 0)}$."
+        )
+    return (
+        f"{ratio} The unclipped term is $u_t = ρ_t A_t$; in the clipped term $c_t$ the ratio is first clipped to the "
+        f"range from $1 − ε$ to $1 + ε$, with $ε = {shown(given.epsilon)}$. {objective}"
+    )
+
+
+def _parts(given: Given, times: range) -> Iterator[Part]:
+    yield _asked("probability ratio", "ρ", times)
+    if given.epsilon is None and given.objective is None:
+        for time in times:
+            yield Part(f"Is there an $ε > 0$ for which clipping makes the gradient of $L_{{{time}}}$ zero?", YesNo())
+        yield Part("Below which $ε$ does clipping make at least one of the gradients zero?", Number())
+        return
+    yield _asked("unclipped term", "u", times)
+    if given.epsilon is None:
+        yield Part("What is the clipping range $ε$?", Number())
+        return
+    yield _asked("clipped term", "c", times)
+    yield Part(f"What is the objective ${'L' if len(times) > 1 else 'L_0'}$?", Number(), zero=True)
+    for time in times:
+        yield Part(f"Does clipping make the gradient $∇_θ L_{{{time}}}$ zero?", YesNo())
 
 
 def _asked(what: str, letter: str, times: range) -> Part:

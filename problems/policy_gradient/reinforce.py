@@ -7,11 +7,11 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Episode):
@@ -22,18 +22,19 @@ class Given(Episode):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
-    return Given(
-        **draw_episode(level, rng),
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1"),
-    )
+    episode = draw_episode(level, rng)
+    gamma = episode["gamma"]
+    run = episode["trajectory"]
+    if not isinstance(gamma, Parameter) and not every_step_counts(run, returns(run, gamma)):
+        return draw(level, rng)
+    return Given(**episode, alpha=rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5"))
 
 
 def question(given: Given) -> Question:
     """The episode and the policy; the returns, the gradient and the new weights are asked for."""
     note = Paragraph(
-        "REINFORCE weights the score of each action $a_t$ with the discounted return from its own step on, "
-        "$G_t = r_{t+1} + γ r_{t+2} + …$, and adds over the episode. There is no further factor $γ^t$, and all steps "
+        "REINFORCE multiplies the score of each action $a_t$ by the discounted return from its own step on, "
+        "$G_t = r_{t+1} + γ r_{t+2} + …$, and sums over the episode. There is no further factor $γ^t$, and all steps "
         f"use the weights above. {discount(given.gamma)} {step_size(given.alpha)}"
     )
     entries = tuple(f"G_{{{time}}}" for time in range(len(given.trajectory.rewards)))

@@ -11,11 +11,11 @@ from rldrill.problems.exact import Exact, Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Episode):
@@ -34,28 +34,22 @@ class Given(Episode):
 def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
     episode = draw_episode(level, rng)
-    visited = tuple(dict.fromkeys(episode["trajectory"].states[:-1]))
-    gamma = Fraction(0) if level == 3 else rng.fraction("1/2", "1/2", "1")
-    baseline = {state: rng.nonzero(-2, 5) for state in visited}
-    run, later = episode["trajectory"], Fraction(0)
-    for state, reward in zip(run.states[-2::-1], run.rewards[::-1], strict=True):
-        later = reward + gamma * later
-        if later == baseline[state]:  # then a step would not count
-            return draw(level, rng)
-    return Given(
-        **episode,
-        baseline=baseline,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else gamma,
-    )
+    run, gamma = episode["trajectory"], episode["gamma"]
+    baseline = {state: rng.nonzero(-2, 5) for state in dict.fromkeys(run.states[:-1])}
+    known = Fraction(0) if isinstance(gamma, Parameter) else gamma
+    differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
+    if not every_step_counts(run, differences):
+        return draw(level, rng)
+    alpha = rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5")
+    return Given(**episode, baseline=baseline, alpha=alpha)
 
 
 def question(given: Given) -> Question:
     """The episode, the policy and the baseline; the differences, the gradient and the new weights are asked for."""
     note = Paragraph(
-        "The score of each action $a_t$ is weighted with $δ_t = G_t − b(s_t)$, where "
-        "$G_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; these are added over the "
-        "episode. There is no further factor $γ^t$, and all steps use the weights above. "
+        "The score of each action $a_t$ is multiplied by $δ_t = G_t − b(s_t)$, where "
+        "$G_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; the products are summed over "
+        "the episode. There is no further factor $γ^t$, and all steps use the weights above. "
         f"{discount(given.gamma)} {step_size(given.alpha)} The baseline is:"
     )
     entries = tuple(f"δ_{{{time}}}" for time in range(len(given.trajectory.rewards)))

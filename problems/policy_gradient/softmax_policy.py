@@ -1,54 +1,129 @@
-"""The action probabilities of a softmax policy that is linear in features."""
+"""The action probabilities of a softmax policy that is linear in features; or the weight for which they are so."""
 
-from typing import Self
+from fractions import Fraction
+from math import exp, log, prod
+from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, WeightField, shown
+from rldrill.problems.exact import Exact, Logarithm, Parameter, Weight, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weights
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import check_one_open, in_open
 from rldrill.problems.settings import draw_setting
+from rldrill.problems.softmax import draw_log_policy
 
 TITLE = "Softmax policy"
 SOURCE = "Sutton & Barto 2018, section 13.1"
-REVISION = 1
+REVISION = 2
+
+
+class Odds(NamedTuple):
+    """How many times as often one action is taken as another."""
+
+    action: Name
+    other: Name
+    times: Exact
 
 
 class Given(Givens):
-    """The weights θ, and in one state the features of every action."""
+    """The weights θ, and in one state the features of every action.
+
+    With ``odds`` one weight is the logarithm of x, and x is asked for.
+    """
 
     theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights.")
     features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
     entropy: bool = Field(
         default=False, exclude_if=lambda entropy: not entropy, description="Whether the policy's entropy is asked for."
     )
+    odds: Odds | None = Field(
+        default=None, description="How many times as often an action is taken as another, from which x is to be found."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
         check_features(self.features, len(self.theta))
         check_one_open(self)
+        if self.odds is not None:
+            for action in self.odds[:2]:
+                if action not in self.features:
+                    raise ValueError(f"odds: {action!r} has no features")
+            if self.odds.times <= 0:
+                raise ValueError(f"odds: {self.odds.times} is not above 0")
+            if super().parameters() != ("x",):
+                raise ValueError("theta: with odds one weight must be ln x")
         return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """None where x is found, not left open."""
+        return () if self.odds else super().parameters()
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two actions; then three; then three with three features and fractions."""
-    setting = draw_setting(rng)
-    actions = setting.actions[: 2 if level == 1 else 3]
-    size = 3 if level == 3 else 2
-    theta = tuple(
-        rng.fraction("1/2", "-1/2", "1", "3/2", "1/4") if level == 3 else rng.nonzero(-1, 2) for _ in range(size)
-    )
-    features = {action: tuple(rng.whole(0, 2) for _ in range(size)) for action in actions}
-    return Given(theta=theta, features=features)
+    """Two actions; then three, or more features; then x left open, or found from probabilities, or the entropy.
+
+    Weights are logarithms of whole numbers, or whole numbers for which no preference is below 0.
+    """
+    actions = draw_setting(rng).actions
+    if level == 3:
+        return rng.choice((_open, _odds, _entropy))(rng, actions)
+    count, size = (2, 2) if level == 1 else rng.choice(((3, 2), (2, 3), (3, 3)))
+    while True:
+        logarithms = rng.choice((True, False))
+        if logarithms:
+            theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
+            features = rows["s"]
+        else:
+            theta = tuple(rng.nonzero(-1, 2) for _ in range(size))
+            features = {action: tuple(rng.whole(0, 2) for _ in range(size)) for action in actions[:count]}
+        sums = [_sum(theta, row) for row in features.values()]
+        told_apart = all(len(set(column)) > 1 for column in zip(*features.values(), strict=True))
+        if len(set(sums)) == count and told_apart and (logarithms or min(sums) == 0):
+            return Given(theta=theta, features=features)
+
+
+def _sum(theta: tuple[Weight, ...], row: FeatureVector) -> float:
+    """A preference in floating point, to tell which are equal."""
+    weights = (log(int(w.removeprefix("ln "))) if isinstance(w, Logarithm) else float(w) for w in theta)
+    return round(sum(w * float(x) for w, x in zip(weights, row, strict=True)), 9)
+
+
+def _open(rng: Draws, actions: tuple[str, ...]) -> Given:
+    theta, rows = draw_log_policy(rng, ("s",), actions[:3], rng.choice((2, 3)))
+    return Given(theta=(*theta[:-1], Logarithm("ln x")), features=rows["s"])
+
+
+def _odds(rng: Draws, actions: tuple[str, ...]) -> Given:
+    """The weight ln x counts once more for one of two actions than for the other."""
+    count, size = rng.choice(((2, 2), (3, 2), (3, 3)))
+    theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
+    features = rows["s"]
+    pairs = [(a, b) for a in features for b in features if features[a][-1] > features[b][-1]]
+    action, other = rng.choice(pairs)
+    lead = [x - y for x, y in zip(features[action], features[other], strict=True)]
+    x = rng.fraction("2", "3", "4", "5", "3/2", "5/2", "1/2", "2/3")
+    bases = (*(Fraction(str(weight).removeprefix("ln ")) for weight in theta[:-1]), x)
+    times = prod((base ** int(more) for base, more in zip(bases, lead, strict=True)), start=Fraction(1))
+    odds = Odds(action, other, times) if times >= 1 else Odds(other, action, 1 / times)
+    return Given(theta=(*theta[:-1], Logarithm("ln x")), features=features, odds=odds)
+
+
+def _entropy(rng: Draws, actions: tuple[str, ...]) -> Given:
+    while True:
+        theta, rows = draw_log_policy(rng, ("s",), actions[:3], rng.choice((2, 3)))
+        sums = [_sum(theta, row) for row in rows["s"].values()]
+        # Probabilities of halves, thirds, quarters and sixths: then the entropy has few logarithms.
+        if len(set(sums)) > 1 and round(sum(map(exp, sums)), 6) in (4, 6, 8, 9, 12):
+            return Given(theta=theta, features=rows["s"], entropy=True)
 
 
 def question(given: Given) -> Question:
-    """Weights and features; first the preferences, then the probabilities."""
+    """Weights and features; the preferences and probabilities, or x first."""
     actions = tuple(given.features)
     opened = "".join(f" The number ${shown(Parameter(name))} > 0$ is left open." for name in given.parameters())
     blocks = (
@@ -60,9 +135,19 @@ def question(given: Given) -> Question:
         ),
     )
     left_open = in_open(given)
+    if given.odds is not None:
+        action, other, times = given.odds
+        often = "as often" if times == 1 else f"${shown(times)}$ times as often"
+        return Question(
+            blocks,
+            (
+                Part(f"For which $x$ is {action} taken {often} as {other}?", Number()),
+                Part("What is the probability $π(a|s)$ of every action for this $x$?", Values("π", actions)),
+            ),
+        )
     parts = [
         Part(f"What is the preference $h(s, a)$ of every action{left_open}?", Values("h", actions), zero=True),
-        Part(f"With which probability $π(a|s)$ is every action taken{left_open}?", Values("π", actions)),
+        Part(f"What is the probability $π(a|s)$ of every action{left_open}?", Values("π", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"

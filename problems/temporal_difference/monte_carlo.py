@@ -1,5 +1,6 @@
 """The values of what is visited after Monte Carlo updates from one episode, first visit or every visit."""
 
+from fractions import Fraction
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
@@ -14,17 +15,19 @@ from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import (
     ActionRun,
     Episode,
+    Trajectory,
     ValueRun,
     action_values_table,
-    draw_episode,
+    draw_rewards,
     run_situation,
+    sought_parts,
     values_asked,
 )
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Monte Carlo prediction"
 SOURCE = "Sutton & Barto 2018, sections 5.1 and 6.1"
-REVISION = 1
+REVISION = 2
 
 #: A state; or a state and an action.
 Visited: TypeAlias = str | tuple[str, str]
@@ -46,7 +49,7 @@ class Visits(Givens):
 
     @property
     def in_parts(self) -> bool:
-        """Whether the returns are a part of their own; they say nothing about an open α."""
+        """Whether the returns are a part of their own; they say nothing about an open α, or a value to be found."""
         return not isinstance(self.alpha, Parameter)
 
     @property
@@ -62,11 +65,24 @@ class Visits(Givens):
 
 
 class OfStates(Visits, ValueRun):
-    """An episode, the values before it, the step size, the discount, and which visits count."""
+    """An episode, the values before it, the step size, the discount, and which visits count.
+
+    Where ``known`` is the value of the first state after the updates, what is left open is asked for.
+    """
+
+    @property
+    def in_parts(self) -> bool:
+        """Whether the returns are a part of their own: not where a letter is asked for."""
+        return super().in_parts and self.known is None
 
 
 class OfActions(Visits, ActionRun):
     """An episode with its actions, the action values before it, α and γ, and which visits of a pair count."""
+
+    trajectory: Episode = Field(
+        description="The episode, with the actions.",
+        examples=[{"states": ["A", "B", "end"], "actions": ["left", "right"], "rewards": [1, 2], "terminal": ["end"]}],
+    )
 
     @property
     def occasions(self) -> tuple[Visited, ...]:
@@ -85,36 +101,74 @@ Given = Annotated[Annotated[OfStates, Tag("states")] | Annotated[OfActions, Tag(
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two steps; then four that come back to a state; then the same with γ left open."""
+    """Two steps; then three or four that come back to a state; then a letter left open, or to be found."""
     setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
-    tours = ((first, second, first, third), (first, second, third, first), (first, second, third, second))
-    states = (first, second) if level == 1 else rng.choice(tours)
+    a, b, c = rng.shuffled(setting.states)[:3]
+    tours = ((a, b, a, c), (a, b, c, a), (a, b, c, b), (a, b, a), (a, a, b))
+    if level == 1:
+        return _episode(rng, (a, b), setting.terminal)
+    kind = rng.below(4)
+    if level == 2 or kind == 0:
+        run = _episode(rng, rng.choice(tours), setting.terminal)
+        return run if level == 2 else run.model_copy(update={"gamma": Parameter("gamma")})
+    if kind == 1:
+        run = _episode(rng, rng.choice(tours[-2:]), setting.terminal)
+        return run.model_copy(update={"alpha": Parameter("alpha")})
+    run = _episode(rng, rng.choice(((a, b), (a, b, c), (a, b, b)) if kind == 2 else tours), setting.terminal)
+    update: dict[str, object] = {"known": _learned(run)}
+    update |= {"alpha": Parameter("alpha")} if kind == 2 else {"values": run.values | {a: Parameter("x")}}
+    return run.model_copy(update=update)
+
+
+def _episode(rng: Draws, states: tuple[str, ...], terminal: str) -> OfStates:
+    gamma = rng.fraction("1/2", "3/4", "4/5")
+    rewards = draw_rewards(rng, len(states), gamma)
+    returns = _returns(rewards, gamma)
+    values = {s: rng.fitting(-4, 10, returns[states.index(s)].__ne__) for s in sorted(set(states))}
     return OfStates(
-        trajectory=draw_episode(rng, states, setting.terminal),
-        values={state: rng.nonzero(-4, 10) for state in setting.states if state in states},
-        alpha=rng.fraction("1/2", "1/4", "1/10") if level < 3 else rng.fraction("1/2", "1/4"),
-        gamma=Parameter("gamma") if level == 3 else rng.fraction("1/2", "4/5"),
+        trajectory=Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,)),
+        values=values,
+        alpha=rng.fraction("1/2", "1/4", "1/5"),
+        gamma=gamma,
         visits=rng.choice(("first", "every")),
     )
+
+
+def _returns(rewards: tuple[Fraction, ...], gamma: Fraction) -> tuple[Fraction, ...]:
+    returns: tuple[Fraction, ...] = ()
+    for reward in reversed(rewards):
+        returns = (reward + (gamma * returns[0] if returns else 0), *returns)
+    return returns
+
+
+def _learned(run: OfStates) -> Fraction:
+    """The value of the first state after an episode in which nothing is left open."""
+    first, returns = run.trajectory.states[0], _returns(run.trajectory.rewards, Fraction(run.gamma))
+    value = Fraction(run.values[first])
+    for time in run.counted:
+        if run.trajectory.states[time] == first:
+            value += Fraction(run.alpha) * (returns[time] - value)
+    return value
 
 
 def question(given: Given) -> Question:
     """The returns first, then the updated values; in an open α the values alone."""
     what = "pair of state and action" if isinstance(given, OfActions) else "state"
     order = (
-        f"Only the first visit to a {what} in the episode counts: first-visit Monte Carlo."
+        f"The method is first-visit Monte Carlo: only the first visit to a {what} in the episode counts."
         if given.visits == "first"
-        else f"Every visit to a {what} counts: every-visit Monte Carlo."
+        else f"The method is every-visit Monte Carlo: every visit to a {what} counts."
     )
     table = action_values_table(given.values) if isinstance(given, OfActions) else values_table(given.values)
     blocks = (
         *run_situation(given, table),
         Paragraph(
-            f"{order} All returns are computed when the episode is over. Then the updates are made in the order of "
-            "the visits, each with the value that is current then."
+            f"{order} All returns are computed at the end of the episode. Then the updates are made in the order of "
+            "the visits, each with the value that is current at that time."
         ),
     )
+    if isinstance(given, OfStates) and given.known is not None:
+        return Question(blocks, sought_parts(given))
     tail = in_open(given)
     values = _values(given, tail)
     if not given.in_parts:
@@ -135,5 +189,5 @@ def _values(given: Given, tail: str) -> Part:
         case OfActions():
             pairs = given.updated
             (state, action), *others = pairs
-            asked = "the value of every pair that is visited" if others else f'$Q("{state}", "{action}")$'
+            asked = "the value of every updated pair" if others else f'$Q("{state}", "{action}")$'
             return Part(f"What is {asked} after the updates{tail}?", Values("Q", pairs))

@@ -1,5 +1,8 @@
 """The values of all states after TD(λ) updates in the backward view, along a run of transitions."""
 
+from fractions import Fraction
+from itertools import pairwise
+
 from pydantic import Field
 
 from rldrill.problems.document import Paragraph
@@ -9,54 +12,106 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import Replacing, Trajectory, ValueRun, run_situation, values_asked
+from rldrill.problems.runs import (
+    Replacing,
+    Trajectory,
+    ValueRun,
+    draw_reward,
+    draw_values,
+    run_situation,
+    sought_parts,
+    values_asked,
+)
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), backward view"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ValueRun):
-    """A run, the values before it, α, γ and λ."""
+    """A run, the values before it, α, γ and λ.
+
+    Where ``known`` is the value of the first state after the run, what is left open is asked for.
+    """
 
     lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
     replacing: Replacing = False
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two transitions; then three that come back to a state; then three with λ left open."""
+    """Two transitions; then two or three that come back to a state; then a letter left open, or to be found."""
     setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
-    states = {
-        1: (first, second, setting.terminal),
-        2: (first, second, first, rng.choice((third, setting.terminal))),
-        3: (first, second, rng.choice((first, third)), setting.terminal),
-    }[level]
-    return Given(
-        trajectory=Trajectory(
-            states=states,
-            rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
-            terminal=tuple(state for state in states if state == setting.terminal),
-        ),
-        values={state: rng.nonzero(-4, 10) for state in setting.states if state in states},
-        alpha=rng.fraction("1/2") if level > 1 else rng.fraction("1/2", "1/4"),
-        gamma=rng.fraction("1/2", "1"),
-        lam=Parameter("lambda") if level == 3 else rng.fraction("1/2", "1/4"),
-    )
+    a, b, c = rng.shuffled(setting.states)[:3]
+    end = setting.terminal
+    if level == 1:
+        run = _run(rng, (a, b, end), end)
+        while _learned(run) == _learned(run.model_copy(update={"gamma": Fraction(0)})):
+            run = _run(rng, (a, b, end), end)
+        return run
+    if level == 2:
+        tours = (a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, c, end)
+        run = _run(rng, rng.choice(tours), end)
+        return run.model_copy(update={"replacing": len(run.visited) == 2 and rng.chance(Fraction(1, 3))})
+    kind = rng.below(4)
+    if kind == 0:
+        run = _run(rng, rng.choice(((a, b, a, end), (a, b, c, end), (a, a, b, c))), end)
+        return run.model_copy(update={"lam": Parameter("lambda")})
+    run = _run(rng, rng.choice(((a, b, c), (a, b, end))), end)
+    if kind == 1:
+        return run.model_copy(update={"gamma": Parameter("gamma")})
+    letter, name = ("lam", "lambda") if kind == 2 else ("alpha", "alpha")
+    return run.model_copy(update={letter: Parameter(name), "known": _learned(run)[a]})
+
+
+def _run(rng: Draws, states: tuple[str, ...], end: str) -> Given:
+    """A run whose first update gives whole values; λ is 1/2, or what makes γλ a half."""
+    terminal = tuple(state for state in states if state == end)
+    alpha, (gamma, lam) = rng.fraction("1/2", "1/2", "1/4"), rng.choice(_DECAYS)
+    left = [state for state in sorted(set(states)) if state not in terminal]
+    values = draw_values(rng, left, gamma)
+    V, e = values | dict.fromkeys(terminal, Fraction(0)), dict.fromkeys(left, Fraction(0))
+    rewards: list[Fraction] = []
+    for number, (state, after) in enumerate(pairwise(states)):
+        e = {s: gamma * lam * trace + (s == state) for s, trace in e.items()}
+        unit = gamma.denominator if number == 0 else 1 if number < len(states) - 2 else None
+        rewards.append(draw_reward(rng, V[state], gamma * V[after], alpha, unit))
+        error = rewards[-1] + gamma * V[after] - V[state]
+        V |= {s: V[s] + alpha * trace * error for s, trace in e.items()}
+    run = Trajectory(states=states, rewards=tuple(rewards), terminal=terminal)
+    return Given(trajectory=run, values=values, alpha=alpha, gamma=gamma, lam=lam)
+
+
+def _learned(run: Given) -> dict[str, Fraction]:
+    """The values after a run in which nothing is left open."""
+    V = {state: Fraction(value) for state, value in run.values.items()} | dict.fromkeys(run.terminal, Fraction(0))
+    e = dict.fromkeys(run.visited, Fraction(0))
+    gamma = Fraction(run.gamma)
+    for state, after, reward in run.moves:
+        e = {s: gamma * Fraction(run.lam) * trace + (s == state) for s, trace in e.items()}
+        error = reward + gamma * V[after] - V[state]
+        V |= {s: V[s] + Fraction(run.alpha) * trace * error for s, trace in e.items()}
+    return V
+
+
+#: γ and λ, by whose product traces decay.
+_DECAYS = tuple(
+    (Fraction(g), Fraction(lam)) for g, lam in (("1/2", "1/2"), ("3/4", "2/3"), ("4/5", "1/2"), ("1/2", "1"))
+)
 
 
 def question(given: Given) -> Question:
-    """The run, the values before it, and the order of the updates; all visited states are asked for."""
+    """The run, the values before it, and the order of the updates; all updated states are asked for, or a letter."""
     traces = "replacing traces (a visit sets the trace to $1$)" if given.replacing else "accumulating traces"
-    return Question(
-        (
-            *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
-            Paragraph(
-                f"TD(λ) learns during the run, in the backward view with {traces}, which are all $0$ before "
-                "it. After every transition first the traces of all states are updated, and then their values, with "
-                "the TD error of the values that are current before the transition."
-            ),
+    blocks = (
+        *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
+        Paragraph(
+            f"TD(λ) learns during the run, in the backward view with {traces}, which are all $0$ before it. After "
+            "every transition first the traces of all states are updated, and then their values, with the TD error "
+            "of the values before this transition."
         ),
-        (Part(f"What is {values_asked(given)} after the run{in_open(given)}?", Values("V", given.visited)),),
     )
+    if given.known is not None:
+        return Question(blocks, sought_parts(given))
+    ask = f"What is {values_asked(given)} after the run{in_open(given)}?"
+    return Question(blocks, (Part(ask, Values("V", given.visited)),))

@@ -1,5 +1,6 @@
 """The values of some states of a run after TD(λ) updates in the forward view."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,18 +12,19 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_episode, run_situation
+from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, run_situation, sought_parts
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ValueRun):
     """A run, the values before it, α, γ and λ, and the times whose states are updated.
 
-    A run that is cut off, in a state that is not terminal, goes on with the value of that state.
+    A run that is cut off, in a state that is not terminal, goes on with the value of that state. Where ``known`` is the
+    value after the update of the state whose time is asked for first, what is left open is asked for.
     """
 
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
@@ -46,17 +48,46 @@ class Given(ValueRun):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """The first state of two; then the first two of three; then all three, with λ left open."""
+    """The first state of two; then the first two of three, or of a run that is cut off; then a letter."""
     setting = draw_setting(rng)
-    states = rng.shuffled(setting.states)[: 2 if level == 1 else 3]
-    return Given(
-        trajectory=draw_episode(rng, states, setting.terminal),
-        values={state: rng.nonzero(-4, 10) for state in setting.states if state in states},
-        alpha=rng.fraction("1/2", "1/4") if level == 1 else rng.fraction("1/2", "1/4", "1/10"),
-        gamma=rng.fraction("1/2", "4/5"),
-        lam=Parameter("lambda") if level == 3 else rng.fraction("1/2", "1/4"),
-        asked=tuple(range(level)),
-    )
+    states = rng.shuffled(setting.states)
+    if level == 1:
+        return _run(rng, (*states[:2], setting.terminal), setting.terminal, (0,))
+    longer = rng.choice(((*states[:3], setting.terminal), states[:4], (*states[:2], setting.terminal), states[:3]))
+    if level == 2:
+        return _run(rng, longer, setting.terminal, rng.choice(((0, 1), (1, 0))))
+    kind = rng.below(3)
+    if kind == 0:
+        return _run(rng, longer, setting.terminal, (0, 1)).model_copy(update={"lam": Parameter("lambda")})
+    run = _run(rng, rng.choice(((*states[:2], setting.terminal), states[:3])), setting.terminal, (0, 1))
+    update: dict[str, object] = {"known": _learned(run)}
+    update |= {"lam": Parameter("lambda")} if kind == 1 else {"values": run.values | {states[1]: Parameter("x")}}
+    return run.model_copy(update=update)
+
+
+def _run(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
+    """A run with whole n-step returns whose first update depends on all that is given."""
+    run = _whole(rng, states, end, asked)
+    while any(_learned(run) == _learned(run.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")):
+        run = _whole(rng, states, end, asked)
+    return run
+
+
+def _whole(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
+    gamma = rng.fraction("1/2", "4/5", "3/4")
+    run, values = draw_whole(rng, states, end, gamma)
+    alpha, lam = rng.fraction("1/2", "1/4"), rng.fraction("1/2", "1/4", "3/4")
+    return Given(trajectory=run, values=values, alpha=alpha, gamma=gamma, lam=lam, asked=asked)
+
+
+def _learned(run: Given) -> Fraction:
+    """The value of the first state of a run in which nothing is left open."""
+    lam, V = Fraction(run.lam), {state: Fraction(value) for state, value in run.values.items()}
+    worth = V.get(run.trajectory.states[-1], Fraction(0))
+    for move in reversed(run.moves):
+        worth = move.reward + Fraction(run.gamma) * ((1 - lam) * V.get(move.next, Fraction(0)) + lam * worth)
+    old = V[run.trajectory.states[0]]
+    return old + Fraction(run.alpha) * (worth - old)
 
 
 def question(given: Given) -> Question:
@@ -64,11 +95,13 @@ def question(given: Given) -> Question:
     blocks = (
         *run_situation(given, values_table(given.values), more=trace_parameter(given.lam)),
         Paragraph(
-            "TD(λ) learns in the forward view: the λ-returns are computed with the values before the run, "
-            "and the updates are made after the run."
+            "TD(λ) learns in the forward view: all λ-returns are computed with the values before the first update, "
+            "and the updates are made at the end."
         ),
         *cut_off(given.trajectory),
     )
+    if given.known is not None:
+        return Question(blocks, sought_parts(given))
     tail = in_open(given)
     entries = tuple(f"R_{{{time}}}^{{(λ)}}" for time in given.asked)
     if len(entries) == 1:

@@ -1,8 +1,10 @@
-"""The values of the visited states after TD(0) updates along a run of transitions."""
+"""The values of the updated states after TD(0) updates along a run of transitions."""
 
-from typing import Annotated
+from fractions import Fraction
+from itertools import pairwise
+from typing import Annotated, Self
 
-from pydantic import Tag
+from pydantic import Tag, model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
@@ -17,21 +19,33 @@ from rldrill.problems.runs import (
     ValueMoves,
     ValueRun,
     after,
+    draw_reward,
+    draw_values,
     errors_asked,
     run_blocks,
+    sought_parts,
     values_asked,
 )
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(0)"
 SOURCE = "Sutton & Barto 2018, section 6.1"
-REVISION = 1
+REVISION = 2
 
 
 class AlongRun(ValueRun):
-    """A run, the values before it, the step size and the discount."""
+    """A run, the values before it, the step size and the discount.
+
+    Where ``known`` is the value of the first state after the run, what is left open is asked for.
+    """
 
     td_errors: AskErrors = False
+
+    @model_validator(mode="after")
+    def _one_question(self) -> Self:
+        if self.td_errors and self.known is not None:
+            raise ValueError("td_errors: they are not asked for where a value after the run is known")
+        return self
 
 
 class Separate(ValueMoves):
@@ -44,27 +58,67 @@ Given = Annotated[Annotated[AlongRun, Tag("run")] | Annotated[Separate, Tag("tra
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One transition; then three that come back to a state; then two with the step size left open."""
+    """One transition; then three that come back to a state; then a letter left open, or to be found."""
     setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
-    states = {
-        1: (first, second),
-        2: (first, second, first, rng.choice((third, setting.terminal))),
-        3: (first, second, first, second),
-    }[level]
-    rewards = tuple(rng.nonzero(-4, 8) for _ in states[1:])
-    terminal = tuple(state for state in states if state == setting.terminal)
-    named = [state for state in setting.states if state in states]
-    return AlongRun(
-        trajectory=Trajectory(states=states, rewards=rewards, terminal=terminal),
-        values={state: rng.nonzero(-4, 10) for state in named},
-        alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/10", "1/5"),
-        gamma=rng.fraction("1/2", "4/5", "9/10"),
+    a, b, c = rng.shuffled(setting.states)[:3]
+    end = setting.terminal
+    if level == 1:
+        return _run(rng, (a, rng.choice((b, b, end))))
+    if level == 2:
+        tour = rng.choice(((a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, a, a)))
+        run = _run(rng, tour, end)
+        if rng.chance(Fraction(1, 3)):
+            return run.model_copy(update={"td_errors": True})
+        return run if rng.chance(Fraction(1, 2)) else _separate(run)
+    kind = rng.below(4)
+    if kind == 0:
+        run = _run(rng, rng.choice(((a, b, a, b), (a, b, a, end), (a, b, b, end))), end)
+        return run.model_copy(update={"alpha": Parameter("alpha")})
+    if kind == 1:
+        run = _run(rng, rng.choice(((a, b, a, b), (a, b, a, c), (a, b, b, c))), end)
+        return run.model_copy(update={"gamma": Parameter("gamma")})
+    run = _run(
+        rng, rng.choice(((a, b, c), (a, b, end))) if kind == 2 else rng.choice(((a, b, a, end), (a, b, a, c))), end
     )
+    known = _learned(run)[a]
+    if kind == 2:
+        return run.model_copy(update={"alpha": Parameter("alpha"), "known": known})
+    return run.model_copy(update={"values": run.values | {b: Parameter("x")}, "known": known})
+
+
+def _run(rng: Draws, states: tuple[str, ...], end: str = "") -> AlongRun:
+    """A run after whose first updates the values are whole, and are so when they are discounted, if that can be."""
+    terminal = tuple(state for state in states if state == end)
+    alpha, gamma = rng.fraction("1/2", "1/4", "1/5"), rng.fraction("1/2", "1/2", "3/4", "4/5")
+    left = [state for state in sorted(set(states)) if state not in terminal]
+    values = draw_values(rng, left, gamma)
+    V = values | dict.fromkeys(terminal, Fraction(0))
+    rewards: list[Fraction] = []
+    for number, (state, next_) in enumerate(pairwise(states)):
+        unit = gamma.denominator if number == 0 and len(states) > 2 else None
+        rewards.append(draw_reward(rng, V[state], gamma * V[next_], alpha, unit))
+        V[state] += alpha * (rewards[-1] + gamma * V[next_] - V[state])
+    run = Trajectory(states=states, rewards=tuple(rewards), terminal=terminal)
+    return AlongRun(trajectory=run, values=values, alpha=alpha, gamma=gamma)
+
+
+def _learned(run: AlongRun) -> dict[str, Fraction]:
+    """The values after a run in which nothing is left open."""
+    V = {state: Fraction(value) for state, value in run.values.items()} | dict.fromkeys(run.terminal, Fraction(0))
+    for state, next_, reward in run.moves:
+        V[state] += Fraction(run.alpha) * (reward + Fraction(run.gamma) * V[next_] - V[state])
+    return V
+
+
+def _separate(run: AlongRun) -> Separate:
+    """The same transitions in a list, as if they had been stored."""
+    return Separate(transitions=run.moves, terminal=run.terminal, values=run.values, alpha=run.alpha, gamma=run.gamma)
 
 
 def question(given: Given) -> Question:
-    """The run, the values before it; all visited states are asked for."""
+    """The run, the values before it; all updated states are asked for, or the letter left open."""
+    if isinstance(given, AlongRun) and given.known is not None:
+        return Question(run_blocks(given, values_table(given.values), "TD(0)"), sought_parts(given))
     return Question(
         run_blocks(given, values_table(given.values), "TD(0)"),
         (

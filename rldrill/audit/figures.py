@@ -127,7 +127,7 @@ class Figures:
 def largest(solution: Solution) -> int:
     """The largest whole number in the answers, above or below a line or under a root."""
     data = [answer_kind(part.kind).data(solution.answers[part.label]) for part in solution.problem.parts]
-    return max((int(digits) for digits in _WHOLE.findall(json.dumps(data))), default=0)
+    return max((int(digits) for digits in _WHOLE.findall(json.dumps(data, ensure_ascii=False))), default=0)
 
 
 def structure(solution: Solution) -> str:

@@ -9,12 +9,12 @@ import typer
 _TOLD = 6
 
 
-def tell(notes: Sequence[str]) -> None:
-    """Say beside the output what was read otherwise than it is written."""
+def tell(notes: Sequence[str], where: str = "") -> None:
+    """Say beside the output what was read otherwise than it is written, and in which file if there may be several."""
     for note in notes[:_TOLD]:
-        typer.echo(f"rldrill: {note}", err=True)
+        typer.echo(f"rldrill: {where}{note}", err=True)
     if len(notes) > _TOLD:
-        typer.echo(f"rldrill: {len(notes) - _TOLD} more were read in the same way", err=True)
+        typer.echo(f"rldrill: {where}{len(notes) - _TOLD} more were read in the same way", err=True)
 
 
 def complete_names(incomplete: str) -> list[str]:

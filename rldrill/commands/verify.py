@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rldrill.commands.arguments import Json
+from rldrill.commands.arguments import Json, tell
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -51,6 +51,8 @@ def command(
     report = verify(files)
     for failure in report.failures:
         typer.echo(f"rldrill: {failure.says}", err=True)
+    for problem, notes in report.notes.items():
+        tell(notes, f"{problem}: ")
     if json:
         print_json(report.to_json(show_key=show_key))
     else:

@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
-from rldrill.exam.exam import Exam, Version
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exam.selection import sequence
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.errors import UsageError
@@ -44,10 +44,13 @@ def plan(
         raise UsageError(f"The title has {len(title)} characters; give one of at most {_LONGEST_TITLE}.")
     slots = [(family, wanted) for family, wanted, _ in islice(sequence(names, level, seed), count)]
     used: set[str] = set()
-    result = []
+    result: list[Version] = []
     for index in range(versions):
         seeds = (drawn for _, _, drawn in sequence(names, level, seed, index))
-        exercises = tuple(_new_problem(family, wanted, seeds, used) for family, wanted in slots)
+        first = result[0].exercises if result else (None,) * len(slots)
+        exercises = tuple(
+            _new_problem(family, wanted, seeds, used, like) for (family, wanted), like in zip(slots, first, strict=True)
+        )
         result.append(Version(title, seed, version_code(index), exercises))
         if advance is not None:
             advance()
@@ -60,11 +63,14 @@ def version_code(index: int) -> str:
     return (version_code(head - 1) if head else "") + chr(ord("A") + last)
 
 
-def _new_problem(family: Family, level: int, seeds: Iterator[int], used: set[str]) -> Exercise:
+def _new_problem(
+    family: Family, level: int, seeds: Iterator[int], used: set[str], like: Exercise | None = None
+) -> Exercise:
+    """A problem that no version has yet; in later versions it earns what the first one's does in its place."""
     for seed in islice(seeds, _ATTEMPTS):
         exercise = draw(family.name, level, seed)
         content = json.dumps(exercise.problem.data(), sort_keys=True)
-        if content not in used:
+        if content not in used and (like is None or points_of(exercise) == points_of(like)):
             used.add(content)
             return exercise
     raise UsageError(

@@ -2,18 +2,20 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from rldrill.diagnosis import Diagnosis
 from rldrill.exercise import Exercise, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, read_answers
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id
 from rldrill.problems.parts import Part
+from rldrill.solutions.answers.judging import Verdict
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 #: The version of the JSON that ``Report.to_json`` gives.
@@ -49,6 +51,7 @@ class MarkedPart:
         reason: one or two sentences to the person.
         score: what the answer earns, and what a right one would.
         key: the right answer, as it would be typed.
+        diagnosis: what a wrong answer comes from; None where there is nothing to explain.
         line: the line of the file, where its format has one for every answer.
     """
 
@@ -61,6 +64,7 @@ class MarkedPart:
     reason: str
     score: Score
     key: str
+    diagnosis: Diagnosis | None
     line: int | None
 
     def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
@@ -68,6 +72,7 @@ class MarkedPart:
         data: dict[str, Any] = {"problem": self.problem, "part": self.part, "line": self.line}
         data |= {"typed": self.typed, "read": self.read, "verdict": self.verdict, "accepted": self.accepted}
         data |= {"reason": self.reason, "points": self.score.to_json()}
+        data |= {"diagnosis": None if self.diagnosis is None else self.diagnosis.to_json()}
         return data | ({"key": self.key} if show_key else {})
 
 
@@ -108,10 +113,17 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The judgement of some files."""
+    """The judgement of some files.
+
+    Args:
+        files: those that could be judged.
+        failures: those that could not.
+        notes: by problem file, what was read in it otherwise than it is written, such as 0.3333333333333333 as 1/3.
+    """
 
     files: tuple[FileReport, ...]
     failures: tuple[Failure, ...] = ()
+    notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def parts(self) -> tuple[MarkedPart, ...]:
@@ -156,6 +168,7 @@ class Report:
                 {"file": failure.path, "says": failure.says, "exit_code": failure.exit_code}
                 for failure in self.failures
             ],
+            "notes": {problem: list(notes) for problem, notes in self.notes.items()},
             "points": self.score.to_json(),
             "exit_code": self.exit_code,
         }
@@ -171,7 +184,7 @@ def verify(paths: Iterable[str | Path]) -> Report:
             files.append(FileReport(shown(path), tuple(_students(read_answers(path), problems))))
         except (FileError, NothingToGrade) as error:
             failures.append(Failure(shown(path), str(error), error.exit_code))
-    return Report(tuple(files), tuple(failures))
+    return Report(tuple(files), tuple(failures), problems.notes)
 
 
 class _Problems:
@@ -179,6 +192,11 @@ class _Problems:
 
     def __init__(self) -> None:
         self._loaded: dict[str, Exercise] = {}
+
+    @property
+    def notes(self) -> dict[str, tuple[str, ...]]:
+        """By problem file, what was read otherwise than it is written."""
+        return {shown(name): exercise.notes for name, exercise in self._loaded.items() if exercise.notes}
 
     def of(self, entry: Entry) -> Exercise:
         """The problem that an answer is for.
@@ -230,9 +248,14 @@ class _Submission:
         """Every part, answered or not."""
         texts = {part.label: self._text(part) for part in self.exercise.parts if part.label in self.entries}
         graded = self.exercise.grade(texts)
+        verdicts = {each.part: each.verdict for each in graded.parts}
         for part, given in zip(self.exercise.parts, graded.parts, strict=True):
             entry = self.entries.get(part.label)
             verdict = given.verdict
+            diagnosis = None
+            if verdict is not None and not given.accepted:
+                found = self.exercise.diagnosed(part.label, texts[part.label], verdict, verdicts)
+                diagnosis = found if found.explains else None
             yield MarkedPart(
                 problem=self.name,
                 part=part.label,
@@ -240,9 +263,10 @@ class _Submission:
                 read="" if verdict is None else verdict.read,
                 verdict=MISSING if verdict is None else verdict.outcome.value,
                 accepted=given.accepted,
-                reason="Not answered." if verdict is None else verdict.says,
+                reason=_reason(verdict, diagnosis),
                 score=Score(given.points, given.of),
                 key=answer_kind(part.kind).write(self.exercise.solution.answers[part.label]),
+                diagnosis=diagnosis,
                 line=None if entry is None else entry.line,
             )
 
@@ -264,6 +288,13 @@ class _Submission:
         except Unreadable:
             return False
         return True
+
+
+def _reason(verdict: Verdict | None, diagnosis: Diagnosis | None) -> str:
+    """What is said of an answer: what it comes from, where that is known."""
+    if verdict is None:
+        return "Not answered."
+    return verdict.says if diagnosis is None else diagnosis.of(verdict)
 
 
 def _students(entries: Sequence[Entry], problems: _Problems) -> Iterator[StudentReport]:

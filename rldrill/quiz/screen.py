@@ -22,12 +22,14 @@ KEYS = "h hint · w working · s skip · r restart · v variant · q quit · ? h
 HELP = (
     ("h", "hint: the formula that is needed, then what it means"),
     ("w", "working: show how this part is solved, and go on"),
+    ("m", "my working: type your own, line by line, to see where it goes wrong"),
     ("s", "skip this part"),
     ("r", "restart: begin this problem again from its first part"),
     ("v", "variant: another problem of the same kind"),
     ("q", "quit, with a summary (Ctrl-C and Ctrl-D do the same)"),
     ("?", "this help"),
 )
+_OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
 _STYLES = {
     Outcome.RIGHT: "green",
     Outcome.FOLLOW_THROUGH: "green",
@@ -43,6 +45,14 @@ _WORDS = {
     Outcome.MISCONCEPTION: "✗ A typical mistake:",
     Outcome.WRONG: "✗",
     Outcome.UNREADABLE: "? Not understood, and not counted:",
+}
+#: How a line of somebody's own working is marked.
+_STANDINGS = {
+    "right": ("✓", "green"),
+    "follows": ("✓", "green"),
+    "departs": ("✗", "red"),
+    "miscalculated": ("✗", "red"),
+    "unread": ("?", "yellow"),
 }
 
 
@@ -117,6 +127,7 @@ class Screen:
             self._print(asked(part.part, only=only))
             self._print(words((f"  {answer_kind(part.part.kind).how_to_type()}", "dim")))
             self._print(words((f"  {KEYS}", "dim")))
+            record.exercise.diagnosing.begin()
             then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
             if then is not Then.NEXT:
                 return then
@@ -155,6 +166,8 @@ class Screen:
                     self._help()
                 case "h" | ":h":
                     self._hint(record, part)
+                case "m" | ":m":
+                    self._own_working(record)
                 case "s" | ":s":
                     part.state = State.SKIPPED
                 case "w" | ":w":
@@ -163,7 +176,7 @@ class Screen:
                 case _:
                     verdict = record.answer(part, text).verdict
                     if verdict is not None:
-                        self._verdict(verdict, record.exercise, part)
+                        self._verdict(verdict, record, part)
         self._print()
         return Then.NEXT
 
@@ -174,19 +187,20 @@ class Screen:
             return self._after(record)
         return {"v": Then.VARIANT, "r": Then.RESTART, "q": Then.QUIT}.get(text, Then.NEXT)
 
-    def _verdict(self, verdict: Verdict, exercise: Exercise, part: PartRecord) -> None:
-        style = _STYLES[verdict.outcome]
+    def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
+        diagnosis = record.diagnosis(part)
+        explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
+        outcome = Outcome.WRONG if explained else verdict.outcome
+        says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
         read = f"  (read as {verdict.read})" if verdict.read else ""
-        self._print(words("  ", (_WORDS[verdict.outcome], f"bold {style}"), f" {verdict.says}", (read, "dim")))
-        for misconception in verdict.told:
-            for formula in exercise.formulas(part.part.label):
-                if misconception in formula.misread:
-                    self._print(Text("  Your answer comes from this:", style="dim"))
-                    self._indented(renderable(formula.equation(formula.misread[misconception])))
-                    self._print(Text("  The formula is:", style="dim"))
-                    self._indented(renderable(formula.equation(formula.right)))
+        self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
+        if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
+            self._print(Text("  Your answer comes from this:", style="dim"))
+            self._indented(renderable(diagnosis.wrong))
+            self._print(Text("  The formula is:", style="dim"))
+            self._indented(renderable(diagnosis.right))
         if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
-            self._print(Text("  Try again, or h for a hint, w for the working, s to go on.", style="dim"))
+            self._print(Text(f"  {_OR_ELSE}", style="dim"))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
         blocks = record.exercise.hint(part.part.label)
@@ -199,6 +213,23 @@ class Screen:
         self._indented(render(record.exercise.working(part.part.label)))
         self._print(Text("  The answer:", style="dim"))
         self._indented(renderable(record.exercise.answer(part.part)))
+
+    def _own_working(self, record: Record) -> None:
+        """Ask for the person's own working, and say where it goes wrong."""
+        self._print(Text("  Your working, a step a line (V = 8 + 1/2*4 = 10); an empty line ends it:", style="dim"))
+        lines: list[str] = []
+        while line := self._line("... ").strip():
+            lines.append(line)
+        if not lines:
+            return
+        followed = record.exercise.follow(lines)
+        for line in followed.lines:
+            mark, style = _STANDINGS[line.standing]
+            self._print(words("  ", (mark, f"bold {style}"), f" {line.text}"))
+            if line.sentence:
+                self._print(words("    ", (line.sentence, style)))
+        if followed.first is None:
+            self._print(words("  ", followed.sentence))
 
     def _help(self) -> None:
         grid = Table.grid(padding=(0, 2))

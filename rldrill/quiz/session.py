@@ -5,6 +5,7 @@ from enum import Enum
 from fractions import Fraction
 from itertools import takewhile
 
+from rldrill.diagnosis import AT_THE_PROMPT, Diagnosis
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part
@@ -76,6 +77,15 @@ class Record:
         if graded.accepted:
             current.state = State.DONE
         return graded
+
+    def diagnosis(self, current: PartRecord) -> Diagnosis | None:
+        """What the last answer to a part comes from, if it counts and is wrong."""
+        answered = {record.part.label: record.counted[-1] for record in self.parts if record.tries}
+        last = answered.get(current.part.label)
+        if last is None or last.verdict is None or last.accepted or last is not current.answers[-1]:
+            return None
+        verdicts = {label: graded.verdict for label, graded in answered.items()}
+        return self.exercise.diagnosed(last.part, last.typed, last.verdict, verdicts, AT_THE_PROMPT)
 
 
 @dataclass

@@ -14,7 +14,7 @@ from unicodedata import name, normalize
 from rldrill.problems.mathematics import Math
 from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.stacked import stacked
-from rldrill.render.mathematics.unicode import ABOVE, BELOW, inline, unicode
+from rldrill.render.mathematics.unicode import ABOVE, BELOW, GLUE, inline, unicode
 from rldrill.render.pictures.text import lines
 
 #: What pictures and tables are drawn with: one sign for one.
@@ -60,9 +60,10 @@ class Spelling:
         """A text without mathematics between ``$`` signs."""
         return text if shows_all(self.encoding) else _spelled(_apart(text), self._lacks)
 
-    def inline(self, text: str) -> str:
-        """A text with its mathematics on the same line."""
-        return inline(text) if shows_all(self.encoding) else _spelled(_quoted(inline(text)), self._lacks)
+    def inline(self, text: str, *, glued: bool = False) -> str:
+        """A text with its mathematics on the same line; ``glued`` where short formulas stay in one piece."""
+        written = inline(text, glued=glued)
+        return written if shows_all(self.encoding) else _spelled(_quoted(written), self._lacks)
 
     def stacked(self, math: Math) -> list[str]:
         """Mathematics on as many lines as its matrices need."""
@@ -82,7 +83,7 @@ class Spelling:
 
     def _lacks(self, text: str) -> bool:
         try:
-            text.encode(self.encoding)
+            text.replace(GLUE, " ").encode(self.encoding)
         except UnicodeEncodeError:
             return True
         return False

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Container, Iterable, Sequence
 from dataclasses import dataclass
 from io import StringIO
+from textwrap import wrap
 from typing import TypeAlias
 
 from rich import box
@@ -18,6 +19,7 @@ from rldrill.problems.document import Beside, Block, Equation, Heading, Paragrap
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.encodable import Spelling
+from rldrill.render.mathematics.unicode import GLUE
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
 PIPED = 140
@@ -72,7 +74,7 @@ def renderable(block: Block) -> RenderableType:
     """One block."""
     match block:
         case Paragraph(text):
-            return _Spelled(lambda spelling, _: Text(spelling.inline(text)))
+            return _Spelled(lambda spelling, width: _wrapped(spelling.inline(text, glued=True), width))
         case Heading(text):
             return _Spelled(lambda spelling, _: Text(spelling.inline(text), style="bold"))
         case Table():
@@ -85,6 +87,17 @@ def renderable(block: Block) -> RenderableType:
             return _indented(_Spelled(lambda spelling, width: _drawn(block, spelling, width)))
         case _:
             raise TypeError(f"{type(block).__name__} cannot be shown in a terminal")
+
+
+def _wrapped(text: str, width: int) -> Text:
+    """A paragraph whose lines end between words and never inside a formula, if there is room for it on one line."""
+    if width == _ENDLESS:
+        return Text(text.replace(GLUE, " "))
+    parts = text.split("\n")
+    lines = [
+        line for part in parts for line in wrap(part, width, break_long_words=False, break_on_hyphens=False) or [""]
+    ]
+    return Text("\n".join(lines).replace(GLUE, " "))
 
 
 def words(*spans: Span) -> RenderableType:
@@ -233,14 +246,16 @@ def _indented(content: RenderableType) -> RenderableType:
 
 def asked(part: Part, *, only: bool = False) -> RenderableType:
     """The sentence that asks for a part, with its letter unless it is the only one."""
-    return _Spelled(lambda spelling, _: _asked(part, spelling, only=only))
+    return _Spelled(lambda spelling, width: _asked(part, spelling, width, only=only))
 
 
-def _asked(part: Part, spelling: Spelling, *, only: bool) -> Text:
-    text = Text() if only else Text(f"({part.label}) ", style="bold")
-    text.append(spelling.inline(part.ask))
+def _asked(part: Part, spelling: Spelling, width: int, *, only: bool) -> Text:
+    letter = "" if only else f"({part.label}) "
+    points = f"[{part.points}{GLUE}{'point' if part.points == 1 else 'points'}]"
+    text = _wrapped(f"{letter}{spelling.inline(part.ask, glued=True)} {points}", width)
+    text.stylize("bold", 0, len(letter))
+    text.stylize("dim", len(text) - len(points))
     if isinstance(part.kind, Choice):
         for letter, option in part.kind.options.items():
             text.append(f"\n    ({letter}) {spelling.inline(option)}")
-    text.append(f"  [{part.points} {'point' if part.points == 1 else 'points'}]", style="dim")
     return text

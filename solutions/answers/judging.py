@@ -7,7 +7,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
+from rldrill.problems.expressions import GREEK
+from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable
@@ -16,6 +17,8 @@ from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
+#: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
+_NAMED_LINE = re.compile(r"\s*([^\W\d_]+)[^=:≈\n]*[=:≈]")
 
 
 class Outcome(Enum):
@@ -77,12 +80,30 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     part = part_of(solution, label)
     kind = answer_kind(part.kind)
     try:
+        if isinstance(part.kind, Number):
+            _refuse_other_quantity(text, part.ask)
         cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
     read = ", ".join(f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items()))
     return _judge(solution, part, cells, value, read, dict(earlier or {}))
+
+
+def _refuse_other_quantity(text: str, ask: str) -> None:
+    """Refuse lines of a working of which an earlier one, not the last, names what is asked for.
+
+    Raises:
+        Unreadable: so it is.
+    """
+    *earlier, last = [_NAMED_LINE.match(line) for line in text.strip().split("\n")]
+    asked = [line[1] for line in earlier if line and _is_named(line[1], ask)]
+    if asked and last and not _is_named(last[1], ask):
+        raise Unreadable(f"The last line gives {last[1]}, but {asked[-1]} is asked for; type its value alone.")
+
+
+def _is_named(name: str, ask: str) -> bool:
+    return re.search(rf"(?<![^\W_]){re.escape(GREEK.get(name, name))}(?![^\W_])", ask) is not None
 
 
 def part_of(solution: Solution, label: str) -> Part:
@@ -102,10 +123,10 @@ def _judge(
 ) -> Verdict:
     label = part.label
     key = answer_kind(part.kind).cells(solution.answers[label])
-    wrong = _wrong_cells(cells, key)
+    wrong = wrong_cells(cells, key)
     if not wrong:
         return Verdict(Outcome.RIGHT, "Right.", Fraction(1), read, value=value)
-    if earlier and _matches(part, cells, solution.following(earlier)):
+    if earlier and matches(part, cells, solution.following(earlier)):
         return Verdict(
             Outcome.FOLLOW_THROUGH, "Right, going on from your earlier answer.", Fraction(1), read, value=value
         )
@@ -142,7 +163,7 @@ def credit(kind: Kind, cells: int, wrong: int) -> Fraction:
 def _made(solution: Solution, part: Part, cells: dict[str, Cell], earlier: dict[str, Any]) -> tuple[Misconception, ...]:
     """The misconceptions that give this answer, from the start or from the person's earlier answers."""
     for mistakes in (solution.mistakes, solution.mistaken(earlier) if earlier else ()):
-        made = tuple(misconception for misconception, answers in mistakes if _matches(part, cells, answers))
+        made = tuple(misconception for misconception, answers in mistakes if matches(part, cells, answers))
         if made:
             return made
     return ()
@@ -155,12 +176,12 @@ def _told(kind: Kind, made: tuple[Misconception, ...]) -> tuple[Misconception, .
     return made[:1] if isinstance(kind, Choice | Policy) else made
 
 
-def _matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:
+def matches(part: Part, cells: Mapping[str, Cell], answers: Mapping[str, Any]) -> bool:
     """Whether what was typed is the answer that a mistake, or somebody's earlier answer, leads to."""
     if part.label not in answers:
         return False
     try:
-        return not _wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
+        return not wrong_cells(cells, answer_kind(part.kind).cells(answers[part.label]))
     except NotReal:
         return False  # an odd earlier answer leads to what is no real number: nobody can have typed it
 
@@ -175,7 +196,8 @@ def _echo(cell: Cell) -> str:
     return cell if isinstance(cell, str) else " or ".join(cell)
 
 
-def _wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
+def wrong_cells(cells: Mapping[str, Cell], key: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of the cells that are not right."""
     return tuple(name for name, content in key.items() if not _cell_is_right(cells[name], content))
 
 

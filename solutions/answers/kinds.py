@@ -6,17 +6,16 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from rldrill.problems import parts
-from rldrill.problems.document import Equation, joined
+from rldrill.problems.document import joined, pieces
 from rldrill.problems.mathematics import (
-    EMPTY,
     Fence,
     Math,
     listed,
     mathematics,
     name,
-    relation,
     row,
     variable,
+    word,
 )
 from rldrill.solutions.answers.text import (
     Reading,
@@ -89,11 +88,6 @@ class Answer(ABC, Generic[KindT]):
     @abstractmethod
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         """The value typeset, line by line: what it is (None where the question says it), and what it is worth."""
-
-    def block(self, value: Any) -> Equation:
-        """The value as a block of a page, one line for every number."""
-        written = tuple(right if left is None else row(left, relation("="), right) for left, right in self.lines(value))
-        return Equation(EMPTY, written, ("",) * len(written))
 
     @abstractmethod
     def how_to_type(self) -> str:
@@ -254,9 +248,9 @@ class ValuesAnswer(Answer[parts.Values]):
         return [(self._left(key), typeset_answer(value[key])) for key in self.kind.keys]
 
     def _left(self, key: parts.Key) -> Math:
-        if "·" in self.kind.of and isinstance(key, str):
-            return mathematics(self.kind.of.replace("·", f'"{key}"'))
         names = (key,) if isinstance(key, str) else key
+        if "·" in self.kind.of:
+            return mathematics(self.kind.of.replace("·", ", ".join(f'"{each}"' for each in names)))
         return row(mathematics(self.kind.of), Fence(listed(map(name, names))))
 
     def how_to_type(self) -> str:
@@ -324,7 +318,8 @@ class ChoiceAnswer(Answer[parts.Choice]):
         return None
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
-        return [(None, name(f"({value})"))]
+        words = (word(piece.strip()) if isinstance(piece, str) else piece for piece in pieces(self.kind.options[value]))
+        return [(None, row(name(f"({value})"), *words))]
 
     def how_to_type(self) -> str:
         return f"one of {joined(list(self.kind.options))}"

@@ -1,9 +1,12 @@
-"""One application of the Bellman equation for V."""
+"""One application of the Bellman equation for V; what is left open follows from its two sides."""
+
+from dataclasses import replace
 
 from rldrill.problems.bellman.bellman_backup import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
     DISCOUNTED_REWARD,
@@ -11,27 +14,58 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_POLICY,
     MAX_FOR_MEAN,
 )
+from rldrill.solutions.sheet.dynamic_programming import EVALUATION_MAX_FOR_MEAN, POLICY_EVALUATION
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (FORGOT_POLICY, DISCOUNTED_REWARD, FORGOT_GAMMA, MAX_FOR_MEAN)
+
+def _comparable(given: Given) -> bool:
+    return not given.find and not given.parameters()
+
+
+MISCONCEPTIONS = (
+    FORGOT_POLICY,
+    DISCOUNTED_REWARD,
+    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
+    replace(MAX_FOR_MEAN, when=_comparable),
+    replace(EVALUATION_MAX_FOR_MEAN, when=_comparable),
+)
 
 
 def solve(given: Given, work: Work) -> None:
     """The average over actions, and over where each leads."""
-    value = work.step(
-        BELLMAN_V,
-        s=given.state,
-        gamma=exact(given.gamma),
-        pi=knowns.policy(given.policy),
-        V=knowns.values(given.values),
-        **knowns.model(given.dynamics),
-    )
+    known = knowns.model(given.dynamics) | {
+        "s": given.state,
+        "gamma": exact(given.gamma),
+        "pi": knowns.policy(given.policy),
+        "V": knowns.values(given.values),
+    }
+    if given.current:
+        work.answer(work.step(POLICY_EVALUATION, into=numbered(V, 1), **known))
+        return
+    value = work.step(BELLMAN_V, **known)
+    if given.find:
+        (letter,) = given.unknown
+        work.say(f"This must be the value of {given.state} that is given:")
+        value = work.equate(letter, value, exact(given.values[given.state]))
     work.answer(value)
 
 
+def possible(given: Given) -> bool:
+    """Whether what is left open has a value that it can have; without it, no value that is printed follows another."""
+    return not given.find or given.unknown == ("x",) or 0 < oracle(given)[0] < 1
+
+
 def oracle(given: Given) -> Answers:
-    """A weighted sum over the outcomes, one array for each column of the table."""
+    """A weighted sum over the outcomes, one array for each column of the table; the root of a linear function."""
     rows = given.dynamics.transitions
-    weight = [at(given.policy[row.state].get(row.action, 0)) * at(row.probability) for row in rows]
-    worth = [at(row.reward) + at(given.gamma) * at(given.values[row.next]) for row in rows]
-    return (sum(w * v for w, v in zip(weight, worth, strict=True)),)
+
+    def backed_up(left_open: float) -> float:
+        gamma = at(given.gamma, left_open)
+        weight = [at(given.policy[row.state].get(row.action, 0), left_open) * at(row.probability, left_open)
+                  for row in rows]  # fmt: skip
+        worth = [at(row.reward, left_open) + gamma * at(given.values[row.next], left_open) for row in rows]
+        return sum(w * v for w, v in zip(weight, worth, strict=True))
+
+    if not given.find:
+        return (backed_up(float(OPEN)),)
+    return (root(lambda left_open: backed_up(left_open) - at(given.values[given.state])),)

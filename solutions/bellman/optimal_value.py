@@ -9,9 +9,9 @@ from rldrill.problems.document import joined
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
-from rldrill.solutions.optimality import optimum
+from rldrill.solutions.optimality import Optimum, optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors, without_loss
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
 from rldrill.solutions.sheet.bellman import (
@@ -21,24 +21,21 @@ from rldrill.solutions.sheet.bellman import (
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
 )
-from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V
+from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, POLICY_IMPROVEMENT, POLICY_ITERATION
 from rldrill.solutions.work import Work
+
+#: Of so many states policy iteration is written out.
+_WRITTEN_OUT = 4
 
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
-    """The equations of the best policy, their solution put into the optimality equation, and what follows."""
+    """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
-    policy = best.policy
-    told = joined([f"in {state} {action}" for state, action in policy.items()])
-    work.say(f"Suppose that these actions are best (policy iteration finds them): {told}. Their values:")
-    known = knowns.model_and_policy(mdp, deterministic(policy), given.gamma)
-    values = evaluation(work, BELLMAN_V, mdp, known)
-    endless = (
-        "Going round for ever in a loop that pays nothing is worth 0, not more than the value there. "
-        if given.gamma == 1
-        else ""
-    )
-    work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
+    if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
+        values = _iterated(given, work)
+    else:
+        values = _of_the_best(given, work, best, evaluation)
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     for state in mdp.states:
         work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
     if best.unlike_sweeps:
@@ -52,6 +49,42 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     best.tell(work)
     work.answer(best.among(greedy))
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+
+
+def _iterated(given: Given, work: Work) -> dict[str, Value]:
+    """Policy iteration from the policy that earns most at once, to the last values."""
+    mdp = given.mdp
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    policy = optimum(mdp, Fraction(0)).policy
+    work.say(f"Policy iteration, starting with the action that earns most at once: {_told(policy)}.")
+    while True:
+        values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy})
+        greedy = {state: work.value(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+        if all(policy[state] in greedy[state] for state in mdp.states):
+            work.say("No other action is better now: these values solve the optimality equation.")
+            return values
+        for state in mdp.states:
+            work.step(POLICY_IMPROVEMENT, s=state, V=values, **known)
+        policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
+        work.say(f"This changes the policy, so it is evaluated again: {_told(policy)}.")
+
+
+def _of_the_best(given: Given, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
+    """The values of the policy with which policy iteration ends."""
+    mdp, policy = given.mdp, best.policy
+    work.say(f"Policy iteration ends with these actions: {_told(policy)}. Their values:")
+    values = evaluation(work, BELLMAN_V, mdp, knowns.model_and_policy(mdp, deterministic(policy), given.gamma))
+    endless = (
+        "Going round for ever in a loop that pays nothing is worth 0, not more than the value there. "
+        if given.gamma == 1
+        else ""
+    )
+    work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
+    return values
+
+
+def _told(policy: Mapping[str, str]) -> str:
+    return joined([f"{action} in {state}" for state, action in policy.items()])
 
 
 def _settle_for(given: Given, work: Work, policy: Mapping[str, str]) -> None:

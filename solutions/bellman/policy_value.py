@@ -1,15 +1,15 @@
 """The Bellman equations of all states, solved as a linear system."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.bellman.policy_value import Given
+from rldrill.problems.recurrence import predecessors
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.oracle import Answers, chances, swept, tensors
-from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_backup, terminal_value
-from rldrill.solutions.recurrence import predecessors
+from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
 from rldrill.solutions.sheet.bellman import (
     AVERAGE_REWARD,
     BELLMAN_V,
@@ -34,17 +34,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
 
 
 def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
-    """How often every state is visited where nothing ends, and what a step earns then on average.
-
-    Raises:
-        NoSolution: there are several sets of states that are never left: all depends on where it begins.
-    """
-    loops = endless(given.mdp, known)
-    if len(loops) > 1:
-        raise NoSolution(
-            f"the average reward depends on where it begins: whoever comes to {loops[0]} stays there for ever, and so "
-            f"does whoever comes to {loops[1]}; change the policy or the model so that one of them leads to the other"
-        )
+    """How often every state is visited where nothing ends, and what a step earns then on average."""
     ways = {
         state: [(action, [row.next for row in given.mdp.outcomes[state, action]]) for action in actions]
         for state, actions in given.mdp.actions.items()
@@ -61,7 +51,12 @@ def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
     work.answer(work.step(AVERAGE_REWARD, visited=shares, **known))
 
 
-MISCONCEPTIONS = (one_backup(solve), terminal_value(solve), TRANSPOSED, EQUAL_SHARES)
+MISCONCEPTIONS = (
+    replace(one_backup(solve), when=lambda given: not given.average),
+    terminal_value(solve),
+    TRANSPOSED,
+    EQUAL_SHARES,
+)
 
 
 def oracle(given: Given) -> Answers:

@@ -4,12 +4,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import Quantity, called, quantity
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
 from rldrill.solutions.work import Work
+
+#: The greatest return of a path to the state that is to be visited.
+Head = quantity("V", called("W"))
 
 Rewards = Mapping[tuple[str, str], Value]
 Ways = Mapping[str, tuple[str, ...]]
@@ -25,8 +29,8 @@ def _along(given: Given, work: Work, ways: Ways) -> None:
     values = _totals(given.goal, given.backwards, ways, R, work)
     values = {given.goal: ZERO} | work.answer({state: values[state] for state in ways})
     best = {state: _best(state, after, R, values, work) for state, after in ways.items()}
-    work.say(f"A best path from {given.start} is {_path(given.start, best)}.")
-    work.say("Each part of it is a best path from where that part begins: this is the principle of optimality.")
+    work.say(f"An optimal path from {given.start} is {_path(given.start, best)}.")
+    work.say("Each tail of it is an optimal path from where the tail begins: this is the principle of optimality.")
     if given.forks:
         work.answer({state: best[state] for state in given.forks})
     if given.through is not None:
@@ -37,14 +41,16 @@ def _rewards(given: Given) -> Rewards:
     return {(edge.state, edge.next): exact(edge.reward) for edge in given.edges}
 
 
-def _totals(goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work) -> dict[str, Value]:
+def _totals(
+    goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work, into: type[Quantity] | None = None
+) -> dict[str, Value]:
     """The best totals to the goal from those states before it that lead there."""
     values: dict[str, Value] = {goal: ZERO}
     for state in before:
         after = tuple(name for name in ways[state] if name in values)
         known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": values}
         if after:
-            values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, **known)}
+            values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, into=into, **known)}
     return values
 
 
@@ -64,11 +70,15 @@ def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
 
 def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
-    work.say(f"The part before {through} must be best too. With {through} for the goal:")
+    work.say(
+        f"The part up to {through} must be optimal, too. $W(s)$ is the greatest return of a path from $s$ to {through}:"
+    )
     before = given.backwards[given.backwards.index(through) + 1 :]
-    there = _totals(through, before, given.onward, R, work)
+    there = _totals(through, before, given.onward, R, work, Head)
     total = there[given.start] + values[through]
-    work.say(f"Both parts together: ${there[given.start]} + ({values[through]}) = {total}$.")
+    onward = f"{values[through]}" if sign(values[through]) >= 0 else f"({values[through]})"
+    sum_ = f"{there[given.start]} + {onward} = {total}".replace("-", "−")
+    work.say(f'Both parts together: $W("{given.start}") + V^*("{through}") = {sum_}$.')
     return total
 
 

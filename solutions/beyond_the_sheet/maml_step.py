@@ -1,11 +1,23 @@
 """The adapted parameter of every task, then the outer step through all of them."""
 
+from typing import Any
+
 import numpy as np
 
 from rldrill.problems.beyond_the_sheet.maml_step import Given
-from rldrill.solutions.exact import exact
+from rldrill.problems.exact import shown
+from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.beyond_the_sheet import FIRST_ORDER, MAML_INNER, MAML_OUTER, NOT_ADAPTED
+from rldrill.solutions.rational import generator
+from rldrill.solutions.sheet.beyond_the_sheet import (
+    FIRST_ORDER,
+    MAML_DERIVATIVE,
+    MAML_FIRST_ORDER,
+    MAML_GRADIENT,
+    MAML_INNER,
+    MAML_OUTER,
+    NOT_ADAPTED,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED)
@@ -14,22 +26,45 @@ MISCONCEPTIONS = (FIRST_ORDER, NOT_ADAPTED)
 def solve(given: Given, work: Work) -> None:
     """The outer gradient goes on from the adapted parameters as they were answered."""
     tasks = range(1, len(given.tasks) + 1)
-    known = {
-        "theta0": exact(given.theta),
+    known: dict[str, Any] = {
+        "theta0": generator("theta") if given.theta is None else exact(given.theta),
         "alpha": exact(given.alpha),
-        "beta": exact(given.beta),
+        "beta": generator("beta") if given.beta is None else exact(given.beta),
         "curvature": {index: exact(task.curvature) for index, task in enumerate(given.tasks, 1)},
         "optimum": {index: exact(task.optimum) for index, task in enumerate(given.tasks, 1)},
+        "tasks": tuple(tasks),
     }
+    if given.theta is None:
+        _staying(work, known)
+        return
     found = tuple(work.step(MAML_INNER, i=index, **known) for index in tasks)
     adapted = work.answer(found if len(found) > 1 else found[0])
-    by_task = dict(zip(tasks, adapted if len(found) > 1 else (adapted,), strict=True))
-    work.answer(work.step(MAML_OUTER, tasks=tuple(tasks), adapted=by_task, **known))
+    known["adapted"] = dict(zip(tasks, adapted if len(found) > 1 else (adapted,), strict=True))
+    for index in tasks:
+        work.step(MAML_DERIVATIVE, i=index, **known)
+    after = work.step(MAML_OUTER, **known)
+    if given.after is not None:
+        work.say(f"After the step $θ$ is ${shown(given.after)}$:")
+        after = work.equate("beta", after, exact(given.after))
+    work.answer(after)
+    if given.first_order:
+        work.answer(work.step(MAML_FIRST_ORDER, **known))
+
+
+def _staying(work: Work, known: dict[str, Any]) -> None:
+    """Where the gradient of the outer loss, a straight line in θ, is zero."""
+    tasks = known["tasks"]
+    slopes = work.answer(tuple(work.step(MAML_DERIVATIVE, i=index, **known) for index in tasks))
+    known["adaptedSlope"] = dict(zip(tasks, slopes, strict=True))
+    known["adapted"] = {index: work.step(MAML_INNER, i=index, **known) for index in tasks}
+    gradient = work.step(MAML_GRADIENT, **known)
+    work.say("The outer step leaves $θ$ unchanged where this gradient is zero:")
+    work.answer(work.equate("theta", gradient, ZERO))
 
 
 def oracle(given: Given) -> Answers:
-    """The outer loss as a function of θ, differentiated by a difference; exact, since it is quadratic."""
-    alpha, theta = at(given.alpha), at(given.theta)
+    """The outer loss as a function of θ, differentiated by differences; exact, since it is quadratic."""
+    alpha = at(given.alpha)
     curves, optima = (np.array([at(entry) for entry in column]) for column in zip(*given.tasks, strict=True))
 
     def adapted(start: float) -> np.ndarray:
@@ -38,5 +73,14 @@ def oracle(given: Given) -> Answers:
     def loss(start: float) -> float:
         return float(np.sum(curves * (adapted(start) - optima) ** 2 / 2))
 
-    slope = (loss(theta + 1) - loss(theta - 1)) / 2
-    return (adapted(theta), theta - at(given.beta) * slope)
+    def slope(start: float) -> float:
+        return (loss(start + 1) - loss(start - 1)) / 2
+
+    if given.theta is None:
+        return (adapted(1) - adapted(0), -slope(0) / (slope(1) - slope(0)))
+    theta = at(given.theta)
+    if given.beta is None:
+        return (adapted(theta), (theta - at(given.after or 0)) / slope(theta))
+    beta = at(given.beta)
+    first_order = theta - beta * float(np.sum(curves * (adapted(theta) - optima)))
+    return (adapted(theta), theta - beta * slope(theta), *([first_order] if given.first_order else []))

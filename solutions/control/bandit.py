@@ -1,12 +1,11 @@
-"""Three kinds of bandits: sample averages, upper confidence bounds, and preferences that follow a gradient."""
+"""Four kinds of bandits: sample averages, upper confidence bounds, their weight, and preferences on a gradient."""
 
 from typing import Any
 
 import numpy as np
 
-from rldrill.problems.control.bandit import NEXT, Bounds, Estimates, Given, Preferences, Pull
+from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, decimal, exact
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
@@ -23,6 +22,7 @@ from rldrill.solutions.sheet.control import (
     TIME_FOR_LOG,
     UCB,
     UCB_ARM,
+    UCB_BALANCE,
 )
 from rldrill.solutions.work import Work
 
@@ -44,6 +44,8 @@ def solve(given: Given, work: Work) -> None:
             work.answer({NEXT: work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.tried)})
         case Bounds():
             _explore(given, work, _averages(given, work))
+        case Balance():
+            _balance(given, work, _averages(given, work))
         case Preferences():
             _follow_gradient(given, work)
 
@@ -56,7 +58,7 @@ def _pulls(pulls: tuple[Pull, ...]) -> dict[str, Any]:
     }
 
 
-def _averages(given: Estimates | Bounds, work: Work) -> dict[str, Value]:
+def _averages(given: Averaged, work: Work) -> dict[str, Value]:
     """The first answer: what each arm gave on average."""
     known = _pulls(given.pulls) | {"n": len(given.pulls)}
     averages: dict[str, Value] = work.answer({arm: work.step(ARM_ESTIMATE, a=arm, **known) for arm in given.tried})
@@ -65,20 +67,33 @@ def _averages(given: Estimates | Bounds, work: Work) -> dict[str, Value]:
 
 def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
     """The bounds, then the arm that has the greatest."""
-    time = len(given.pulls) + 1
-    known = {
-        "Q": averages,
-        "t": time,
-        "c": exact(given.c),
-        "N": {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.tried},
-    }
+    known = _counted(given, averages) | {"c": exact(given.c)}
     bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.tried})
     work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
     if given.untried:
         work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
         work.answer({NEXT: given.untried})
     else:
-        work.answer({NEXT: work.step(UCB_ARM, t=time, U=bounds, choices=given.tried)})
+        work.answer({NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)})
+
+
+def _counted(given: Averaged, averages: dict[str, Value]) -> dict[str, Any]:
+    """The averages, how often every arm was pulled, and the time of the next choice."""
+    counts = {arm: exact(sum(pull.arm == arm for pull in given.pulls)) for arm in given.tried}
+    return {"Q": averages, "t": len(given.pulls) + 1, "N": counts}
+
+
+def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
+    """The weight with which both bounds are equal; above it the arm that was pulled less often is ahead."""
+    better, rarer = given.between
+    known = _counted(given, averages)
+    work.say("Equal bounds, $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, are solved for $c$:")
+    weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
+    work.say(
+        f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
+        f"$c > {decimal(weight, 3)}$."
+    )
+    work.answer({NEXT: (rarer,)})
 
 
 def _follow_gradient(given: Preferences, work: Work) -> None:
@@ -86,7 +101,7 @@ def _follow_gradient(given: Preferences, work: Work) -> None:
     known = _pulls(given.every_pull) | {
         "n": len(given.pulls),
         "choices": given.every_arm,
-        "H": knowns.values(given.preferences),
+        "H": {arm: exact(value) for arm, value in given.preferences.items()},
         "alpha": exact(given.alpha),
     }
     known["pi"] = work.answer({arm: work.step(GRADIENT_BANDIT_POLICY, a=arm, **known) for arm in given.every_arm})
@@ -106,12 +121,17 @@ def oracle(given: Given) -> Answers:
     means = np.array([rewards[mask].mean() for mask in pulled])
     if isinstance(given, Estimates):
         return (means, {NEXT: _best(given, means)})
+    if isinstance(given, Balance):
+        better, rarer = map(given.tried.index, given.between)
+        roots = np.sqrt(np.log(len(rewards) + 1) / pulled.sum(axis=1))
+        return (means, np.linalg.solve([[roots[rarer] - roots[better]]], [means[better] - means[rarer]]),
+                {NEXT: {given.between[1]}})  # fmt: skip
     bounds = means + at(given.c) * np.sqrt(np.log(len(rewards) + 1) / pulled.sum(axis=1))
     never = set(given.every_arm) - {pull.arm for pull in given.pulls}
     return (means, bounds, {NEXT: never or _best(given, bounds)})
 
 
-def _best(given: Estimates | Bounds, worth: Array) -> set[str]:
+def _best(given: Averaged, worth: Array) -> set[str]:
     return {arm for arm, value in zip(given.tried, worth, strict=True) if np.isclose(value, worth.max(), rtol=1e-12)}
 
 

@@ -7,14 +7,15 @@ import numpy as np
 
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
     DOUBLE_Q_ACTION,
     DOUBLE_Q_LEARNING,
+    NOT_DISCOUNTED,
     OTHER_TABLE_SELECTS,
     SAME_TABLE_EVALUATES,
 )
@@ -36,7 +37,7 @@ def both_updated(given: Given, work: Work) -> None:
     _learn(given, work, lambda turn: (3 - turn, turn))
 
 
-MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, FORGOT_GAMMA, both_updated)
+MISCONCEPTIONS = (SAME_TABLE_EVALUATES, OTHER_TABLE_SELECTS, NOT_DISCOUNTED, both_updated)
 
 
 def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) -> None:
@@ -48,6 +49,9 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
+        if given.outcome and time == len(given.updates) - 1:
+            find(work, given.outcome, given.asked_for, {pair: tables[turn, *pair] for pair in given.updated})
+            return
         later = {table for turn in given.updates[time + 1 :] for table in updated(turn)}
         for table in updated(turn):
             if table not in later:
@@ -64,6 +68,15 @@ def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: di
 
 
 def oracle(given: Given) -> Answers:
+    """The values after the run; or where one is known, the parameter that leads there."""
+    if given.outcome is None:
+        return _learned(given)
+    outcome = given.outcome
+    place = given.updated_in(given.updates[-1]).index((outcome.state, outcome.action))
+    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+
+
+def _learned(given: Given) -> Answers:
     """Both tables as one array with an axis for the table; the selection by the position of the greatest."""
     run = given.trajectory
     states = list(given.values)

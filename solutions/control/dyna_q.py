@@ -10,8 +10,14 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
-from rldrill.solutions.sheet.control import MEAN_FOR_MAX, OWN_STATE_MAX, PLANNED_UPDATE, Q_LEARNING, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.control import (
+    MEAN_FOR_MAX,
+    NOT_DISCOUNTED,
+    OWN_STATE_MAX,
+    PLANNED_UPDATE,
+    Q_LEARNING,
+    TAKEN_FOR_MAX,
+)
 from rldrill.solutions.work import Work
 
 Table = dict[tuple[str, str], Any]
@@ -125,7 +131,7 @@ def planning_skipped(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
-    FORGOT_GAMMA,
+    NOT_DISCOUNTED,
     MEAN_FOR_MAX,
     TAKEN_FOR_MAX,
     OWN_STATE_MAX,

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from rldrill.problems.control.epsilon_greedy import Given
+from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
@@ -18,39 +19,62 @@ from rldrill.solutions.sheet.control import (
     TIED_SHARE_FORGOTTEN,
     TIED_SHARED_AMONG_OTHERS,
 )
+from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """The probabilities; then, where it is asked for, the state's value."""
-    _average(given, work, _chances(given, work, knowns.values(given.values)))
+    """The probabilities; then, where it is asked for, the state's value. Or ε from the one or the other."""
+    _answer(given, work, knowns.values(given.values))
 
 
-def _chances(given: Given, work: Work, values: dict[str, Value]) -> dict[str, Value]:
-    chances: dict[str, Value] = work.answer(epsilon_greedy(work, given.state, values, exact(given.epsilon)))
-    return chances
+def _answer(given: Given, work: Work, values: dict[str, Value]) -> None:
+    """The answers, with the probabilities that follow from these values."""
+    if given.backwards:
+        _back(given, work, values)
+    else:
+        chances: dict[str, Value] = work.answer(epsilon_greedy(work, given.state, values, exact(given.epsilon)))
+        _average(given, work, chances)
+
+
+def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
+    """ε from a probability or from the state's value; where that is asked for, too, the value with this ε."""
+    chances = epsilon_greedy(work, given.state, values, exact(given.epsilon))
+    if given.taken:
+        work.say(f"{given.taken.action} is taken with probability ${shown(given.taken.probability)}$:")
+        epsilon = work.answer(work.equate("epsilon", chances[given.taken.action], exact(given.taken.probability)))
+        if given.valued:
+            _average(given, work, epsilon_greedy(work, given.state, values, epsilon))
+    elif given.state_value is not None:
+        worth = _value(given, work, chances)
+        work.say(f"This value is ${shown(given.state_value)}$:")
+        work.answer(work.equate("epsilon", worth, exact(given.state_value)))
 
 
 def _average(given: Given, work: Work, chances: dict[str, Value]) -> None:
-    if not given.valued:
-        return
+    if given.valued:
+        work.answer(_value(given, work, chances))
+
+
+def _value(given: Given, work: Work, chances: dict[str, Value]) -> Value:
     known: dict[str, Any] = {
         "pi": {(action, given.state): chance for action, chance in chances.items()},
         "Q": {(given.state, action): value for action, value in knowns.values(given.values).items()},
         "actions": {given.state: tuple(given.values)},
     }
-    work.answer(work.step(V_FROM_Q, s=given.state, **known))
+    value: Value = work.step(V_FROM_Q, s=given.state, **known)
+    return value
 
 
 @slip(
     "first-of-the-tied",
     "All actions that are tied for the best are greedy; the probability 1 − ε is shared among them.",
-    when=lambda given: len(given.best) > 1,
+    when=lambda given: len(given.best) > 1 and given.state_value is None,
 )
 def first_of_tied(given: Given, work: Work) -> None:
     """The probabilities as if the other best actions were worth less."""
     values = knowns.values(given.values)
-    _average(given, work, _chances(given, work, values | {other: values[other] - 1 for other in given.best[1:]}))
+    _answer(given, work, values | {other: values[other] - 1 for other in given.best[1:]})
 
 
 @slip(
@@ -59,10 +83,10 @@ def first_of_tied(given: Given, work: Work) -> None:
     when=lambda given: given.valued,
 )
 def value_of_best(given: Given, work: Work) -> None:
-    """The probabilities; then the greatest action value."""
-    values = knowns.values(given.values)
-    _chances(given, work, values)
-    work.answer(values[given.best[0]])
+    """The probabilities, or ε; then the greatest action value."""
+    first, *_ = right_answers(solve, given, work)
+    work.answer(first)
+    work.answer(exact(given.values[given.best[0]]))
 
 
 MISCONCEPTIONS = (
@@ -80,5 +104,17 @@ def oracle(given: Given) -> Answers:
     """The uniform distribution mixed with that of the greedy choice, as vectors."""
     Q = np.array([at(value) for value in given.values.values()])
     greedy = (max(Q) == Q) / np.count_nonzero(max(Q) == Q)
-    chances = at(given.epsilon) * np.full(len(Q), 1 / len(Q)) + (1 - at(given.epsilon)) * greedy
-    return (chances, chances @ Q) if given.valued else (chances,)
+    explored = np.full(len(Q), 1 / len(Q))
+    epsilon = at(given.epsilon)
+    if given.taken:
+        place = list(given.values).index(given.taken.action)
+        epsilon = float((at(given.taken.probability) - greedy[place]) / (explored[place] - greedy[place]))
+    if given.state_value is not None:
+        return (np.interp(at(given.state_value), [Q.mean(), Q.max()], [1, 0]),)
+    chances = epsilon * explored + (1 - epsilon) * greedy
+    return (epsilon if given.taken else chances, chances @ Q)[: 1 + given.valued]
+
+
+def possible(given: Given) -> bool:
+    """Whether some ε from 0 to 1 leads to the probability or to the value of the state that is printed."""
+    return not given.backwards or bool(-1e-9 <= float(oracle(given)[0]) <= 1 + 1e-9)

@@ -4,6 +4,7 @@ import numpy as np
 
 from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
+from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.oracle import Answers, Array, at
@@ -28,7 +29,10 @@ def solve(given: Given, work: Work) -> None:
         values = {action: known["Q"][after, action] for action in known["actions"][after]}
         known["pi"] = {(action, after): chance for action, chance in _policy(given, work, after, values).items()}
         known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
-    work.answer({pair: known["Q"][pair] for pair in given.updated})
+    if given.outcome:
+        find(work, given.outcome, given.asked_for, known["Q"])
+    else:
+        work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 
 def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> dict[str, Value]:
@@ -43,6 +47,15 @@ def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> d
 
 
 def oracle(given: Given) -> Answers:
+    """The values after the run; or where one is known, the parameter that leads there."""
+    if given.outcome is None:
+        return _learned(given)
+    outcome = given.outcome
+    place = given.updated.index((outcome.state, outcome.action))
+    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+
+
+def _learned(given: Given) -> Answers:
     """The expectation as a mixture of the best value and the plain mean, or by the policy as a vector."""
     run = given.trajectory
     Q = {state: np.array([at(value) for value in row.values()]) for state, row in given.values.items()}

@@ -41,7 +41,7 @@ def solve(given: Given, work: Work) -> None:
     returns = {}
     for number, run in enumerate(runs, 1):
         if len(runs) > 1:
-            work.say(f"The return of episode {number} is called $R_{number}$ from here on:")
+            work.say(f"The return of episode {number}, $R^({number})$:")
         returns[number] = work.step(RETURN, t=0, gamma=exact(given.gamma), r=run["r"], T=run["T"])
     weighing: dict[str, Any] = {"rho": dict(enumerate(ratios, 1)), "Ri": returns, "n": len(runs), "S": {0: given.start}}
     work.answer(work.step(ORDINARY_IMPORTANCE_SAMPLING, **weighing))

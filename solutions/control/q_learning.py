@@ -2,13 +2,13 @@
 
 from rldrill.problems.control.q_learning import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import Value
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
-from rldrill.solutions.sheet.control import MEAN_FOR_MAX, Q_LEARNING, Q_LEARNING_TD_ERROR, TAKEN_FOR_MAX
+from rldrill.solutions.sheet.control import MEAN_FOR_MAX, NOT_DISCOUNTED, Q_LEARNING, Q_LEARNING_TD_ERROR, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, FORGOT_GAMMA)
+MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, NOT_DISCOUNTED)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -20,6 +20,9 @@ def solve(given: Given, work: Work) -> None:
             errors.append(work.step(Q_LEARNING_TD_ERROR, **seen, **known))
         pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
         known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, **seen, **known)}
+    if given.outcome:
+        find(work, given.outcome, given.asked_for, known["Q"])
+        return
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
         work.say("The values are those at the end of the same updates.")
@@ -27,6 +30,15 @@ def solve(given: Given, work: Work) -> None:
 
 
 def oracle(given: Given) -> Answers:
+    """The values after the run; or where they are what is known, the step size or discount that leads there."""
+    if given.outcome is None:
+        return _learned(given)
+    outcome = given.outcome
+    place = given.updated.index((outcome.state, outcome.action))
+    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+
+
+def _learned(given: Given) -> Answers:
     """The update as a weighted mean of old value and target, on nested dictionaries of floats."""
     table = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
     errors = []

@@ -4,6 +4,7 @@ import numpy as np
 
 from rldrill.problems.control.sarsa import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import Value
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import MAX_FOR_TAKEN, SARSA, SARSA_FORGOT_GAMMA, SARSA_TD_ERROR, STATE_FOR_NEXT
@@ -21,6 +22,9 @@ def solve(given: Given, work: Work) -> None:
             errors.append(work.step(SARSA_TD_ERROR, **seen, **known))
         pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
         known["Q"] = known["Q"] | {pair: work.step(SARSA, **seen, **known)}
+    if given.outcome:
+        find(work, given.outcome, given.asked_for, known["Q"])
+        return
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
         work.say("The values are those at the end of the same updates.")
@@ -28,6 +32,15 @@ def solve(given: Given, work: Work) -> None:
 
 
 def oracle(given: Given) -> Answers:
+    """The values after the run; or where they are what is known, the step size or discount that leads there."""
+    if given.outcome is None:
+        return _learned(given)
+    outcome = given.outcome
+    place = given.updated.index((outcome.state, outcome.action))
+    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+
+
+def _learned(given: Given) -> Answers:
     """The whole run as one product of matrices, which act on all action values and a 1 below them."""
     pairs = [(state, action) for state, row in given.values.items() for action in row]
     start = np.array([*(at(given.values[state][action]) for state, action in pairs), 1.0])

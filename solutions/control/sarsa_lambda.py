@@ -10,13 +10,14 @@ import numpy as np
 
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
+from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.control import (
     ACCUMULATING_ACTION_TRACE,
     ACTION_TRACE,
+    NOT_DISCOUNTED,
     Q_LEARNING_TD_ERROR,
     REPLACING_ACTION_TRACE,
     SARSA_LAMBDA,
@@ -60,6 +61,8 @@ def _traces(given: Given, work: Work, left: Callable[[Traces, int], Traces] = la
     for time, visited in enumerate(_visits(given)):
         trace = _visited(given, work, known, left(trace, time), time, visited)
         found.append(trace)
+    if given.outcome:
+        return found
     return [*found[:-1], trace | work.answer({pair: trace[pair] for pair in given.eligible})]
 
 
@@ -112,7 +115,10 @@ def _move(given: Given, work: Work, traces: list[Traces]) -> None:
     for time, trace in enumerate(traces):
         error = work.step(SARSA_TD_ERROR, t=time, **known)
         known["Q"] = _moved(given, work, known, error, trace, time)
-    work.answer({pair: known["Q"][pair] for pair in given.eligible})
+    if given.outcome:
+        find(work, given.outcome, given.asked_for, known["Q"])
+    else:
+        work.answer({pair: known["Q"][pair] for pair in given.eligible})
 
 
 def _explores(given: Given, time: int) -> bool:
@@ -140,7 +146,7 @@ def _comes_back(given: Given) -> bool:
 @slip(
     "traces-cut",
     "Sarsa(λ) keeps its traces when an exploratory action is taken; it is Watkins's Q(λ) that cuts them there.",
-    when=lambda given: not given.watkins and _explores_at_times(given),
+    when=lambda given: not given.outcome and not given.watkins and _explores_at_times(given),
 )
 def traces_cut(given: Given, work: Work) -> None:
     """No traces are left where an exploratory action is taken."""
@@ -154,7 +160,7 @@ def traces_cut(given: Given, work: Work) -> None:
 @slip(
     "replacing-traces",
     "Accumulating traces add 1 to what is left of the trace; replacing traces would set it to 1.",
-    when=lambda given: not given.watkins and not given.replacing and _comes_back(given),
+    when=lambda given: not given.outcome and not given.watkins and not given.replacing and _comes_back(given),
 )
 def replacing(given: Given, work: Work) -> None:
     """Nothing is left of the trace of the pair that is visited."""
@@ -165,7 +171,7 @@ def replacing(given: Given, work: Work) -> None:
 @slip(
     "only-the-visited-pair",
     "Every pair with a trace is moved by the TD error, not only the pair that was just left.",
-    when=lambda given: not given.watkins and len(given.eligible) > 1,
+    when=lambda given: not given.outcome and not given.watkins and len(given.eligible) > 1,
 )
 def only_visited(given: Given, work: Work) -> None:
     """All traces are right, but only the pair just left is moved by its trace."""
@@ -186,11 +192,20 @@ def traces_kept(given: Given, work: Work) -> None:
 
 MISCONCEPTIONS = (
     traces_cut, only_visited, replacing, TRACE_WITHOUT_LAMBDA, TRACE_WITHOUT_GAMMA, traces_kept,
-    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, FORGOT_GAMMA,
+    ACCUMULATING_ACTION_TRACE, TAKEN_FOR_MAX, NOT_DISCOUNTED,
 )  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:
+    """Traces and values; or where a value is known in the end, the parameter that leads there."""
+    if given.outcome is None:
+        return _learned(given)
+    outcome = given.outcome
+    place = given.eligible.index((outcome.state, outcome.action))
+    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+
+
+def _learned(given: Given) -> Answers:
     """Traces as sums of powers over past visits; values as vectors, all pairs at once."""
     run = given.trajectory
     pairs = [(state, action) for state, row in given.values.items() for action in row]

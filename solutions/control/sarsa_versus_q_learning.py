@@ -20,7 +20,31 @@ from rldrill.solutions.sheet.control import (
 from rldrill.solutions.work import Work
 
 #: The letter of the method that is meant by a word.
-_LETTERS = {"on-policy": "A", "off-policy": "B"}
+_LETTERS = {
+    "on-policy": "A", "off-policy": "B", "model-free": "C", "bootstrapping": "C", "model-based": "D",
+    "a Monte Carlo method": "D",
+}  # fmt: skip
+
+_POLICY = (
+    "Sarsa's targets use the actions that were taken, so it learns about the policy that acts: it is on-policy. "
+    "Q-learning's use the best actions, so it learns about the greedy policy: it is off-policy."
+)
+_MODEL = (
+    "Both learn from the transitions that were seen and know no probabilities: they are model-free, not model-based."
+)
+_ESTIMATES = (
+    "Both targets have a current action value in them, so they learn after every transition: both bootstrap, and "
+    "neither is a Monte Carlo method."
+)
+#: The conclusion for each word.
+_WHY = {
+    "on-policy": _POLICY, "off-policy": _POLICY, "model-free": _MODEL, "model-based": _MODEL,
+    "bootstrapping": _ESTIMATES, "a Monte Carlo method": _ESTIMATES,
+}  # fmt: skip
+
+
+def _of_policies(given: Given) -> bool:
+    return given.word in ("on-policy", "off-policy")
 
 
 def solve(given: Given, work: Work) -> None:
@@ -58,10 +82,7 @@ def _compare(
     for formula in formulas:
         found = numbers(given, work, formula)
         work.answer(found[0] if len(found) == 1 else found)
-    work.say(
-        "Sarsa's targets use the actions that were taken, so it learns about the policy that acts: it is on-policy. "
-        "Q-learning's use the best actions, so it learns about the greedy policy: it is off-policy."
-    )
+    work.say(_WHY[given.word])
     work.answer(letter)
 
 
@@ -91,6 +112,7 @@ def update_for_target(given: Given, work: Work) -> None:
     "on-and-off-policy-swapped",
     "Sarsa's target uses the action that its own policy takes (on-policy); Q-learning's uses the best action, "
     "whatever its policy does (off-policy).",
+    when=_of_policies,
 )
 def policy_swapped(given: Given, work: Work) -> None:
     """The letter of the other method."""
@@ -100,6 +122,7 @@ def policy_swapped(given: Given, work: Work) -> None:
 @slip(
     "both-alike",
     "They differ: Sarsa learns the values of the policy that acts, Q-learning those of the greedy policy.",
+    when=_of_policies,
 )
 def said_both(given: Given, work: Work) -> None:
     """The letter that stands for both."""
@@ -109,6 +132,7 @@ def said_both(given: Given, work: Work) -> None:
 @slip(
     "neither",
     "Every method is the one or the other: Sarsa learns about the policy that acts, Q-learning about the greedy one.",
+    when=_of_policies,
 )
 def said_neither(given: Given, work: Work) -> None:
     """The letter that stands for neither."""
@@ -140,4 +164,5 @@ def oracle(given: Given) -> Answers:
             old = rows[state][run.actions[time]]
             rows[state][run.actions[time]] = (1 - at(given.alpha)) * old + at(given.alpha) * targets[time]
         answers.append(targets)
-    return [*answers, "A" if given.word == "on-policy" else "B"]
+    letters = {"on": "A", "off": "B", "model-free": "C", "boot": "C"}
+    return [*answers, next((letter for word, letter in letters.items() if given.word.startswith(word)), "D")]

@@ -20,6 +20,7 @@ class Look(Enum):
 
     LETTER = auto()
     NUMBER = auto()
+    SLOT = auto()  # a 0 or 1 that keeps a place, and is set apart by dots
     GRID = auto()
     LINE = auto()  # of numbers in brackets
     OPEN = auto()  # what follows it would seem to belong to it

@@ -107,8 +107,9 @@ def sum_of(terms: Iterable[Expr]) -> Expr:
 
 
 def _is_nothing(term: Expr) -> bool:
-    """Whether a term is a multiple of a matrix or vector of zeros, which only fills the line."""
-    return any(isinstance(f, MatrixLeaf) and not f.scalar and f.args[0].is_zero_matrix for f in Mul.make_args(term))
+    """Whether a term is a multiple of a matrix of zeros, which only fills the line; vectors are short, and stay."""
+    matrices = (f for f in Mul.make_args(term) if isinstance(f, MatrixLeaf) and not isinstance(f, VectorLeaf))
+    return any(not f.scalar and f.args[0].is_zero_matrix for f in matrices)
 
 
 def product_of(factors: Iterable[Expr]) -> Expr:
@@ -174,8 +175,28 @@ def without_slots(expression: Expr) -> Expr:
 
 
 def reduced(expression: Expr) -> Expr:
-    """The step with its inner brackets worked out: what one writes between putting in and the result."""
-    return _reduced(without_slots(expression))
+    """The step with its inner brackets worked out: what one writes between putting in and the result.
+
+    Where powers of e are plain numbers, such as exp(ln 3) and exp(0), that is all that is worked out.
+    """
+    written = without_slots(expression)
+    plain = _plain_powers(written)
+    return _reduced(written) if plain == written else plain
+
+
+def _plain_powers(expression: Expr) -> Expr:
+    """The step with numbers in the place of powers of e that are plain."""
+    if isinstance(expression, sympy.exp):
+        value = evaluated(expression)
+        return computed(value) if value.is_rational_function(*value.free_symbols) else expression
+    if isinstance(expression, Node) or not expression.has(sympy.exp):
+        return expression
+    arguments = map(_plain_powers, expression.args)
+    if expression.is_Add:
+        return sum_of(arguments)
+    if expression.is_Mul:
+        return product_of(arguments)
+    return power_of(*arguments) if expression.is_Pow else expression
 
 
 def _reduced(expression: Expr) -> Expr:

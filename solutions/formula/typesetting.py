@@ -283,7 +283,9 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
     """Numbers are kept apart by a dot; letters stand side by side, as the sheet prints them."""
     first, second = _base(before), _base(factor)
     if Look.GRID in (first, second):
-        return first is Look.GRID and second is Look.NUMBER
+        return first is Look.GRID and second in (Look.NUMBER, Look.SLOT)
+    if Look.SLOT in (first, second):
+        return True
     if Look.LINE in (first, second):
         return True
     if before.is_Rational and not before.is_Integer:

@@ -1,23 +1,65 @@
-"""The distance from every centre, then its triangular bump."""
+"""The distance from every centre, then its triangular bump; or backwards, from known features."""
 
 import numpy as np
 
 from rldrill.problems.function_approximation.piecewise_linear_rbf import Given
-from rldrill.solutions.centres import distances, measured
-from rldrill.solutions.exact import exact
+from rldrill.solutions import knowns
+from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.function_approximation import NOT_CLAMPED, PIECEWISE_LINEAR_RBF, WIDTH_FORGOTTEN
+from rldrill.solutions.sheet.function_approximation import (
+    DISTANCE_FROM_TENT,
+    NOT_CLAMPED,
+    PIECEWISE_LINEAR_RBF,
+    WIDTH_FORGOTTEN,
+    WIDTH_FROM_TENT,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (NOT_CLAMPED, WIDTH_FORGOTTEN)
 
 
 def solve(given: Given, work: Work) -> None:
-    """Centre by centre."""
-    known = distances(given, work) | {"width": exact(given.width)}
-    work.answer(tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, **known) for number in known["distance"]))
+    """What is missing first, then centre by centre, then the weighted sum."""
+    known = knowns.values(given.known)
+    features = {"phi": {(number, "s"): value for number, value in known.items()}}
+    others = tuple(number for number in range(1, len(given.centres) + 1) if number not in known)
+    state: tuple[Value, ...] = ()
+    b = None if given.width is None else exact(given.width)
+    if known:
+        work.recall(PIECEWISE_LINEAR_RBF)
+        sought = "the distance" if given.position is None else "$b$"
+        work.say(f"A feature above $0$ is $1 − ‖s − c_i‖/b$. Solved for {sought}:")
+    if given.position is None:
+        far = {number: work.step(DISTANCE_FROM_TENT, s="s", i=number, width=b, **features) for number in known}
+        state = (work.answer(found(given, work, far)),)
+    if b is None:
+        (number,) = known
+        b = work.answer(work.step(WIDTH_FROM_TENT, i=number, **features, **distances(given, work, of=known)))
+    measures = distances(given, work, state, of=others)
+    values = tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, width=b, **measures) for number in others)
+    if values:
+        values = work.answer(values)
+    if given.theta:
+        value_of_state(work, given.theta, values)
 
 
 def oracle(given: Given) -> Answers:
     """The bump as a line between its peak and its foot."""
-    return (np.interp(measured(given), [0.0, at(given.width)], [1.0, 0.0]),)
+    known = {number: at(value) for number, value in given.known.items()}
+    answers: list[object] = []
+    if given.position is None:
+        width = at(given.width or 0)
+        state = nearest(given, {number: width * (1 - value) for number, value in known.items()})
+        answers.append(state)
+        far = measured(given, (state,))
+    else:
+        far = measured(given)
+        width = at(given.width or 0)
+        if given.width is None:
+            ((number, value),) = known.items()
+            width = far[number - 1] / (1 - value)
+            answers.append(width)
+    features = np.interp(far, [0.0, width], [1.0, 0.0])
+    answers.append(np.delete(features, [number - 1 for number in known]))
+    return (*answers, *([features @ [at(weight) for weight in given.theta]] if given.theta else []))

@@ -1,29 +1,73 @@
-"""The distance from every centre, then its bump; exponentials stay as they are."""
+"""The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
+
+from typing import Any
 
 import numpy as np
 
 from rldrill.problems.function_approximation.rbf import Given
-from rldrill.solutions.centres import distances, measured
-from rldrill.solutions.exact import exact
+from rldrill.solutions import knowns
+from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.function_approximation import HALF_FORGOTTEN, NORM_NOT_SQUARED, RBF, SIGMA_NOT_SQUARED
+from rldrill.solutions.sheet.function_approximation import (
+    DISTANCE_FROM_RBF,
+    HALF_FORGOTTEN,
+    NORM_NOT_SQUARED,
+    RBF,
+    SIGMA_NOT_SQUARED,
+    WIDTH_FROM_RBF,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
 
 def solve(given: Given, work: Work) -> None:
-    """Centre by centre."""
-    known = distances(given, work) | {"sigma": exact(given.sigma)}
-    work.answer(tuple(work.step(RBF, i=number, **known) for number in known["distance"]))
+    """What is missing first, then centre by centre, then the weighted sum."""
+    logarithms = knowns.values(given.logarithms)
+    known: dict[str, Any] = {"log_phi": {(number, "s"): value for number, value in logarithms.items()}}
+    if given.sigma is not None:
+        known["sigma"] = exact(given.sigma)
+    others = tuple(number for number in range(1, len(given.centres) + 1) if number not in logarithms)
+    state: tuple[Value, ...] = ()
+    if logarithms:
+        work.recall(RBF)
+        work.say(f"Solved for {'the distance' if given.position is None else '$σ$'}:")
+    if given.position is None:
+        far = {number: work.step(DISTANCE_FROM_RBF, s="s", i=number, **known) for number in logarithms}
+        state = (work.answer(found(given, work, far)),)
+    if given.sigma is None:
+        (number,) = logarithms
+        width = work.step(WIDTH_FROM_RBF, i=number, **known, **distances(given, work, of=logarithms))
+        known["sigma"] = work.answer(width)
+    known |= distances(given, work, state, of=others)
+    values = tuple(work.step(RBF, i=number, **known) for number in others)
+    if values:
+        values = work.answer(values)
+    if given.theta:
+        value_of_state(work, given.theta, values)
 
 
 def oracle(given: Given) -> Answers:
-    """A normal density, relative to its height at the centre, coordinate by coordinate."""
-    sigma = at(given.sigma)
+    """A normal density, relative to its height at the centre."""
+    answers: list[object] = []
+    known = {number: at(value) for number, value in given.logarithms.items()}
+    sigma = 0.0 if given.sigma is None else at(given.sigma)
+    if given.position is None:
+        state = nearest(given, {number: sigma * np.sqrt(2 * -value) for number, value in known.items()})
+        answers.append(state)
+        far = measured(given, (state,))
+    else:
+        far = measured(given)
+    if given.sigma is None:
+        ((number, value),) = known.items()
+        sigma = float(far[number - 1] / np.sqrt(-2 * value))
+        answers.append(sigma)
 
     def density(x: float) -> float:
         return float(np.exp(-((x / sigma) ** 2) / 2) / (sigma * np.sqrt(2 * np.pi)))
 
     height = density(0.0)
-    return ([density(distance) / height for distance in measured(given)],)
+    features = np.array([density(distance) / height for distance in far])
+    answers.append(np.delete(features, [number - 1 for number in known]))
+    return (*answers, *([features @ [at(weight) for weight in given.theta]] if given.theta else []))

@@ -1,12 +1,14 @@
 """The return from its definition, then backwards in time by the recursion."""
 
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.runs import per_step
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, sign, to_sympy
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import (
     FIRST_DISCOUNTED,
     LINEAR_DISCOUNT,
@@ -22,15 +24,24 @@ from rldrill.solutions.work import Work
 MISCONCEPTIONS = (FIRST_DISCOUNTED, STARTS_EARLY, UNDISCOUNTED, LINEAR_DISCOUNT, STEP_UNDISCOUNTED)
 
 
-# "return" is a keyword, so the twin's Given cannot be imported by name; hence Any.
+# "return" is a keyword, so the twin cannot be imported by name; hence Any.
+EPISODES = import_module("rldrill.problems.fundamentals.return").EPISODES
+
+
 def solve(given: Any, work: Work) -> None:
-    """The return asked for by its definition; earlier ones by the recursion."""
+    """The return asked for by its definition; earlier ones by the recursion. Two episodes one after the other."""
+    if hasattr(given, "others"):
+        _compare(given, work)
+        return
     end = len(given.rewards)
     known = {"r": {0: ZERO} | {time + 1: exact(reward) for time, reward in enumerate(given.rewards)}, "T": end}
     if isinstance(given.gamma, tuple):
         _step_by_step(given, work, known)
         return
     known["gamma"] = exact(given.gamma)
+    if given.known is not None:
+        find(given, work, work.step(RETURN, t=0, **known))
+        return
     if given.time is None:
         work.answer(tuple(work.step(RETURN, t=time, **known) for time in range(end)))
         return
@@ -43,6 +54,34 @@ def solve(given: Any, work: Work) -> None:
         for time in reversed(range(given.time)):
             value = work.step(RETURN_RECURSIVE, t=time, G={time + 1: value}, **known)
     work.answer(value)
+
+
+def _compare(given: Any, work: Work) -> None:
+    gamma = exact(given.gamma)
+    first, second = (_from_start(work, words, rewards, gamma) for words, rewards in _both(given))
+    if given.sought:
+        work.say("They are equal where")
+        same = work.answer(work.equate("gamma", first, second))
+        beyond = (ONE + same) / 2 if sign(ONE - same) > 0 else same + 1
+        work.say(f"For a larger discount, such as $γ = {to_sympy(beyond)}$:")
+    else:
+        work.answer((first, second))
+        beyond = ONE
+        work.say("Without a discount:")
+    first, second = (_from_start(work, words, rewards, beyond) for words, rewards in _both(given))
+    larger = "A" if sign(first - second) > 0 else "B"
+    work.say(f"So the return of {EPISODES[larger]} episode is larger.")
+    work.answer(larger)
+
+
+def _both(given: Any) -> tuple[tuple[str, Any], ...]:
+    return ("first", given.rewards), ("second", given.others)
+
+
+def _from_start(work: Work, words: str, rewards: Any, gamma: Value) -> Value:
+    work.say(f"The {words} episode:")
+    r = {0: ZERO} | {time: exact(reward) for time, reward in enumerate(rewards, 1)}
+    return work.step(RETURN, t=0, r=r, T=len(rewards), gamma=gamma)
 
 
 def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:
@@ -61,8 +100,20 @@ def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:
 
 def oracle(given: Any) -> Answers:
     """Each reward weighted by hand, all times at once: an upper triangle of powers times the rewards."""
+    if hasattr(given, "others"):
+        return _compared(given)
+    if given.known is not None:
+        return (tried(given, lambda tried: oracle(tried.model_copy(update={"time": 0}))[0]),)
     rewards = np.array([at(reward) for reward in given.rewards])
     gammas = [at(gamma) for gamma in per_step(given.gamma, len(rewards))]
     weights = [np.r_[np.zeros(time), 1.0, np.cumprod(gammas[time:-1])] for time in range(len(rewards))]
     returns = np.array(weights) @ rewards
     return (returns,) if given.time is None else (returns[given.time], returns[0])
+
+
+def _compared(given: Any) -> Answers:
+    """The polynomials in γ: their values, or the root of their difference and the sign to the right of it."""
+    first, second = (np.polynomial.Polynomial([at(r) for r in rewards]) for rewards in (given.rewards, given.others))
+    root = float((first - second).roots()[0]) if given.sought else at(given.gamma)
+    larger = "A" if (first - second)(root + 0.01 if given.sought else 1.0) > 0 else "B"
+    return (root if given.sought else (first(root), second(root)), larger)

@@ -1,10 +1,13 @@
 """A geometric series for the rewards that repeat, then the first rewards before it."""
 
+from fractions import Fraction
+
 import numpy as np
 
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (
     GEOMETRIC_SERIES,
     PLUS_FOR_MINUS,
@@ -23,13 +26,19 @@ def solve(given: Given, work: Work) -> None:
     k = len(given.first)
     gamma = exact(given.gamma)
     r = {time + 1: exact(reward) for time, reward in enumerate((*given.first, *given.repeated))}
-    tail = work.answer(work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r))
+    tail = work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r)
+    if given.known is not None:
+        find(given, work, work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}) if k else tail)
+        return
+    tail = work.answer(tail)
     if k:
         work.answer(work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}))
 
 
 def oracle(given: Given) -> Answers:
     """The rewards one by one, until what is left is too small to count."""
+    if given.known is not None:
+        return (_found(given),)
     gamma = at(given.gamma)
     enough = 1 if gamma == 0 else int(min(2_000_000, -36 / np.log(gamma)))  # γ to that power is below 1e-15
     repeated = np.resize([at(reward) for reward in given.repeated], enough)
@@ -38,3 +47,16 @@ def oracle(given: Given) -> Answers:
     for reward in reversed(given.first):
         value = at(reward) + gamma * value
     return (tail, value) if given.first else (tail,)
+
+
+def _found(given: Given) -> float:
+    """The letter by halving an interval or, for a reward, by two trials."""
+    if given.letter != "gamma":
+        return tried(given, lambda trial: oracle(trial)[-1])
+    low, high = 0.0, 1.0
+    rising = oracle(with_letter(given, Fraction(1, 2)))[-1] < oracle(with_letter(given, Fraction(3, 4)))[-1]
+    for _ in range(50):
+        middle = (low + high) / 2
+        below = oracle(with_letter(given, Fraction(middle)))[-1] < at(given.known or 0)
+        low, high = (middle, high) if below == rising else (low, middle)
+    return low

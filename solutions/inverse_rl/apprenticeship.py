@@ -5,8 +5,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.apprenticeship import Given
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import NoSolution, decimal, exact, sign
+from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.inverse_rl import (
@@ -15,6 +17,7 @@ from rldrill.solutions.sheet.inverse_rl import (
     PROJECTION,
     PROJECTION_LENGTH,
     REMAINING,
+    REWARD_OF_FEATURES,
     WEIGHTS,
 )
 from rldrill.solutions.work import Work
@@ -35,18 +38,50 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
     work.recall(APPRENTICESHIP)
-    work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
+    if not given.candidates:
+        work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
     for mu in policies:
         known |= {"mu_now": mu, "mu_bar": point}
-        length = work.step(PROJECTION_LENGTH, **known)
-        moved = work.answer(
-            tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features),
-        )
+        moved = work.answer(_moved(work, features, known))
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         pointing = work.answer(tuple(work.step(WEIGHTS, component=index, **known) for index in features))
         weights = dict(zip(features, pointing, strict=True))
-    work.answer(work.step(REMAINING, w=weights, features=features))
+    if given.candidates:
+        mu = _next(given.candidates, work, weights)
+        known |= {"mu_now": mu, "mu_bar": point}
+        point = dict(zip(features, work.answer(_moved(work, features, known)), strict=True))
+        known["mu_bar"] = weighed_from(point, mu)
+        weights = {index: work.step(WEIGHTS, component=index, **known) for index in features}
+    left = work.answer(work.step(REMAINING, w=weights, features=features))
+    if given.tolerance is not None:
+        limit = exact(given.tolerance)
+        stops = sign(limit - left) >= 0
+        relation = "≤" if stops else ">"
+        work.say(
+            f"$‖w‖ ≈ {decimal(left, 3)} {relation} {shown(given.tolerance)}$: it {'stops' if stops else 'goes on'}."
+        )
+        work.answer(stops)
+
+
+def _moved(work: Work, features: tuple[int, ...], known: dict[str, Any]) -> tuple[Any, ...]:
+    length = work.step(PROJECTION_LENGTH, **known)
+    return tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features)
+
+
+def _next(candidates: dict[str, Any], work: Work, weights: Point) -> Point:
+    """The candidate that is best for the weights, the answer of a part, as its feature expectations."""
+    mus = {(index, name): exact(value) for name, mu in candidates.items() for index, value in enumerate(mu, 1)}
+    features = tuple(weights)
+    worth = {
+        name: work.step(REWARD_OF_FEATURES, policy=name, w=weights, features=features, mu_policy=mus)
+        for name in candidates
+    }
+    best, *others = arg_max(tuple(worth), tuple(worth.values()))
+    if others:
+        raise NoSolution(f"{best} and {others[0]} are equally good for the weights; change one of them")
+    work.say(f"The value of {best} is the greatest: it comes next.")
+    return _vector(candidates[work.answer(best)])
 
 
 @slip(
@@ -70,11 +105,17 @@ def oracle(given: Given) -> Answers:
     expert, point, *policies = (
         np.array([at(value) for value in mu]) for mu in (given.expert, given.first, *given.policies)
     )
-    answers: list[Any] = [np.linalg.norm(policies[0] - expert)]
+    answers: list[Any] = [] if given.candidates else [np.linalg.norm(policies[0] - expert)]
     for mu in policies:
         point = _nearest(point, mu, expert)
         answers += [point, expert - point]
-    return [*answers, np.linalg.norm(expert - point)]
+    if given.candidates:
+        mus = {name: np.array([at(value) for value in mu]) for name, mu in given.candidates.items()}
+        best = sorted(mus, key=lambda name: float(mus[name] @ (expert - point)))[-1]
+        point = _nearest(point, mus[best], expert)
+        answers += [best, point]
+    left = np.linalg.norm(expert - point)
+    return [*answers, left] + ([bool(left <= at(given.tolerance) + 1e-12)] if given.tolerance is not None else [])
 
 
 def _nearest(start: Array, through: Array, to: Array) -> Array:

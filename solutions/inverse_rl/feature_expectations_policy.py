@@ -1,12 +1,18 @@
 """One linear system for every feature, then the mean over the start distribution."""
 
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.inverse_rl.feature_expectations_policy import Given
+from rldrill.problems.recurrence import end_components
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.endless import Loop, no_expectation
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import FEATURES_FROM, FEATURES_FROM_START, START_IGNORED, mu_of
 from rldrill.solutions.work import Work
@@ -35,21 +41,100 @@ def solve(given: Given, work: Work) -> None:
         "phi": knowns.features(given.features),
         "gamma": exact(given.gamma),
     }
+    loops = _endless(given, motion, known) if known["gamma"] == ONE else []
     expectations: dict[tuple[int, str], Any] = {}
     for index in range(1, given.size + 1):
-        fixed = {(index, state): ZERO for state in given.terminal}
-        solved = work.system(
-            FEATURES_FROM, mu_of, [{"component": index, "s": state} for state in states], mu_of=fixed, **known
-        )
-        answer = work.answer({state: solved[index, state] for state in states})
+        fixed = {(index, state): ZERO for state in given.terminal} | _resting(work, index, loops, known["phi"])
+        cases = [{"component": index, "s": state} for state in states if (index, state) not in fixed]
+        solved = work.system(FEATURES_FROM, mu_of, cases, mu_of=fixed, **known) if cases else fixed
+        answer = {state: solved[index, state] for state in states}
+        if given.matched is None:
+            answer = work.answer(answer)
         expectations |= {(index, state): value for state, value in answer.items()}
     begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
     total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
-    work.answer(total)
+    if given.matched is None:
+        work.answer(total)
+    else:
+        work.say(f"This has to be the expert's ${shown(given.matched)}$:")
+        work.answer(work.equate(given.asked_for, total[0], exact(given.matched)))
+
+
+def _endless(given: Given, motion: Mapping[Any, Value], known: Mapping[str, Any]) -> list[Loop]:
+    """The loops that the policy never leaves; in place of rewards they have nothing yet."""
+    pi = known["pi"]
+    chances: dict[str, dict[str, Value]] = {
+        state: {
+            target: chance
+            for target in (*given.states, *given.terminal)
+            if not is_zero(chance := sum((pi[a, state] * motion[target, state, a] for a in given.motion), ZERO))
+        }
+        for state in given.states
+    }
+    ways = {state: [(None, to)] for state, to in chances.items() if not any(end in to for end in given.terminal)}
+    return [
+        Loop(
+            {state: known["actions"][state] for state in component},
+            dict.fromkeys(component, ZERO),
+            {state: chances[state] for state in component},
+        )
+        for component in end_components(ways)
+    ]
+
+
+def _resting(
+    work: Work, index: int, loops: Iterable[Loop], phi: Mapping[tuple[int, str], Value]
+) -> dict[tuple[int, str], Value]:
+    """The states that an undiscounted process never leaves although it has not ended: their feature must be 0.
+
+    Raises:
+        NoSolution: it is not, so that its sum never ends.
+    """
+    resting: dict[tuple[int, str], Value] = {}
+    for each in loops:
+        loop = replace(each, rewards={state: phi[index, state] for state in each.actions})
+        if not loop.pays_nothing:
+            raise NoSolution(no_expectation(loop, index))
+        work.say(f"Whoever comes to {loop} stays there for ever, and $φ_{{{index}}}$ is $0$ there: so is its sum.")
+        for state in loop.actions:
+            work.give(FEATURES_FROM, ZERO, component=index, s=state)
+            resting[index, state] = ZERO
+    return resting
 
 
 def oracle(given: Given) -> Answers:
-    """The state distribution pushed forward until nothing is left of its discounted weight, all states at once."""
+    """The feature expectations; or where the expert's are matched, the probability that does it, by bisection."""
+    if given.matched is None:
+        return _pushed(given)
+    matched, (low, high) = at(given.matched), (0.0, 1.0)
+    rising = _from_start(given, high) > _from_start(given, low)
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (_from_start(given, middle) < matched) == rising else (low, middle)
+    return (low,)
+
+
+def possible(given: Given) -> bool:
+    """Whether the policy has the expert's feature expectation for some probability."""
+    return given.matched is None or bool(np.isclose(_from_start(given, oracle(given)[0]), at(given.matched)))
+
+
+def _from_start(given: Given, chance: float) -> float:
+    """What the policy expects from the start with this number in place of what is left open."""
+    number = Fraction(chance)
+    policy = {
+        state: {
+            action: (1 - number if share.complement else number) if isinstance(share, Parameter) else share
+            for action, share in row.items()
+        }
+        for state, row in given.policy.items()
+    }
+    *_, total = _pushed(given.model_copy(update={"policy": policy, "matched": None}))
+    return float(total[0])
+
+
+def _pushed(given: Given) -> Answers:
+    """The discounted state distribution pushed forward, for twice as many steps each time, all states at once."""
     states = (*given.states, *given.terminal)
     count = len(given.states)
     chain = np.zeros((count, len(states)))
@@ -60,11 +145,9 @@ def oracle(given: Given) -> Answers:
         )
         chain += share[:, None] * rows
     features = np.array([[at(value) for value in given.features[state]] for state in given.states])
-    occupied, total = np.eye(count), np.zeros((count, given.size))
-    for _ in range(100_000):
-        total += occupied @ features
-        occupied = at(given.gamma) * occupied @ chain[:, :count]
-        if occupied.max() < 1e-16:
-            break
+    moved, total = at(given.gamma) * chain[:, :count], features
+    for _ in range(40):  # the sum over the first 2ⁿ steps, and what is left after them
+        total = total + moved @ total
+        moved = moved @ moved
     begins = np.array([at(chance) for chance in given.start_chances.values()])
     return [*total.T, begins @ total]

@@ -7,7 +7,7 @@ from flint import fmpq
 
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact, sign
+from rldrill.solutions.exact import ZERO, exact, largest, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
@@ -22,22 +22,50 @@ def solve(given: Given, work: Work) -> None:
         "features": tuple(range(1, len(given.w) + 1)),
         "mu_policy": knowns.features(mus),
     }
-    worth = work.answer({name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus})
-    sides: dict[str, Any] = {
-        "worth": worth,
-        "worth_expert": worth[EXPERT],
-        "margin": {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()},
-    }
+    worth = {name: work.step(REWARD_OF_FEATURES, policy=name, **known) for name in mus}
+    margins = {EXPERT: ZERO} | {name: exact(rival.margin) for name, rival in given.policies.items()}
+    if given.asked_for:
+        _balance(given, work, given.asked_for, worth, margins)
+        return
+    worth = work.answer(worth)
+    sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
-    work.answer(work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+    slack = work.answer(work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+    if not violated and slack == 0:
+        work.say("No constraint is violated, so no slack is needed.")
+
+
+def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margins: dict[str, Any]) -> None:
+    """The open weight at which each constraint holds with equality; the greatest of these is enough for all."""
+    least = {}
+    for name in given.policies:
+        right = work.step(
+            MAX_MARGIN,
+            policy=name,
+            worth=worth,
+            worth_expert=worth[EXPERT],
+            margin=margins,
+            xi=ZERO,
+            sign="≥",
+            label=f'"{name}"',
+        )
+        work.say("Both sides are equal for:")
+        least[name] = work.equate(letter, worth[EXPERT], right)
+    least = work.answer(least)
+    enough = largest(tuple(least.values()))
+    work.say(
+        f"The expert gains more from the weight than every other policy, so each constraint holds from its own "
+        f"${letter}$ on, and all of them from the greatest on."
+    )
+    work.answer(enough)
 
 
 def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
     known = sides | {"policy": name, "xi": ZERO}
     holds = sign(sides["worth_expert"] - work.value(MAX_MARGIN, **known)) >= 0
-    work.step(MAX_MARGIN, sign="≥" if holds else "<", **known)
+    work.step(MAX_MARGIN, sign="≥" if holds else "<", label=f'"{name}"', **known)
     return holds
 
 
@@ -45,10 +73,15 @@ def _told(violated: tuple[str, ...]) -> str:
     return f"the left side is too small for {', '.join(violated)}" if violated else "all constraints hold"
 
 
+def _margins_decide(given: Given) -> bool:
+    """Whether there is anything that margins make different: a weight from which on, or a violation."""
+    return given.asked_for is not None or max(given.missing.values()) > 0
+
+
 @slip(
     "margin-on-the-wrong-side",
     "The margin makes the constraint harder: it is added to the other policy's side, not to the expert's.",
-    when=lambda given: any(rival.margin for rival in given.policies.values()),
+    when=lambda given: any(rival.margin for rival in given.policies.values()) and _margins_decide(given),
 )
 def margin_on_the_wrong_side(given: Given, work: Work) -> None:
     """The same constraints with every margin taken away instead of added."""
@@ -62,8 +95,15 @@ MISCONCEPTIONS = (margin_on_the_wrong_side, SUM_FOR_MAXIMUM)
 def oracle(given: Given) -> Answers:
     """Slacks tried by bisection until the smallest that does is found, on matrices."""
     mus = np.array([[at(value) for value in mu] for mu in (given.expert, *(r.mu for r in given.policies.values()))])
+    margins = np.array([at(rival.margin) for rival in given.policies.values()])
+    if given.asked_for:
+        place = given.w.index(given.asked_for)
+        others = np.array([0.0 if index == place else at(weight) for index, weight in enumerate(given.w)])
+        ahead = mus[0] - mus[1:]
+        least = (margins - ahead @ others) / ahead[:, place]
+        return (least, least.max())
     values = mus @ [at(weight) for weight in given.w]
-    needed = values[1:] + [at(rival.margin) for rival in given.policies.values()]
+    needed = values[1:] + margins
     low, high = 0.0, 1.0 + np.abs(needed).sum() + abs(values[0])
     if (values[0] >= needed - 1e-12).all():
         high = 0.0

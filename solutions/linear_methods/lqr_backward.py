@@ -14,9 +14,11 @@ from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
+    FORGOT_R_IN_COSTS,
     IN_COSTS,
     LQR_GAIN,
     NO_TERMINAL,
+    NO_TERMINAL_COST,
     POSITIVE_S,
     TRANSPOSED_A,
     Quadratic,
@@ -92,7 +94,16 @@ COST_TO_GO = replace(
 )
 #: Without the price in it, the gain says nothing of a price that is to be found.
 PRICE_FORGOTTEN = replace(FORGOT_R, when=_forwards)
-MISCONCEPTIONS = (POSITIVE_S, PRICE_FORGOTTEN, TRANSPOSED, NO_TERMINAL, same_time, COST_TO_GO)
+MISCONCEPTIONS = (
+    POSITIVE_S,
+    PRICE_FORGOTTEN,
+    FORGOT_R_IN_COSTS,
+    TRANSPOSED,
+    NO_TERMINAL,
+    NO_TERMINAL_COST,
+    same_time,
+    COST_TO_GO,
+)
 
 
 def oracle(given: Given) -> Answers:

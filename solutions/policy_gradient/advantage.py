@@ -81,6 +81,15 @@ def oracle(given: Given) -> Answers:
             return _advantages(given.lookahead, at(given.gamma))
 
 
+def possible(given: Given) -> bool:
+    """A policy's value of the state is a mean of its action values."""
+    match given:
+        case OfValue(lookahead=ahead):
+            Q, _ = _advantages(ahead, at(given.gamma))
+            return bool(Q.min() <= at(ahead.values[ahead.state]) <= Q.max())
+    return True
+
+
 def _advantages(ahead: ValueLookahead | PolicyLookahead, gamma: float) -> Answers:
     worth = dict.fromkeys(ahead.dynamics.actions[ahead.state], 0.0)
     for row in ahead.dynamics.transitions:

@@ -1,9 +1,11 @@
 """The value of every action, then the action with the greatest."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Parameter
 from rldrill.problems.policy_gradient.linear_policy import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
@@ -15,11 +17,24 @@ from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """All values, then the greedy policy for them."""
+    """All values, then the greedy policy for them; with w open, where two values are equal comes first."""
     known = by_number([exact(weight) for weight in given.theta]) | action_features(given.features)
+    if given.at is None:
+        _greedy(given, work, work.answer(_values(given, work, known)))
+        return
+    edges = {}
+    for state, row in given.features.items():
+        both = [work.step(LINEAR_ACTION_VALUE, s=state, a=action, **known) for action in row]
+        work.say(f"In {state} the two are equal where")
+        edges[state] = work.equate("w", *both)
+    work.answer(edges)
+    known |= by_number([exact(weight) for weight in given.numbers])
+    _greedy(given, work, _values(given, work, known))
+
+
+def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[str, str], Value]:
     pairs = ((state, action) for state, row in given.features.items() for action in row)
-    values = work.answer({(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=a, **known) for s, a in pairs})
-    _greedy(given, work, values)
+    return {(s, a): work.step(LINEAR_ACTION_VALUE, s=s, a=a, **known) for s, a in pairs}
 
 
 def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -> None:
@@ -48,21 +63,30 @@ def wrong_action(given: Given, work: Work) -> None:
     when=wrong_action.when,
 )
 def smallest(given: Given, work: Work) -> None:
-    """The right values, and the greedy policy for their negatives."""
-    values = work.answer(right_answers(solve, given, work)[0])
-    _greedy(given, work, {pair: -value for pair, value in values.items()})
+    """Everything right but the greedy policy, which is that for the negative weights."""
+    work.answer(right_answers(solve, given, work)[0])
+    known = by_number([-exact(weight) for weight in given.numbers]) | action_features(given.features)
+    _greedy(given, work, _values(given, work, known))
 
 
 MISCONCEPTIONS = (wrong_action, WEIGHTS_FORGOTTEN, smallest)
 
 
 def oracle(given: Given) -> Answers:
-    """A product of a matrix with a vector in every state."""
-    theta = np.array([at(weight) for weight in given.theta])
-    worth = {s: np.array([[at(x) for x in line] for line in row.values()]) @ theta for s, row in given.features.items()}
+    """A product of a matrix with a vector in every state; lines through two points each, and where they meet."""
+    theta = np.array([at(weight) for weight in given.numbers])
+    tables = {s: np.array([[at(x) for x in line] for line in row.values()]) for s, row in given.features.items()}
+    worth = {state: table @ theta for state, table in tables.items()}
     best = {
         state: {action for action, value in zip(given.features[state], values, strict=True)
                 if value > values.max() - 1e-9}
         for state, values in worth.items()
     }  # fmt: skip
-    return (np.concatenate(list(worth.values())), best)
+    if given.at is None:
+        return (np.concatenate(list(worth.values())), best)
+    opened = np.array([isinstance(weight, Parameter) for weight in given.theta])
+    edges = []
+    for table in tables.values():
+        low, high = (np.subtract(*(table @ np.where(opened, w, theta))) for w in (0.0, 1.0))
+        edges.append(low / (low - high))
+    return (edges, best)

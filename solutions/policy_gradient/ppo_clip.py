@@ -8,13 +8,16 @@ import numpy as np
 
 from rldrill.problems.exact import Weight
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
-from rldrill.solutions.exact import Value, exact, largest, sign, simplest
+from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (
     CLIP_WITHOUT_MIN,
     PPO,
+    PPO_AT_THE_LOWER_BOUND,
+    PPO_AT_THE_UPPER_BOUND,
     PPO_BATCH,
     PPO_CLIPPED,
     PPO_RATIO,
@@ -30,27 +33,23 @@ def _smaller(work: Work, known: Mapping[str, Any], time: int) -> Value:
 
 
 def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, Any], int], Value] = _smaller) -> None:
-    """All samples through one step after the other."""
+    """All samples through one step after the other; or the clipping range, from what is known of the objective."""
     times = range(len(given.samples))
     known: dict[str, Any] = {
         "S": {time: sample.state for time, sample in enumerate(given.samples)},
         "A": {time: sample.action for time, sample in enumerate(given.samples)},
         "A_t": {time: exact(sample.advantage) for time, sample in enumerate(given.samples)},
-        "epsilon": exact(given.epsilon),
+        "epsilon": generator("epsilon") if given.epsilon is None else exact(given.epsilon),
         "samples": tuple(times),
     }
-    ratios = []
-    for time, sample in enumerate(given.samples):
-        pair = sample.action, sample.state
-        if sample.preferences and sample.old_preferences:
-            work.say(f"The new policy and the old one at time ${time}$:")
-        chances = {
-            "new_chance": {pair: _chance(work, sample, sample.new, sample.preferences)},
-            "old_chance": {pair: _chance(work, sample, sample.old, sample.old_preferences)},
-        }
-        ratios.append(work.step(PPO_RATIO, t=time, **known, **chances))
-    known["rho"] = _given(work, ratios)
+    known["rho"] = _given(work, [_ratio(work, sample, known, time) for time, sample in enumerate(given.samples)])
+    if given.epsilon is None and given.objective is None:
+        _largest_that_cuts(work, known)
+        return
     known["unclipped"] = _given(work, [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
+    if given.objective is not None:
+        _from_the_objective(work, known, exact(given.objective))
+        return
     known["clipped"] = _given(work, [work.step(PPO_CLIPPED, t=time, **known) for time in times])
     objective = {time: objective_of(work, known, time) for time in times}
     work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
@@ -61,14 +60,85 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
         work.answer(cut)
 
 
+def _ratio(work: Work, sample: Sample, known: Mapping[str, Any], time: int) -> Value:
+    pair = sample.action, sample.state
+    if sample.preferences and sample.old_preferences:
+        work.say(f"The new policy and the old one at time ${time}$:")
+    chances = {
+        "new_chance": {pair: _chance(work, sample, sample.new, sample.preferences)},
+        "old_chance": {pair: _chance(work, sample, sample.old, sample.old_preferences)},
+    }
+    ratio: Value = work.step(PPO_RATIO, t=time, **known, **chances)
+    return ratio
+
+
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
-        return f"The ratio $ρ_{{{time}}}$ lies inside the range, so nothing is clipped and the gradient stays."
+        return f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and the gradient is not zero."
     if cut:
         return (
-            f"$L_{{{time}}}$ is the clipped term, in which the bound stands for $ρ_{{{time}}}$: it is constant in $θ$."
+            f"$c_{{{time}}}$ is the smaller term. In it the bound stands for $ρ_{{{time}}}$, so that it does not "
+            "depend on $θ$: the gradient is zero."
         )
-    return f"$L_{{{time}}}$ is the unclipped term, which still changes with $θ$."
+    return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: the gradient is not zero."
+
+
+def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
+    """Whether the ratio has moved to where the advantage wants it, so that some ε cuts off the gradient."""
+    return sign(known["rho"][time] - 1) * sign(known["A_t"][time]) > 0
+
+
+def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
+    """Which gradients can be cut off at all, and the largest ε that cuts off one of them."""
+    cut = []
+    for time, ratio in known["rho"].items():
+        possible = _can_be_cut(known, time)
+        wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
+        work.say(
+            f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: "
+            + ("a small $ε$ holds the ratio at its bound." if possible else "the minimum is never the clipped term.")
+        )
+        work.answer(possible)
+        cut += [time] if possible else []
+    if not cut:
+        raise NoSolution("clipping cuts off none of these gradients, whatever ε is")
+    bounds = []
+    for time in cut:
+        above = sign(known["rho"][time] - 1) > 0
+        bound = "upper" if above else "lower"
+        work.say(f"The gradient of $L_{{{time}}}$ is zero until the {bound} bound reaches $ρ_{{{time}}}$:")
+        edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
+        bounds.append(work.equate("epsilon", edge, known["rho"][time]))
+    if len(bounds) > 1:
+        work.say("One gradient at least is zero below the largest of these.")
+    work.answer(largest(bounds))
+
+
+def _words(number: Value) -> str:
+    return "more" if sign(number) > 0 else "less"
+
+
+_SIGNS = {"more": "positive", "less": "negative"}
+
+
+def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) -> None:
+    """The one objective that clipping can change is linear in ε; the others are the unclipped terms."""
+    times = known["samples"]
+    cut = [time for time in times if _can_be_cut(known, time)]
+    if len(cut) != 1:
+        raise NoSolution("the objective tells ε only where clipping can cut off the gradient of exactly one sample")
+    (one,) = cut
+    above = sign(known["rho"][one] - 1) > 0
+    work.say(
+        f"Only at $t = {one}$ has the ratio moved to where the advantage wants it; the other objectives are the "
+        "unclipped terms. As $L$ is not the mean of the unclipped terms, the ratio is clipped there:"
+    )
+    held = work.step(PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND, t=one, **known)
+    mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
+    epsilon = work.equate("epsilon", mean, objective)
+    if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) < 0:
+        raise NoSolution("no ε gives this objective")
+    work.answer(epsilon)
 
 
 def _given(work: Work, values: Sequence[Value]) -> dict[int, Value]:
@@ -89,7 +159,9 @@ def _chance(work: Work, sample: Sample, chance: Fraction | None, preferences: Ma
 @slip(
     "wrong-side-for-negative-advantage",
     "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
-    when=lambda given: any(sample.advantage < 0 and outside(sample, given) for sample in given.samples),
+    when=lambda given: (
+        given.epsilon is not None and any(sample.advantage < 0 and outside(sample, given) for sample in given.samples)
+    ),
 )
 def wrong_side(given: Given, work: Work) -> None:
     """The greater of the two terms, where the advantage is negative."""
@@ -107,23 +179,44 @@ MISCONCEPTIONS = (CLIP_WITHOUT_MIN, wrong_side, RATIO_INVERTED)
 
 def oracle(given: Given) -> Answers:
     """The objective as a function of the ratio; the gradient is cut where moving the ratio changes nothing."""
-    epsilon = at(given.epsilon)
-
-    def objective(ratio: float, advantage: float) -> float:
-        # Written by cases: what a better action may gain, and a worse one may lose, is bounded.
-        return advantage * (min(ratio, 1 + epsilon) if advantage > 0 else max(ratio, 1 - epsilon))
-
     ratios = np.array([new_chance(sample) / old_chance(sample) for sample in given.samples])
     advantages = np.array([at(sample.advantage) for sample in given.samples])
-    worth = [objective(r, a) for r, a in zip(ratios, advantages, strict=True)]
-    answers: list[Any] = [
+    if given.epsilon is None:
+        return _searched(given, ratios, advantages)
+    epsilon = at(given.epsilon)
+    return (
         ratios,
         ratios * advantages,
         np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages,
-        np.mean(worth),
-    ]
-    step = 1e-6
-    for ratio, advantage in zip(ratios, advantages, strict=True):
-        moved = objective(ratio + step, advantage), objective(ratio - step, advantage)
-        answers.append(bool(moved[0] == moved[1]))
-    return answers
+        np.mean(_objectives(ratios, advantages, epsilon)),
+        *_cut(ratios, advantages, epsilon),
+    )
+
+
+def _objectives(ratios: Array, advantages: Array, epsilon: float) -> Array:
+    """Written by cases: what a better action may gain, and a worse one may lose, is bounded."""
+    held = np.where(advantages > 0, np.minimum(ratios, 1 + epsilon), np.maximum(ratios, 1 - epsilon))
+    return np.asarray(advantages * held)
+
+
+def _cut(ratios: Array, advantages: Array, epsilon: float) -> list[bool]:
+    step = 1e-9
+    moved = [_objectives(ratios + way, advantages, epsilon) for way in (step, -step)]
+    return [bool(one == other) for one, other in zip(*moved, strict=True)]
+
+
+def _searched(given: Given, ratios: Array, advantages: Array) -> Answers:
+    """Halving: the objective grows with ε, and the number of gradients that are cut off falls."""
+
+    def too_small(epsilon: float) -> bool:
+        if given.objective is None:
+            return any(_cut(ratios, advantages, epsilon))
+        return bool(np.mean(_objectives(ratios, advantages, epsilon)) < at(given.objective))
+
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if too_small(middle) else (low, middle)
+    if given.objective is None:
+        return (ratios, *_cut(ratios, advantages, 1e-5), low)
+    return (ratios, ratios * advantages, low)

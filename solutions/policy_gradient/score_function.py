@@ -1,11 +1,13 @@
 """The probabilities, where weights are given; then each action's features minus the expected ones."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from rldrill.problems.policy_gradient.score_function import Given
-from rldrill.solutions.exact import Value, exact
+from rldrill.problems.policy_gradient.score_function import Component, Given
+from rldrill.solutions import knowns
+from rldrill.solutions.exact import Value, exact, value_at
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALONE
 from rldrill.solutions.softmax import action_features, by_number, chances, log_gradient, score
@@ -19,8 +21,10 @@ def solve(given: Given, work: Work) -> None:
     actions = tuple(given.features)
     known = action_features({"s": given.features})
     probabilities: Mapping[str, Value]
-    if given.theta is None:
-        probabilities = {action: exact(chance) for action, chance in (given.policy or {}).items()}
+    if given.component is not None:
+        probabilities = _from_component(given, given.component, work, known)
+    elif given.theta is None:
+        probabilities = knowns.values(given.policy or {})
     else:
         known |= by_number([exact(weight) for weight in given.theta])
         worked_out = chances(work, known, "s", actions)
@@ -30,15 +34,31 @@ def solve(given: Given, work: Work) -> None:
         work.answer(tuple(score(work, known, "s", action, actions)))
 
 
+def _from_component(given: Given, component: Component, work: Work, known: Mapping[str, Any]) -> Mapping[str, Value]:
+    """The score with p in it: the component that is known is linear in p."""
+    opened = {(action, "s"): chance for action, chance in knowns.values(given.policy or {}).items()}
+    entries = tuple(score(work, {**known, "pi": opened}, "s", given.action or "", tuple(given.features)))
+    work.say(f"The component that belongs to $θ_{{{component.number}}}$ is known:")
+    p = work.answer(work.equate("p", entries[component.number - 1], exact(component.value)))
+    return {action: value_at(chance, p) for (action, _), chance in opened.items()}
+
+
 def oracle(given: Given) -> Answers:
     """The logarithm of the probability, differentiated by a complex step.
 
     Where only probabilities are given, the logarithms are differentiated at preferences that give them.
     """
     features = np.array([[at(value) for value in row] for row in given.features.values()])
-    answers = []
+    answers: list[Any] = []
     if given.theta is None:
         chance = np.array([at(number) for number in (given.policy or {}).values()])
+        if given.component is not None:
+            here = list(given.features).index(given.action or "")
+            lead = (features[here] - features[1 - here])[given.component.number - 1]
+            own = 1 - at(given.component.value) / lead
+            first = tuple((given.policy or {}).values())[here]
+            answers.append(own if first == "p" else 1 - own)
+            chance = np.array([own, 1 - own] if here == 0 else [1 - own, own])
         with np.errstate(divide="ignore"):
             present = np.log(chance)
         theta = np.zeros(features.shape[1])

@@ -1,14 +1,30 @@
 """Preferences, then their softmax; the probabilities stay closed forms in e."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 import sympy
 
-from rldrill.problems.policy_gradient.softmax_policy import Given
-from rldrill.solutions.exact import Value, exact
+from rldrill.problems.exact import Logarithm
+from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
+from rldrill.solutions.exact import Value, digits, exact, to_sympy
+from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.policy_gradient import NOT_NORMALISED, PREFERENCE, SOFTMAX_POLICY, WITHOUT_EXP, entropy
-from rldrill.solutions.softmax import action_features, by_number
+from rldrill.solutions.rational import generator
+from rldrill.solutions.sheet.policy_gradient import (
+    NOT_NORMALISED,
+    PREFERENCE,
+    SOFTMAX_ODDS,
+    SOFTMAX_POLICY,
+    WITHOUT_EXP,
+    entropy,
+)
+from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Work
+
+#: The most digits of a number that is taken apart into primes.
+_MOST_FACTORED = 20
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
@@ -18,17 +34,31 @@ def solve(given: Given, work: Work) -> None:
     actions = tuple(given.features)
     known = by_number([exact(weight) for weight in given.theta]) | action_features({"s": given.features})
     known |= {"s": "s", "choices": actions}
+    if given.odds is not None:
+        _from_odds(given, given.odds, work, known)
+        return
     preferences = work.answer({action: work.step(PREFERENCE, a=action, **known) for action in actions})
     known["H"] = {("s", action): preferences[action] for action in actions}
-    chances = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
+    found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
-        known["pi"] = {(action, "s"): chances[action] for action in actions}
+        known["pi"] = {(action, "s"): found[action] for action in actions}
         work.answer(_in_short(work, work.step(entropy(), **known)))
 
 
+def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -> None:
+    """The quotient of two probabilities has no sum in it, and is linear in x; then everything with this x."""
+    pair = odds.action, odds.other
+    bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
+    quotient = work.step(SOFTMAX_ODDS, a=odds.action, b=odds.other, **bound)
+    x = work.answer(work.equate("x", rational_function(to_sympy(quotient)), exact(odds.times)))
+    theta = [to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)) for weight in given.theta]
+    found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
+    work.answer({action: found[action, "s"] for action in given.features})
+
+
 def _in_short(work: Work, value: Value) -> Value:
-    """An entropy by the logarithms of prime numbers, where it is a number."""
-    if not isinstance(value, sympy.Expr) or value.free_symbols:
+    """An entropy by the logarithms of prime numbers, where it is a number whose factors are soon found."""
+    if not isinstance(value, sympy.Expr) or value.free_symbols or digits(value) > _MOST_FACTORED:
         return value
     shorter: Value = sympy.expand_log(value, factor=True)
     if shorter != value:
@@ -38,10 +68,21 @@ def _in_short(work: Work, value: Value) -> Value:
 
 
 def oracle(given: Given) -> Answers:
-    """A matrix product, then numpy's logarithm of a sum of exponentials."""
-    preferences = np.array([[at(value) for value in row] for row in given.features.values()]) @ np.array(
-        [at(weight) for weight in given.theta]
-    )
+    """A matrix product, then numpy's logarithm of a sum of exponentials; x from two points of a straight line."""
+    features = np.array([[at(value) for value in row] for row in given.features.values()])
+    theta = np.array([at(weight) for weight in given.theta])
+    x: list[float] = []
+    if given.odds is not None:
+        unknown = np.array([isinstance(weight, Logarithm) and weight.of == "x" for weight in given.theta])
+        rows = [list(given.features).index(action) for action in given.odds[:2]]
+        lead = features[rows[0]] - features[rows[1]]
+        # In logarithms: ln times = (what is known) + lead·ln x.
+        logarithm = (np.log(at(given.odds.times)) - lead @ np.where(unknown, 0.0, theta)) / lead[unknown][0]
+        theta = np.where(unknown, logarithm, theta)
+        x.append(float(np.exp(logarithm)))
+    preferences = features @ theta
     logarithms = preferences - np.logaddexp.reduce(preferences)
-    chances = np.exp(logarithms)
-    return (preferences, chances, *([float(-chances @ logarithms)] if given.entropy else []))
+    likely = np.exp(logarithms)
+    if x:
+        return (*x, likely)
+    return (preferences, likely, *([float(-likely @ logarithms)] if given.entropy else []))

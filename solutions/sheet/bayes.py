@@ -374,7 +374,7 @@ with evaluate(False):
         title="Least squares: products of the deviations",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x and y is from its mean, multiply and add.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     SQUARES = Formula(
         "line-squares",
@@ -383,7 +383,7 @@ with evaluate(False):
         title="Least squares: squares of the deviations",
         source="James, Witten, Hastie & Tibshirani 2013, eq. 3.4",
         hint="Write down how far every x is from its mean, square and add.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     LINE_SLOPE = Formula(
         "line-slope",

@@ -6,7 +6,7 @@ from functools import cache
 
 from sympy import Add, Expr, Pow, cos, evaluate, sin
 
-from rldrill.problems.mathematics import Fence, Math, Script, listed, number, row, variable, word
+from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, number, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
@@ -197,7 +197,7 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7",
         hint="Turn it by the rotation of the link's transform, then add the transform's last column.",
         note="$T_i$ has the rotation $R_i$ and the origin $o_i$.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
     )
     NOT_INVERTED = Misconception(
         "not-inverted",
@@ -210,7 +210,7 @@ with evaluate(False):
         title="A point in the next frame",
         source="Siciliano et al. 2009, section 2.7",
         hint="Take the origin off, then undo the rotation: its inverse is its transpose.",
-        place=Place.BEYOND,
+        place=Place.WORKING,
         misread={
             NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),
         },
@@ -222,15 +222,21 @@ def _adapted(index: Math) -> Math:
     return Script(variable("θ′"), index)
 
 
+def _slope(of: Math) -> Math:
+    return Fraction(row(variable("d"), of), row(variable("d"), variable("θ")))
+
+
 def _loss(argument: Math, index: Math) -> Math:
     return row(Script(variable("∇"), variable("θ")), Script(variable("L"), index), Fence(argument))
 
 
 theta0, beta = letter("theta0", "θ"), letter("beta", "β")
 adapted = quantity("adapted", _adapted)
+adapted_slope = quantity("adaptedSlope", lambda index: _slope(_adapted(index)))
 curvature, optimum = quantity("curvature", subscripted("c")), quantity("optimum", subscripted("m"))
 loss_gradient = quantity("lossGradient", lambda index: _loss(_adapted(index), index))
 inner_gradient = quantity("innerGradient", lambda index: _loss(variable("θ"), index))
+outer_gradient = letter("outerGradient", _slope(variable("J")))
 Tasks = letter("tasks", "N")
 
 with evaluate(False):
@@ -244,6 +250,34 @@ with evaluate(False):
         also=(theta0 - alpha * inner_gradient(i),),
         note="For losses $L_i(θ) = c_i/2 (θ − m_i)^2$.",
         place=Place.BEYOND,
+    )
+    MAML_DERIVATIVE = Formula(
+        "maml-derivative",
+        adapted_slope(i),
+        1 - alpha * curvature(i),
+        title="MAML: how the adapted parameter depends on the shared one",
+        source="Finn, Abbeel & Levine 2017, section 2.2",
+        hint="Differentiate θ′ = θ − αc(θ − m) by θ.",
+        place=Place.WORKING,
+    )
+    MAML_GRADIENT = Formula(
+        "maml-gradient",
+        outer_gradient,
+        SumOver(curvature(i) * (adapted(i) - optimum(i)) * adapted_slope(i), i, Tasks),
+        title="MAML: gradient of the outer loss",
+        source="Finn, Abbeel & Levine 2017, eq. 1",
+        hint="The chain rule: the derivative of every adapted parameter, times that of its loss.",
+        place=Place.WORKING,
+    )
+    MAML_FIRST_ORDER = Formula(
+        "maml-first-order",
+        theta0,
+        theta0 - beta * SumOver(curvature(i) * (adapted(i) - optimum(i)), i, Tasks),
+        title="First-order MAML: step of the shared parameter",
+        source="Finn, Abbeel & Levine 2017, section 5.2",
+        hint="The gradient of every loss at the adapted parameter, as if this did not depend on θ.",
+        sign="←",
+        place=Place.WORKING,
     )
     FIRST_ORDER = Misconception(
         "first-order",

@@ -5,6 +5,7 @@ from typing import Any
 from sympy import Expr, evaluate, exp, log, sqrt
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
+from rldrill.solutions.asking_back import asks_for
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     A,
@@ -43,7 +44,6 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 
 
 def _starred(head: str) -> Script:
@@ -65,7 +65,7 @@ Qi = quantity("Qi", _numbered_table)
 Selected = quantity("selected", lambda time: Script(variable("a"), time, operator("*")))
 behaviour = quantity("behaviour", conditioned("b"))
 rho = quantity("rho", subscripted("ρ"))
-Ri = quantity("Ri", subscripted("R"))
+Ri = quantity("Ri", lambda episode: Script(variable("R"), above=Fence(episode)))
 N = quantity("N", called("N"))
 U = quantity("U", called("U"))
 H = quantity("H", called("H"))
@@ -108,7 +108,9 @@ with evaluate(False):
         when=_next_action_is_known_here,
     )
     SARSA_FORGOT_GAMMA = Misconception(
-        "forgot-gamma", "The value of the next pair of state and action is discounted by γ."
+        "forgot-gamma",
+        "The value of the next pair of state and action is discounted by γ.",
+        when=lambda given: not asks_for(given, "gamma"),
     )
     SARSA = Formula(
         "sarsa",
@@ -159,7 +161,11 @@ with evaluate(False):
         source="Sutton & Barto 2018, section 12.7",
         hint="Sarsa's target minus the old value of the pair just left.",
     )
-    TRACE_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by the product γλ, not by γ alone.")
+    TRACE_WITHOUT_LAMBDA = Misconception(
+        "decay-without-lambda",
+        "Traces decay by the product γλ, not by γ alone.",
+        when=lambda given: not asks_for(given, "lambda"),
+    )
     TRACE_WITHOUT_GAMMA = Misconception(
         "decay-without-gamma", "Traces decay by the product γλ, not by λ alone.", when=lambda given: given.gamma != 1
     )
@@ -206,6 +212,11 @@ with evaluate(False):
         note="For all pairs of state and action, after their traces.",
     )
 
+    NOT_DISCOUNTED = Misconception(
+        "forgot-gamma",
+        "The value of the next state is discounted by γ.",
+        when=lambda given: given.gamma != 1 and not asks_for(given, "gamma"),
+    )
     TAKEN_FOR_MAX = Misconception(
         "action-taken-for-max",
         "Q-learning takes the greatest action value of the next state; the action taken there is Sarsa's.",
@@ -225,7 +236,7 @@ with evaluate(False):
         misread={
             TAKEN_FOR_MAX: _moved(_SARSA_TARGET),
             MEAN_FOR_MAX: _moved(_MEAN_TARGET),
-            FORGOT_GAMMA: _moved(_MAX_WITHOUT_GAMMA),
+            NOT_DISCOUNTED: _moved(_MAX_WITHOUT_GAMMA),
         },
     )
 
@@ -266,7 +277,7 @@ with evaluate(False):
             MEAN_FOR_MAX: _planned(
                 model_reward(s, a) + gamma * MeanOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))
             ),
-            FORGOT_GAMMA: _planned(
+            NOT_DISCOUNTED: _planned(
                 model_reward(s, a) + MaxOver(Q(model_next(s, a), a1), a1, Actions(model_next(s, a)))
             ),
             OWN_STATE_MAX: _planned(model_reward(s, a) + gamma * MaxOver(Q(s, a1), a1, Actions(s))),
@@ -283,7 +294,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             TAKEN_FOR_MAX: _SARSA_TARGET - Q(S(t), A(t)),
-            FORGOT_GAMMA: _MAX_WITHOUT_GAMMA - Q(S(t), A(t)),
+            NOT_DISCOUNTED: _MAX_WITHOUT_GAMMA - Q(S(t), A(t)),
         },
     )
 
@@ -348,17 +359,25 @@ with evaluate(False):
     )
 
     MAX_FOR_EXPECTATION = Misconception(
-        "max-for-expectation", "Expected Sarsa averages over the policy's actions; the greatest value is Q-learning's."
+        "max-for-expectation",
+        "Expected Sarsa averages over the policy's actions; the greatest value is Q-learning's.",
+        when=lambda given: not asks_for(given, "epsilon"),
     )
     SAMPLE_FOR_EXPECTATION = Misconception(
         "sample-for-expectation",
         "Expected Sarsa averages over all actions of the policy; the one that was taken is Sarsa's.",
-        when=_last_action_is_known,
+        when=lambda given: _last_action_is_known(given) and not asks_for(given, "epsilon"),
     )
     UNWEIGHTED_EXPECTATION = Misconception(
-        "unweighted-mean", "Each action value counts with the probability π(a|s′) of its action; a plain mean does not."
+        "unweighted-mean",
+        "Each action value counts with the probability π(a|s′) of its action; a plain mean does not.",
+        when=lambda given: not asks_for(given, "epsilon"),
     )
-    EXPECTED_FORGOT_GAMMA = Misconception("forgot-gamma", "The expected value of the next state is discounted by γ.")
+    EXPECTED_FORGOT_GAMMA = Misconception(
+        "forgot-gamma",
+        "The expected value of the next state is discounted by γ.",
+        when=lambda given: not asks_for(given, "gamma"),
+    )
     EXPECTED_SARSA = Formula(
         "expected-sarsa",
         Q(S(t), A(t)),
@@ -413,7 +432,8 @@ with evaluate(False):
         misread={
             SAME_TABLE_EVALUATES: Qi(i, S(t), A(t))
             + alpha * (r(t + 1) + gamma * Qi(i, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
-            FORGOT_GAMMA: Qi(i, S(t), A(t)) + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
+            NOT_DISCOUNTED: Qi(i, S(t), A(t))
+            + alpha * (r(t + 1) + Qi(j, S(t + 1), Selected(t + 1)) - Qi(i, S(t), A(t))),
         },
     )
 
@@ -535,10 +555,23 @@ with evaluate(False):
         place=Place.WORKING,
     )
 
+    UCB_BALANCE = Formula(
+        "ucb-balance",
+        c,
+        (Q(a) - Q(b)) / (sqrt(log(t) / N(b)) - sqrt(log(t) / N(a))),
+        title="Weight with which two upper confidence bounds are equal",
+        source="Sutton & Barto 2018, from eq. 2.10",
+        hint="Write both bounds with c, set them equal, and solve for c.",
+        place=Place.WORKING,
+        misread={
+            TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
+        },
+    )
+
     BANDIT_WITHOUT_EXP = Misconception(
         "normalised-without-exp",
         "The preferences are exponentiated before they are normalised.",
-        when=lambda given: sum(given.preferences.values()) != 0,
+        when=lambda given: not given.sum_to_zero,
     )
     GRADIENT_BANDIT_POLICY = Formula(
         "gradient-bandit-policy",

@@ -27,7 +27,13 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, LOOKAHEAD, WITHOUT_GAMMA
+from rldrill.solutions.sheet.bellman import (
+    DISCOUNTED_REWARD,
+    FORGOT_GAMMA,
+    FORGOT_POLICY,
+    LOOKAHEAD,
+    WITHOUT_GAMMA,
+)
 
 
 def _values(mark: Math) -> Math:
@@ -72,6 +78,10 @@ with evaluate(False):
         hint="Average over the actions, then over where each leads, with the values that are current.",
         sign="←",
         misread={
+            FORGOT_POLICY: SumOver(LOOKAHEAD, a, Actions(s)),
+            DISCOUNTED_REWARD: SumOver(
+                pi(a, s) * SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + V(s1))), s1, Successors(s, a)), a, Actions(s)
+            ),
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
             EVALUATION_MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
         },
@@ -133,6 +143,15 @@ with evaluate(False):
         },
     )
 
+    Q_OF_VALUES = Formula(
+        "q-of-values",
+        Q(s, a),
+        LOOKAHEAD,
+        title="Value of an action by current values",
+        source="Sutton & Barto 2018, section 4.4",
+        hint="The action is fixed: average over where it leads, reward plus γ times the value there.",
+        place=Place.WORKING,
+    )
     GREEDY_BY_VALUE = Misconception(
         "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."
     )

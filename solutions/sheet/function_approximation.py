@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Integer, Rational, evaluate, exp
 
-from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable
+from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     A,
@@ -51,12 +51,15 @@ position = quantity("position", subscripted("s"))
 centre = quantity("centre", lambda index, axis: Script(variable("c"), row(index, axis)))
 distance = quantity("distance", _distance)
 phi = quantity("phi", _feature)
+log_phi = quantity("log_phi", lambda index, *arguments: row(word("ln"), _feature(index, *arguments)))
 phi_vector = quantity("phi_vector", called("φ"), matrix=True)
 Vhat = quantity("Vhat", called(Accent(variable("V"), "hat")))
 
 
 def _distances(given: Any) -> set[Any]:
-    """The squares of the distances from the state to the centres."""
+    """The squares of the distances from the state to the centres; none where the state is not given."""
+    if given.position is None:
+        return set()
     pairs = ((given.position, point) for point in given.centres)
     return {sum((x - y) ** 2 for x, y in zip(state, point, strict=True)) for state, point in pairs}
 
@@ -76,16 +79,20 @@ with evaluate(False):
         hint="Subtract coordinate by coordinate, square, add, and take the root.",
         place=Place.WORKING,
     )
-    HALF_FORGOTTEN = Misconception("half-forgotten", "The squared distance is divided by 2σ², not by σ².")
+    HALF_FORGOTTEN = Misconception(
+        "half-forgotten",
+        "The squared distance is divided by 2σ², not by σ².",
+        when=lambda given: given.position is not None and given.sigma is not None,
+    )
     SIGMA_NOT_SQUARED = Misconception(
         "sigma-not-squared",
         "The squared distance is divided by 2σ²: the width σ is squared, too.",
-        when=lambda given: given.sigma != 1,
+        when=lambda given: given.sigma not in (1, None),
     )
     NORM_NOT_SQUARED = Misconception(
         "norm-not-squared",
         "It is the square of the distance that stands in the exponent.",
-        when=lambda given: not _distances(given) <= {0, 1},
+        when=lambda given: given.sigma is not None and not _distances(given) <= {0, 1},
     )
     RBF = Formula(
         "rbf",
@@ -102,16 +109,34 @@ with evaluate(False):
             NORM_NOT_SQUARED: exp(-(1 / (2 * sigma**2)) * distance(i)),
         },
     )
+    DISTANCE_FROM_RBF = Formula(
+        "distance-from-rbf",
+        distance(i),
+        sigma * (-2 * log_phi(i, s)) ** Rational(1, 2),
+        title="Distance at which a radial basis function has a value",
+        source="The radial basis function, solved for the distance",
+        hint="Take the logarithm of both sides, and solve for the distance.",
+        place=Place.WORKING,
+    )
+    WIDTH_FROM_RBF = Formula(
+        "width-from-rbf",
+        sigma,
+        distance(i) / (-2 * log_phi(i, s)) ** Rational(1, 2),
+        title="Width for which a radial basis function has a value",
+        source="The radial basis function, solved for σ",
+        hint="Take the logarithm of both sides, and solve for σ.",
+        place=Place.WORKING,
+    )
     NOT_CLAMPED = Misconception(
         "not-clamped-at-0",
         "Beyond the distance b from its centre a feature is 0, not negative.",
-        when=lambda given: any(square > given.width**2 for square in _distances(given)),
+        when=lambda given: given.width is not None and any(square > given.width**2 for square in _distances(given)),
     )
     WIDTH_FORGOTTEN = Misconception(
         "width-forgotten",
         "The distance is divided by the width b before it is subtracted from 1.",
         when=lambda given: (
-            given.width != 1 and any(0 < square < max(given.width, 1) ** 2 for square in _distances(given))
+            given.width not in (1, None) and any(0 < square < max(given.width, 1) ** 2 for square in _distances(given))
         ),
     )
     PIECEWISE_LINEAR_RBF = Formula(
@@ -125,6 +150,33 @@ with evaluate(False):
             NOT_CLAMPED: 1 - distance(i) / width,
             WIDTH_FORGOTTEN: Greatest(Zero, 1 - distance(i)),
         },
+    )
+    TENT_INSIDE = Formula(
+        "piecewise-linear-rbf-inside",
+        phi(i, s),
+        1 - distance(i) / width,
+        title="Piecewise linear RBF, inside its width",
+        source="Lecture sheet; triangular kernel",
+        hint="Nearer than b to its centre the feature is a straight line in the state.",
+        place=Place.WORKING,
+    )
+    DISTANCE_FROM_TENT = Formula(
+        "distance-from-tent",
+        distance(i),
+        width * (1 - phi(i, s)),
+        title="Distance at which a piecewise linear basis function has a value",
+        source="The triangular kernel, solved for the distance",
+        hint="Where the feature is above 0 it is 1 − ‖s − cᵢ‖/b: solve for the distance.",
+        place=Place.WORKING,
+    )
+    WIDTH_FROM_TENT = Formula(
+        "width-from-tent",
+        width,
+        distance(i) / (1 - phi(i, s)),
+        title="Width for which a piecewise linear basis function has a value",
+        source="The triangular kernel, solved for b",
+        hint="Where the feature is above 0 it is 1 − ‖s − cᵢ‖/b: solve for b.",
+        place=Place.WORKING,
     )
 
     LINEAR_VALUE = Formula(

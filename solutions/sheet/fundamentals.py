@@ -166,6 +166,7 @@ with evaluate(False):
     TAIL_FORGOTTEN = Misconception(
         "tail-forgotten",
         "The rewards go on for ever after the first ones; their return belongs to the sum.",
+        when=lambda given: given.known is None,
     )
     TAIL_UNDISCOUNTED = Misconception(
         "tail-not-discounted",

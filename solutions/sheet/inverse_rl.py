@@ -4,7 +4,6 @@ from typing import Any
 
 from sympy import Pow, evaluate, sqrt
 
-from rldrill.problems.exact import dot
 from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
@@ -73,16 +72,19 @@ remaining = letter("remaining", "t")
 
 def several_violated(given: Any) -> bool:
     """Whether more than one constraint is violated, so that a sum is more than the maximum."""
-    expert = dot(given.w, given.expert)
-    return sum(dot(given.w, rival.mu) + rival.margin > expert for rival in given.policies.values()) > 1
+    return sum(missing > 0 for missing in given.missing.values()) > 1
 
 
 with evaluate(False):
     _DISCOUNTED = SumOver(gamma**t * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY))
 
-    FEATURES_UNDISCOUNTED = Misconception("undiscounted", "The features at time t count with γᵗ.")
+    FEATURES_UNDISCOUNTED = Misconception(
+        "undiscounted", "The features at time t count with γᵗ.", when=lambda given: given.estimate is None
+    )
     FEATURES_EARLY = Misconception(
-        "gamma-one-step-early", "The features of the first state are not discounted: γ⁰ = 1."
+        "gamma-one-step-early",
+        "The features of the first state are not discounted: γ⁰ = 1.",
+        when=lambda given: given.estimate is None,
     )
     FEATURES_SUMMED = Misconception(
         "sum-for-mean",

@@ -166,6 +166,13 @@ with evaluate(False):
     NO_TERMINAL = Misconception(
         "no-terminal-value", "The state at the last time T is rewarded too: P_T is −Q_T, not 0."
     )
+    # The same two in the letters of costs.
+    FORGOT_R_IN_COSTS = Misconception(
+        "forgot-r-in-costs", "The price R of the action belongs in the bracket: it is added to the product with B."
+    )
+    NO_TERMINAL_COST = Misconception(
+        "no-terminal-cost", "The state at the last time T costs something, too: the matrix there is Q_T, not 0."
+    )
     LQR_TERMINAL = Formula(
         "lqr-terminal",
         Pt(T),
@@ -239,11 +246,24 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
         square = Mul(*ahead, Transposed(B), after, B)
         turned = Mul(*ahead, Transposed(A), after, B)
         bracket = R + square if notation.costs else square - R
+        transposed = Mul(*ahead, Transposed(B), after, Transposed(A))
         if crossed:
             both, turned = (both + Transposed(N), turned + N) if notation.costs else (both - Transposed(N), turned - N)
+            transposed = transposed + Transposed(N) if notation.costs else transposed - Transposed(N)
+        forgot, ended = (FORGOT_R_IN_COSTS, NO_TERMINAL_COST) if notation.costs else (FORGOT_R, NO_TERMINAL)
         return Quadratic(
-            replace(LQR_TERMINAL, left=value(T), right=Qt(T) if notation.costs else -Qt(T), misread={}),
-            replace(LQR_GAIN, left=gain(t), right=Pow(bracket, -1) * both, misread={}),
+            replace(
+                LQR_TERMINAL,
+                left=value(T),
+                right=Qt(T) if notation.costs else -Qt(T),
+                misread={ended: Qt(T) - Qt(T)},
+            ),
+            replace(
+                LQR_GAIN,
+                left=gain(t),
+                right=Pow(bracket, -1) * both,
+                misread={forgot: Pow(square, -1) * both, TRANSPOSED_A: Pow(bracket, -1) * transposed},
+            ),
             replace(
                 LQR_RICCATI,
                 left=value(t),

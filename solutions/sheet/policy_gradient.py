@@ -8,7 +8,19 @@ from typing import Any
 
 from sympy import evaluate, exp, log
 
-from rldrill.problems.mathematics import Accent, Fence, Glyph, Math, Script, listed, punctuation, row, variable, word
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Fraction,
+    Glyph,
+    Math,
+    Script,
+    listed,
+    punctuation,
+    row,
+    variable,
+    word,
+)
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     DOTS,
@@ -60,6 +72,11 @@ def _entropy(state: Math) -> Math:
     return row(variable("H"), Fence(row(variable("π"), Fence(row(variable("·"), punctuation("|"), state)))))
 
 
+def _odds(action: Math, other: Math, state: Math) -> Math:
+    above, below = (row(variable("π"), Fence(row(each, punctuation("|"), state))) for each in (action, other))
+    return Fraction(above, below)
+
+
 def _score(action: Math, state: Math) -> Math:
     chance = row(variable("π"), Fence(row(action, punctuation("|"), state)))
     return row(_NABLA, word("log"), chance)
@@ -73,6 +90,7 @@ Qhat = quantity("Qhat", called(Accent(variable("Q"), "hat")))
 theta_vector = letter("theta_vector", "θ", matrix=True)
 f_vector = quantity("f_vector", called("f"), matrix=True)
 ones = letter("ones", "1", matrix=True)
+odds = quantity("odds", _odds)
 score = quantity("score", _score, matrix=True)
 gradient = letter("gradient", row(_NABLA, variable("J"), Fence(variable("θ"))), matrix=True)
 G_t = quantity("G", subscripted("G"))
@@ -122,6 +140,15 @@ with evaluate(False):
         note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
         "left out, as it mostly is.",
     )
+    RETURN_FROM_A_STEP = Formula(
+        "return-from-a-step",
+        G_t(t),
+        r(t + 1) + gamma * G_t(t + 1),
+        title="Return from a step on",
+        source="Sutton & Barto 2018, eq. 3.9",
+        hint="Begin at the end: the last reward, then each reward before it plus γ times the return that follows.",
+        place=Place.WORKING,
+    )
     FIRST_RETURN_EVERYWHERE = Misconception(
         "first-return-everywhere",
         "Each score is weighted with the return from its own step on; rewards before it say nothing about the action.",
@@ -166,7 +193,9 @@ with evaluate(False):
         },
     )
 
-    WEIGHTS_FORGOTTEN = Misconception("weights-forgotten", "Each feature counts with its own weight θᵢ.")
+    WEIGHTS_FORGOTTEN = Misconception(
+        "weights-forgotten", "Each feature counts with its own weight θᵢ.", when=lambda given: given.at is None
+    )
     LINEAR_ACTION_VALUE = Formula(
         "linear-action-value",
         Qhat(s, a),
@@ -200,7 +229,9 @@ with evaluate(False):
     )
     NOT_NORMALISED = Misconception("not-normalised", "Probabilities sum to 1: divide by the sum over all actions.")
     WITHOUT_EXP = Misconception(
-        "normalised-without-exp", "The preferences are exponentiated before they are normalised."
+        "normalised-without-exp",
+        "The preferences are exponentiated before they are normalised.",
+        when=lambda given: given.odds is None and not given.parameters(),
     )
     SOFTMAX_POLICY = Formula(
         "softmax-policy",
@@ -215,9 +246,19 @@ with evaluate(False):
         },
     )
 
+    SOFTMAX_ODDS = Formula(
+        "softmax-odds",
+        odds(a, b, s),
+        exp(H(s, a)) / exp(H(s, b)),
+        title="How many times as often a softmax policy takes an action as another",
+        source="Sutton & Barto 2018, eq. 13.2",
+        hint="The sum in the denominator is the same for both actions: it cancels.",
+        place=Place.WORKING,
+    )
     FEATURES_ALONE = Misconception(
         "features-alone",
         "The features expected under the policy are subtracted: they come from the softmax's denominator.",
+        when=lambda given: given.component is None,
     )
     EXPECTED_ADDED = Misconception(
         "expected-features-added",
@@ -410,6 +451,24 @@ with evaluate(False):
         misread={
             CLIP_WITHOUT_MIN: clipped(t),
         },
+    )
+    PPO_AT_THE_UPPER_BOUND = Formula(
+        "ppo-upper-bound",
+        L_t(t),
+        (1 + epsilon) * A_t(t),
+        title="PPO: a gradient that is cut off above",
+        source="Schulman et al. 2017, figure 1",
+        hint="Where a good action has become too likely, 1 + ε stands for the ratio.",
+        place=Place.WORKING,
+    )
+    PPO_AT_THE_LOWER_BOUND = Formula(
+        "ppo-lower-bound",
+        L_t(t),
+        (1 - epsilon) * A_t(t),
+        title="PPO: a gradient that is cut off below",
+        source="Schulman et al. 2017, figure 1",
+        hint="Where a bad action has become too unlikely, 1 − ε stands for the ratio.",
+        place=Place.WORKING,
     )
     PPO_BATCH = Formula(
         "ppo-batch",

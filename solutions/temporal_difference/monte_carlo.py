@@ -1,15 +1,17 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
-from fractions import Fraction
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.monte_carlo import Given, OfActions, OfStates
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.control import TOWARDS_TARGET
 from rldrill.solutions.sheet.fundamentals import RECURSION_UNDISCOUNTED, RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import MONTE_CARLO
@@ -18,7 +20,16 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work) -> None:
     """All returns first; then one update for every visit that counts, in their order."""
-    _update(given, work, _returns(given, work))
+    _finish(given, work, _returns(given, work))
+
+
+def _finish(given: Given, work: Work, returns: tuple[Value, ...]) -> None:
+    if isinstance(given, OfStates) and given.known is not None:
+        find_and_finish(given, work, lambda read: _updated(given, work, returns, read))
+    elif isinstance(given, OfStates):
+        work.answer(_updated(given, work, returns, exact))
+    else:
+        work.answer(_updated_pairs(given, work, returns))
 
 
 def _returns(given: Given, work: Work) -> tuple[Value, ...]:
@@ -35,21 +46,23 @@ def _returns(given: Given, work: Work) -> tuple[Value, ...]:
     return carried if end > 1 else (carried,)
 
 
-def _update(given: Given, work: Work, returns: tuple[Value, ...]) -> None:
-    run = given.trajectory
-    targets = dict(enumerate(returns))
-    if isinstance(given, OfActions):
-        known = knowns.action_run(given)
-        for time in given.counted:
-            pair = given.occasions[time]
-            known["Q"] = known["Q"] | {pair: work.step(TOWARDS_TARGET, t=time, y=targets, **known)}
-        work.answer({pair: known["Q"][pair] for pair in given.updated})
-        return
-    known = {"S": dict(enumerate(run.states)), "G": targets, "alpha": exact(given.alpha)}
-    values = knowns.state_values(given.values, run.terminal)
+def _updated_pairs(given: OfActions, work: Work, returns: tuple[Value, ...]) -> dict[tuple[str, str], Value]:
+    known = knowns.action_run(given)
     for time in given.counted:
-        values = values | {run.states[time]: work.step(MONTE_CARLO, t=time, V=values, **known)}
-    work.answer({state: values[state] for state in given.visited})
+        new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), **known)
+        known["Q"] = known["Q"] | {given.moves[time][:2]: new}
+    return {pair: known["Q"][pair] for pair in given.updated}
+
+
+def _updated(
+    given: OfStates, work: Work, returns: tuple[Value, ...], read: Callable[[Scalar], Value]
+) -> dict[str, Value]:
+    S = dict(enumerate(given.trajectory.states))
+    values = {state: read(value) for state, value in given.values.items()}
+    for time in given.counted:
+        new = work.step(MONTE_CARLO, t=time, V=values, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
+        values = values | {S[time]: new}
+    return {state: values[state] for state in given.visited}
 
 
 @slip(
@@ -70,13 +83,13 @@ def other_visits(given: Given, work: Work) -> None:
 def reward_before(given: Given, work: Work) -> None:
     """Every update with the return from one step earlier, of which the first has none: $r_t + γ R_t$ is $R_{t−1}$."""
     first, *others = _returns(given, work)
-    _update(given, work, (first, first, *others[:-1]))
+    _finish(given, work, (first, first, *others[:-1]))
 
 
 MISCONCEPTIONS = (other_visits, RECURSION_UNDISCOUNTED, reward_before)
 
 
-def _before(given: Given, what: Any) -> Fraction:
+def _before(given: Given, what: Any) -> Scalar:
     match given:
         case OfStates():
             return given.values[what]
@@ -87,6 +100,8 @@ def _before(given: Given, what: Any) -> Fraction:
 
 def oracle(given: Given) -> Answers:
     """The returns as a triangle of powers times the rewards; each value as old value and returns, weighted."""
+    if isinstance(given, OfStates) and given.known is not None:
+        return found_and_finished(given, lambda trial: oracle(trial)[-1])
     run, alpha = given.trajectory, at(given.alpha)
     times = np.arange(len(run.rewards))
     ahead = times[None, :] - times[:, None]

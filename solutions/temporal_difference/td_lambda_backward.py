@@ -4,11 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.temporal_difference import (
     ACCUMULATING,
     ELIGIBILITY_TRACE,
@@ -50,22 +52,36 @@ MISCONCEPTIONS = (LITERAL_VALUE, visited_only, trace_late, ACCUMULATING)
 
 def _learn(given: Given, work: Work, moving: Callable[[str, Traces, Traces], Traces]) -> None:
     """Every transition moves the values by the traces that ``moving`` makes of those before it and after it."""
+    if given.known is not None:
+        find_and_finish(given, work, lambda read: _learned(given, work, moving, read))
+    else:
+        work.answer(_learned(given, work, moving, exact))
+
+
+def _learned(
+    given: Given,
+    work: Work,
+    moving: Callable[[str, Traces, Traces], Traces],
+    read: Callable[[Scalar], Value],
+) -> dict[str, Value]:
     run = given.trajectory
-    known = knowns.trajectory(run) | {name: exact(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
-    values = knowns.state_values(given.values, run.terminal)
+    known = knowns.trajectory(run) | {name: read(getattr(given, name)) for name in ("alpha", "gamma", "lam")}
+    values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     traces: Traces = {}
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     for time, state in enumerate(run.states[:-1]):
-        work.say(f"Transition from $t = {time}$ to ${time + 1}$:")
+        work.say(f"The transition from {state} to {run.states[time + 1]}:")
         before = traces | {state: traces.get(state, ZERO)}
         traces = {s: work.step(formula, s=s, t=time, e=before, **known) for s in before}
         e = moving(state, before, traces)
         values = values | {s: work.step(TD_LAMBDA_BACKWARD, s=s, t=time, V=values, e=e, **known) for s in e}
-    work.answer({state: values[state] for state in given.visited})
+    return {state: values[state] for state in given.visited}
 
 
 def oracle(given: Given) -> Answers:
     """On arrays; the traces of every time from all visits until then."""
+    if given.known is not None:
+        return found_and_finished(given, lambda trial: oracle(trial)[0])
     run, states = given.trajectory, given.visited
     V = {state: at(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, 0.0)
     decay = at(given.gamma) * at(given.lam)

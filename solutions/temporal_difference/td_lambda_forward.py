@@ -1,8 +1,12 @@
 """TD(λ) in the forward view: a step towards the λ-return of every time asked for."""
 
+from collections.abc import Callable
+
+from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_lambda_forward import Given
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.temporal_difference import FORGOT_ALPHA, NOT_KEPT, NOT_SUBTRACTED, TD_LAMBDA
 from rldrill.solutions.temporal_difference.lambda_return import average, averaged, backwards, known_episode
 from rldrill.solutions.work import Work
@@ -12,17 +16,30 @@ MISCONCEPTIONS = (FORGOT_ALPHA, NOT_SUBTRACTED, NOT_KEPT)
 
 def solve(given: Given, work: Work) -> None:
     """The λ-returns, then one update for each, all from the values before the run."""
-    known = known_episode(given)
-    returns = tuple(average(work, known, time, averaged(work, known, time)) for time in given.asked)
+    if given.known is not None:
+        find_and_finish(given, work, lambda read: _updated(given, work, read, _returns(given, work, read)))
+        return
+    returns = _returns(given, work, exact)
     single = len(returns) == 1
     carried = work.answer(returns[0] if single else returns)
-    Glam = dict(zip(given.asked, (carried,) if single else carried, strict=True))
-    updates = {time: work.step(TD_LAMBDA, t=time, Glam=Glam, alpha=exact(given.alpha), **known) for time in given.asked}
-    work.answer(dict(zip(given.updated, updates.values(), strict=True)))
+    work.answer(_updated(given, work, exact, (carried,) if single else carried))
+
+
+def _returns(given: Given, work: Work, read: Callable[[Scalar], Value]) -> tuple[Value, ...]:
+    known = known_episode(given, read)
+    return tuple(average(work, known, time, averaged(work, known, time)) for time in given.asked)
+
+
+def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], returns: tuple[Value, ...]) -> dict[str, Value]:
+    known = known_episode(given, read) | {"Glam": dict(zip(given.asked, returns, strict=True))}
+    updates = (work.step(TD_LAMBDA, t=time, alpha=read(given.alpha), **known) for time in given.asked)
+    return dict(zip(given.updated, updates, strict=True))
 
 
 def oracle(given: Given) -> Answers:
     """The λ-returns backwards in time; each value as a weighted mean of the old one and its return."""
+    if given.known is not None:
+        return found_and_finished(given, lambda trial: oracle(trial)[-1])
     returns = backwards(given)[list(given.asked)]
     before = [at(given.values[state]) for state in given.updated]
     after = [

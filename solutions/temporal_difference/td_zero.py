@@ -1,10 +1,14 @@
 """TD(0) along a run: each update with the values then current."""
 
-from rldrill.problems.temporal_difference.td_zero import Given
+from collections.abc import Callable
+
+from rldrill.problems.exact import Scalar
+from rldrill.problems.temporal_difference.td_zero import AlongRun, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.policy_gradient import TD_ERROR
 from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
@@ -17,8 +21,17 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
-    before = values = knowns.state_values(given.values, given.terminal)
-    known = {"alpha": exact(given.alpha), "gamma": exact(given.gamma)}
+    if isinstance(given, AlongRun) and given.known is not None:
+        find_and_finish(given, work, lambda read: _updated(given, work, read, newest=newest))
+        return
+    values = _updated(given, work, exact, newest=newest)
+    work.answer({state: values[state] for state in given.visited})
+
+
+def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], *, newest: bool) -> dict[str, Value]:
+    """The values after all updates; the TD errors are the first answer where they are asked for."""
+    before = values = {s: read(value) for s, value in given.values.items()} | dict.fromkeys(given.terminal, ZERO)
+    known = {"alpha": read(given.alpha), "gamma": read(given.gamma)}
     errors: list[Value] = []
     for seen in knowns.moves(given):
         current = values if newest else before
@@ -28,7 +41,7 @@ def _learn(given: Given, work: Work, *, newest: bool = True) -> None:
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
         work.say("The values are those at the end of the same updates.")
-    work.answer({state: values[state] for state in given.visited})
+    return values
 
 
 @slip(
@@ -46,6 +59,8 @@ MISCONCEPTIONS = (FORGOT_GAMMA, stale, TARGET_ONLY, WRONG_SIGN)
 
 def oracle(given: Given) -> Answers:
     """The update as a weighted mean of old value and target, on a plain dictionary of floats."""
+    if isinstance(given, AlongRun) and given.known is not None:
+        return found_and_finished(given, lambda trial: oracle(trial)[-1])
     values = {state: at(number) for state, number in given.values.items()} | dict.fromkeys(given.terminal, 0.0)
     errors = []
     for state, after, reward in given.moves:

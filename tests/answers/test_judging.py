@@ -9,6 +9,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
 from rldrill.problems.parts import Numbers, Policy, Values
@@ -238,7 +239,10 @@ def test_a_word_proves_none_of_several_mistakes() -> None:
     no = judge(solution, "b", "no")
     assert (no.outcome, no.says, no.told) == (Outcome.WRONG, "Not right.", ())
     assert len(no.misconceptions) == 3
-    action = judge(draw("linear-policy", 1, 11), "b", "search")
+    policy = draw("linear-policy", 1, 11)
+    ((state, (best,)),) = policy.answers["b"].items()
+    (other,) = set(policy.problem.given.features[state]) - {best}  # type: ignore[attr-defined]
+    action = judge(policy, "b", other)
     assert action.outcome is Outcome.MISCONCEPTION
     assert len(action.misconceptions) > 1
     assert action.says == action.misconceptions[0].says
@@ -367,3 +371,40 @@ def test_every_form_of_an_exponential_is_accepted(same: str) -> None:
 )
 def test_a_near_miss_of_an_exponential_is_not(other: str) -> None:
     assert judge(BUMP, "a", other).outcome is not Outcome.RIGHT
+
+
+def test_a_working_of_several_lines_is_worth_what_its_last_line_says_of_what_is_asked_for() -> None:
+    # R_0 = 3 + 1/2 · 1/4 = 25/8.
+    exercise = rldrill.load("return/1/7")
+    assert exercise.check("gamma = 1/2\nR_0 = 3 + 1/8 = 25/8", "b").accepted
+    assert exercise.check("R_0 = 3 + 1/8\n= 25/8", "b").accepted
+    verdict = exercise.check("R_0 = 25/8\ndelta = 1", "b")
+    assert verdict.says == "The last line gives delta, but R is asked for; type its value alone."
+    assert not verdict.accepted
+
+
+#: V(a) = 4/3 = 1.333…, V(b) = 8/3 = 2.666…, V(c) = 3.
+_LOOPS = [["a", "x", "a", 1, "2/3"], ["b", "x", "b", 1, "4/3"], ["c", "x", "c", 1, "3/2"]]
+_CUT = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
+_CLOSE = "Right idea; give an exact value or three digits."
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome", "says", "wrong", "credit"),
+    [
+        ("a: 4/3, b: 8/3, c: 3", Outcome.RIGHT, "Right.", (), 1),
+        ("a: 1.33, b: 2.67, c: 3", Outcome.RIGHT, "Right.", (), 1),
+        ("a: 1.34, b: 8/3, c: 3", Outcome.CLOSE, _CLOSE, ("a",), Fraction(2, 3)),
+        ("a: 4/3, b: 2.66, c: 3", Outcome.CLOSE, _CUT, ("b",), Fraction(2, 3)),
+        ("a: 1.34, b: 2.66, c: 3", Outcome.CLOSE, _CLOSE, ("a", "b"), Fraction(1, 3)),
+        ("a: 4/3, b: 2.66, c: 9", Outcome.WRONG, "Not right at b; c; the rest is right.", ("b", "c"), Fraction(1, 3)),
+        ("a: 1.34, b: 8/3, c: 9", Outcome.WRONG, "Not right at a; c; the rest is right.", ("a", "c"), Fraction(1, 3)),
+        ("a: 9, b: 8/3, c: 3", Outcome.WRONG, "Not right at a; the rest is right.", ("a",), Fraction(2, 3)),
+        ("a: 9, b: 9, c: 9", Outcome.WRONG, "Not right.", ("a", "b", "c"), 0),
+    ],
+)
+def test_a_table_is_judged_entry_by_entry(
+    text: str, outcome: Outcome, says: str, wrong: tuple[str, ...], credit: Fraction
+) -> None:
+    verdict = judge(problem("policy-value", mdp={"transitions": _LOOPS}, gamma="1/2"), "a", text)
+    assert (verdict.outcome, verdict.says, verdict.wrong_cells, verdict.credit) == (outcome, says, wrong, credit)

@@ -17,6 +17,8 @@ READ = {
     "9/41 (approx. 0.2195)": ("9/41", "9/41 ≈ 0.2195"), "2/3 (or 0.67)": ("2/3", "2/3 ≈ 0.67"),
     # decimals that repeat
     "0.333...": ("1/3", "1/3"), "-0.(3)": ("-1/3", "-1/3"), "0.1666…": ("1/6", "1/6"), "0.999...": ("1", "1"),
+    "0.33..": ("1/3", "1/3"), "0.1333...": ("2/15", "2/15"), "0.1212…": ("4/33", "4/33"), "2.66...": ("8/3", "8/3"),
+    "0.0123123...": ("41/3330", "41/3330"), "0.11212...": ("37/330", "37/330"), ".(3)": ("1/3", "1/3"),
     r"0.\overline{18}": ("2/11", "2/11"), "1/3 = 0.333...": ("1/3", "1/3 = 1/3"),
     # signs of products, also the letter x
     "2.5 x 10^-1": ("1/4", "2.5*10^(-1)"), "2.5X0.1": ("1/4", "2.5*0.1"), "2.5•10⁻¹": ("1/4", "2.5*10^(-1)"),
@@ -68,7 +70,11 @@ REFUSED = {
     "1.5 (4/2).": "may be '1.5*(4/2)' or say '1.5' and '4/2'",
     "2.0*0.5*10-1/2": "may be '0.5*10^-1' or '0.5*10 - 1'",
     "1.(1)": "may be '10/9', its last digits repeated, or '1.*1'",
-    "0.25...": "does not show which digits repeat",
+    "0.25...": "does not show which digits repeat; write '0.25', or a fraction",
+    "0.3...": "does not show which digits repeat; write '0.3', or a fraction",
+    "0.133...": "does not show which digits repeat; write '0.133', or a fraction",
+    "0.12...": "does not show which digits repeat; write '0.12', or a fraction",
+    ".5...": "does not show which digits repeat; write '0.5', or a fraction",
     "0·25": "may be '0.25' or 0 times '25'",
     "3{,}125": "may be '3.125' or '3125'",
     "1\u202f234": "may be '1234' or two numbers",

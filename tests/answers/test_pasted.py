@@ -84,6 +84,8 @@ MATRICES = [
     "| 1 | 2 |\n|---|---|\n| 3 | 4 |",
     "[1 2; 3 4] = [1.0 2.0; 3.0 4.0]",
     "     ⎡1  2⎤⎡1  0⎤\nL₁ = ⎣3  4⎦⎣0  1⎦\n     ⎡1  2⎤\n   = ⎣3  4⎦",
+    "L₁ =\n⎛1  2⎞\n⎝3  4⎠",
+    "⎛1  2⎞⎛1  0⎞\n⎝3  4⎠⎝0  1⎠\n=\n⎛1  2⎞\n⎝3  4⎠",
 ]
 
 
@@ -139,6 +141,17 @@ TABLES = [
     "c=3.5 w=2.5 o=0",
     "cool 3.5\nwarm 2.5\noverheated 0",
     '{"cool": 3.5, "warm": 2.5, "overheated": null}',
+    r"\hat{V}(\text{cool}) = 3.5, \hat{V}(\text{warm}) = 2.5",
+    r"\bar V(cool) = 3.5, \bar{V}(warm) = 2.5",
+    r"\widehat{V}_{cool} = 3.5; \widehat{V}_{warm} = 2.5",
+    r"\operatorname{V}(\mathrm{cool}) = 3.5;\ V(\mathbf{warm}) = 2.5",
+    r'{"c\u006fol": 3.5, "warm": 2.5}',
+    r"\begin{align*} V(cool) &= 3.5 \\ V(warm) &= 2.5 \end{align*}",
+    "┌──────┬─────┐\n│ cool │ 3.5 │\n├──────┼─────┤\n│ warm │ 2.5 │\n└──────┴─────┘",
+    "+------+-----+\n| cool | 3.5 |\n+------+-----+\n| warm | 2.5 |\n+------+-----+",
+    "OrderedDict([('cool', 3.5), ('warm', 2.5)])",
+    "{'cool': array(3.5), 'warm': tensor(2.5, dtype=torch.float64)}",
+    "state\nwarm    2.5\ncool    3.5\nName: V, dtype: float64",
 ]
 
 

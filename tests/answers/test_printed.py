@@ -7,7 +7,6 @@ from typing import Any
 import pytest
 
 from rldrill.exercise import Exercise
-from rldrill.print.key import answer_lines
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown
@@ -15,6 +14,7 @@ from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.terminal import plain
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.judging import Outcome, judge
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
 

@@ -2,6 +2,7 @@
 
 import os
 import sys
+import types
 from collections.abc import Iterator
 from io import StringIO
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 from rich.console import Console
 
 import rldrill
+from rldrill.quiz.prompt import line_editor
 from rldrill.quiz.questions import questions
 from rldrill.quiz.screen import HELP, Screen
 from rldrill.quiz.session import Session, State
@@ -242,3 +244,14 @@ def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
     with console.capture() as capture:
         Screen(console, lambda _: "q").run([exercise], Session(1))
     assert "(read 0.3333333333333333 as 1/3)" in capture.get()
+
+
+def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Windows has no select for a console; msvcrt tells whether keys wait.
+    waiting = ["1/18 1/6", "-5/9 1/3"]
+    console = types.ModuleType("msvcrt")
+    monkeypatch.setattr(console, "kbhit", lambda: bool(waiting), raising=False)
+    monkeypatch.setitem(sys.modules, "msvcrt", console)
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
+    assert line_editor()("> ") == "1/18 1/6\n-5/9 1/3"

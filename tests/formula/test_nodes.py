@@ -2,8 +2,6 @@
 
 from collections.abc import Callable
 from fractions import Fraction
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 import sympy
@@ -14,7 +12,7 @@ from sympy import Expr, Integer, Pow, S, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
-from rldrill.solutions.effort import minutes
+from rldrill.solutions.effort import seconds_of
 from rldrill.solutions.exact import NoSolution, to_sympy
 from rldrill.solutions.formula.compiling import arg_max, compiled, needs, value_of
 from rldrill.solutions.formula.formula import Formula
@@ -81,11 +79,10 @@ def test_a_new_node_is_one_class() -> None:
     assert unicode(typeset(step)) == "5·median(5, 3, 2 − (−2))"
     assert unicode(typeset(reduced(step))) == "5·median(5, 3, 4)"
     assert evaluated(step) == evaluated(reduced(step)) == 20
-    # A part (30 s), a step (6 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
+    # A step (8 s); a product, a median of three, a sum and a factor −1 (3 s each); six digits (1.5 s).
     work = Work()
     work.step(Formula("own", x, formula, "Title", "Source", "Hint."), **known)
-    solution: Any = SimpleNamespace(problem=SimpleNamespace(parts="a"), lines=work.lines)
-    assert minutes(solution) * 60 == 30 + 6 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
+    assert seconds_of(work.lines) == 8 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
 
 
 def test_a_node_that_does_not_say_how_it_is_written_is_refused() -> None:
@@ -166,7 +163,7 @@ def test_all_that_are_best_in_their_order() -> None:
     ("formula", "value", "step"),
     [
         (SumOver(i**2, i, Counting(S(2), n)), 2**2 + 3**2 + 4**2, "2² + 3² + 4²"),
-        (ProductOver(i, i, Counting(S(1), n)), 2 * 3 * 4, "2·3·4"),
+        (ProductOver(i, i, Counting(S(1), n)), 2 * 3 * 4, "1·2·3·4"),
         (MeanOver(i, i, Counting(S(2), n)), 3, "(2 + 3 + 4)/3"),
         (MaxOver(-i, i, Counting(S(2), n)), -2, "max{−2; −3; −4}"),
         (SumOver(i, i, Counting(S(5), n)), 0, "0"),
@@ -264,3 +261,46 @@ def test_a_number_as_power_or_factor_keeps_its_brackets_and_dots() -> None:
     assert unicode(typeset(formula)) == "γx²y"
     assert unicode(typeset(put_in(formula, known))) == "1/2·(−3)²·2/3"
     assert unicode(typeset(put_in(x**2, {"x": fmpq(2, 3)}))) == "(2/3)²"
+
+
+@pytest.mark.parametrize(
+    ("count", "written"),
+    [
+        (24, " + ".join(map(str, range(1, 25)))),
+        (25, "1 + 2 + 3 + … + 25"),
+        (26, "1 + 2 + 3 + … + 26"),
+    ],
+)
+def test_a_sum_of_more_than_24_terms_is_written_with_the_first_three_and_the_last(count: int, written: str) -> None:
+    formula = SumOver(V(i), i, Counting(S(1), n))
+    known = {"n": count, "V": {number: fmpq(number) for number in range(1, count + 1)}}
+    assert unicode(typeset(put_in(formula, known))) == written
+    assert value_of(formula, known) == count * (count + 1) // 2
+
+
+def test_the_zeros_of_a_long_sum_are_not_written() -> None:
+    places = tuple(map(str, range(40)))
+    known = {"places": places, "V": {place: fmpq(int(place) % 20 == 3) for place in places}}
+    assert unicode(typeset(put_in(SumOver(V(i), i, Places), known))) == "1 + 1"
+
+
+@pytest.mark.parametrize(
+    ("build", "put", "worked_out"),
+    [
+        (lambda: x * (x + y), "3·(3 + 13)", "3·16"),
+        (lambda: x + (x + y) * y, "3 + (3 + 13)·13", "3 + 16·13"),
+        (lambda: x * Pow(x + y, -1), "3/(3 + 13)", "3/16"),
+        (lambda: Pow(x + y, -1), "1/(3 + 13)", "1/16"),
+        (lambda: x * Pow(x + y, S.Half), "3√(3 + 13)", "3√16"),
+        (lambda: 1 + Pow(x + y, S.Half), "1 + √(3 + 13)", "1 + √16"),
+        (lambda: x + y, "3 + 13", "3 + 13"),
+    ],
+)
+def test_inner_brackets_are_worked_out_between_putting_in_and_the_result(
+    build: Callable[[], Expr], put: str, worked_out: str
+) -> None:
+    with evaluate(False):
+        formula = build()
+    step = put_in(formula, {"x": fmpq(3), "y": fmpq(13)})
+    assert unicode(typeset(step)) == put
+    assert unicode(typeset(reduced(step))) == worked_out

@@ -13,6 +13,7 @@ from rldrill.render.mathematics.latex import latex
 from rldrill.render.mathematics.stacked import stacked
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.unicode import unicode_text
+from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.formula.notation import Counting, IntegralOver, S, SampleMean, T, n, t
 from rldrill.solutions.formula.putting_in import put_in
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
@@ -163,3 +164,29 @@ def test_a_maximum_over_one_action_and_a_negative_number_alone_stand_bare() -> N
     work.step(POLICY_IMPROVEMENT_THEOREM, sign="<", **fails)
     lines = [" ".join(unicode_text(line.equation()).split()) for line in work.lines if isinstance(line, Step)]
     assert lines == ["Q*(cool, fast) = 3 + 1/2·(−4) = 1", "‖V − V′‖_∞ = |1 − 4| = 3", "Q^π(cool, fast) < −2"]
+
+
+#: As a lecturer writes them: the constant first, one line of fraction, no minus in front of what stands above a line.
+WRITTEN = {
+    "sqrt(2)": "√2", "-sqrt(2)": "−√2", "sqrt(2)/2": "√2/2", "-sqrt(3)/2": "−√3/2", "3sqrt(2)": "3√2",
+    "-3sqrt(2)": "−3√2", "(1 + sqrt(5))/2": "(1 + √5)/2", "(1 - sqrt(5))/2": "(1 − √5)/2",
+    "-(1 + sqrt(5))/2": "−(1 + √5)/2", "1 + sqrt(2)": "1 + √2", "-1 - sqrt(2)": "−1 − √2",
+    "sqrt(2) + sqrt(3)": "√2 + √3", "sqrt(2) - sqrt(3)": "√2 − √3", "3sqrt(2)/4": "3√2/4",
+    "2 - 3sqrt(2)/4": "(8 − 3√2)/4", "sqrt(1 + sqrt(2))": "√(1 + √2)", "2^(1/3)": "2^(1/3)",
+    "e": "e", "e^2": "e²", "-e^2": "−e²", "e^(-2)": "e⁻²", "2e": "2·e", "2 - e": "2 − e", "exp(-3/4)": "exp(−3/4)",
+    "2exp(-1/8)": "2·exp(−1/8)", "1/(1 + e)": "1/(1 + e)", "e/(1 + e)": "e/(1 + e)", "ln 3": "ln 3", "-ln 3": "−ln 3",
+    "2 ln 3": "2·ln 3", "ln(3)/2": "1/2·ln 3", "pi": "π", "2pi": "2π", "pi/2": "π/2", "-pi/6": "−π/6",
+    "cos(2)/2": "1/2·cos(2)", "γ": "γ", "-γ": "−γ", "2γ": "2γ", "γ/2": "1/2·γ", "γ^2/4": "1/4·γ²", "1 - γ": "1 − γ",
+    "-1 - γ": "−1 − γ", "1 + 2γ + 3γ^2": "1 + 2γ + 3γ²", "3γ/4 - 1/2": "−1/2 + 3/4·γ", "1/γ": "1/γ", "-1/γ": "−1/γ",
+    "3/(2γ)": "3/(2γ)", "1/(1 - γ)": "1/(1 − γ)", "-1/(1 - γ)": "−1/(1 − γ)", "γ/(1 - γ)": "γ/(1 − γ)",
+    "2/(1 - γ)^2": "2/(1 − 2γ + γ²)", "(1 + γ)/(1 - γ)": "(1 + γ)/(1 − γ)", "(1/2 + γ)/(1 - γ)": "(1 + 2γ)/(2 − 2γ)",
+    "(γ - 3)/(γ - 1)": "(3 − γ)/(1 − γ)", "sqrt(γ)": "√γ", "ln γ": "ln γ", "sqrt(2) γ": "γ·√2",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", WRITTEN)
+def test_a_number_of_every_form_is_written_so_and_read_back(text: str) -> None:
+    value = read_number(text, ["gamma"]).value
+    written = unicode(typeset_value(value))
+    assert written == WRITTEN[text]
+    assert read_number(written, ["gamma"]).value == value

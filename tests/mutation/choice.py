@@ -10,8 +10,8 @@ from pathlib import Path
 
 from places import ROOMS, Mutation, Source
 
-#: So many tests for one change at most: more would be slow, and hardly likelier to notice it.
-MOST = 200
+#: So many tests for one change at most: to load the files of more takes longer than they are likely to be worth.
+MOST = 1000
 
 
 @dataclass(frozen=True)
@@ -40,30 +40,34 @@ class Choice:
             if path.parts[:2] not in {("rldrill", "problems"), ("rldrill", "solutions")}
         }
 
-    def tests(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
-        """The IDs with their ranks, 0 where the changed statement made what is tested; first cases first.
+    def tests(self, source: Source, mutation: Mutation) -> tuple[str, ...]:
+        """The IDs of what can notice it, the likeliest first: by their ranks, then the first cases of all functions.
 
         For what writes pages, the pages of all families come first: most of it shows in none of their names.
         """
-        ranked = [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 4]
         order: Counter[tuple[int, str]] = Counter()
         keyed = []
-        for rank, test in ranked:
+        for rank, test in self.ranked(source, mutation):
             function = test.partition("[")[0]
             keyed.append((rank, order[rank, function], test))
             order[rank, function] += 1
         keyed.sort(key=lambda each: each[:2])
-        return [(rank, test) for rank, _, test in keyed[:MOST]]
+        return tuple(test for _, _, test in keyed[:MOST])
+
+    def ranked(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
+        """The IDs with their ranks, 0 where what is tested is made of the changed statement."""
+        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 5]
 
     def _ranks(self, source: Source, mutation: Mutation) -> Iterable[int]:
         path = Path(source.path)
         statement = source.statement(mutation)
-        made = _named([statement] if statement else [])
+        made = _named(_affected(source.tree, statement) if statement else [])
         own = _named(source.tree.body) | {_family(path)}
         module = _module(path)
-        importers = {Path(name) for name, modules in self._imports.items() if module in modules}
+        importers = self._importing({module})
         callers = {_family(name) for name in importers} - {"--init--"}
         calling = {_module(name) for name in importers}
+        farther = {_module(name) for name in self._importing(calling)}
         folders = {*path.parts[1:-1], path.stem} - {"__init__"}
         patterns = [_pattern(names) for names in (made, own, callers)]
         for test in self.ids:
@@ -71,16 +75,22 @@ class Choice:
             function, _, case = rest.partition("[")
             uses = self._of(file).get(function, Uses())
             writes = path.parts[:2] == ("rldrill", "render") and Path(file).name == "test_pages.py"
-            if writes or patterns[0].search(case) or made & uses.texts:
+            named = _is_named(file, path.stem)
+            if writes or patterns[0].search(case) or made & uses.texts or (named and not made):
                 yield 0
-            elif patterns[1].search(case) or own & uses.texts or module in uses.modules or _is_named(file, path.stem):
+            elif named or patterns[1].search(case) or own & uses.texts or module in uses.modules:
                 yield 1
             elif folders & set(Path(file).parts) or any(_is_named(file, name) for name in folders):
                 yield 2
             elif patterns[2].search(case) or callers & uses.texts or calling & uses.modules:
                 yield 3
-            else:
+            elif farther & uses.modules:
                 yield 4
+            else:
+                yield 5
+
+    def _importing(self, modules: set[str]) -> set[Path]:
+        return {Path(name) for name, imported in self._imports.items() if modules & imported}
 
     def _of(self, file: str) -> dict[str, Uses]:
         if file not in self._uses:
@@ -110,6 +120,21 @@ def _closed(name: str, own: dict[str, tuple[Uses, set[str]]]) -> Uses:
     found = [own[each][0] for each in seen]
     texts, modules = (each.texts for each in found), (each.modules for each in found)
     return Uses(frozenset().union(*texts), frozenset().union(*modules))
+
+
+def _affected(tree: ast.Module, statement: ast.stmt) -> list[ast.stmt]:
+    """A statement, and those of the module that mention what it defines, or what these define."""
+    rest = {node: {each.id for each in ast.walk(node) if isinstance(each, ast.Name)} for node in _flat(tree.body)}
+    found = [statement]
+    for node in found:
+        rest.pop(node, None)
+        found += [other for other, names in rest.items() if other not in found and names & _defines(node)]
+    return found
+
+
+def _flat(statements: Iterable[ast.stmt]) -> Iterable[ast.stmt]:
+    for statement in statements:
+        yield from _flat(statement.body) if isinstance(statement, ast.With) else [statement]
 
 
 def _defines(node: ast.stmt) -> set[str]:
@@ -164,10 +189,8 @@ def _family(path: Path) -> str:
 def _named(statements: Iterable[ast.stmt]) -> set[str]:
     """The names of what statements state, as in ``X = Formula("td-zero", …)`` and ``Y = slip("forgot-alpha", …)``."""
     found = set()
-    for statement in statements:
+    for statement in _flat(statements):
         match statement:
-            case ast.With(body=body):
-                found |= _named(body)
             case ast.Assign(value=ast.Call(args=arguments)):
                 found |= {each.value for each in arguments[:2] if isinstance(each, ast.Constant)}
     return {name for name in found if isinstance(name, str) and re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", name)}

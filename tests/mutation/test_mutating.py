@@ -1,11 +1,14 @@
 """The mutation run: which changes it makes, which it leaves, and which tests it holds against them."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from choice import Choice
 from places import Mutation, Source, mutations
-from run import drawn, within
+from run import drawn
+from trial import Chosen, Result, Run
 
 
 def changes(text: str) -> set[str]:
@@ -75,7 +78,8 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
     files = {
         "problems/td/n_step.py": "",
         "solutions/td/n_step.py": "from rldrill.solutions.sheet.td import N_STEP\nx = 1",
-        "solutions/sheet/td.py": "N_STEP = Formula('n-step-formula', x + y)\nSLIP = slip('late', x - y)",
+        "solutions/sheet/td.py": "with a:\n N_STEP = Formula('n-step-formula', x + y)\n"
+        "SLIP = slip('late', x - y)\nx = letter('x', 1)",
         "tests/test_all.py": "def test_family(name): ...\ndef test_other(): ...",
         "tests/test_td.py": "def test_identity(): ...",
         "tests/test_hand.py": "import rldrill\nBOOK = 'n-step/1/7'\ndef test_book(): BOOK\ndef test_other(): ...",
@@ -92,19 +96,25 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
 
     def ranks(path: str, number: int) -> dict[str, int]:
         source = Source.read(tmp_path, path)
-        chosen = choice.tests(source, mutations(source)[number])
+        chosen = choice.ranked(source, mutations(source)[number])
         return {test.partition("::test_")[2].removeprefix("family"): rank for rank, test in chosen}
 
     own = {"[n-step]": 1, "[2-n-step]": 1, "[n-step: late]": 1, "book": 1}
     assert ranks("solutions/td/n_step.py", 0) == own | {"identity": 2}
     callers = {"[n-step]": 3, "[2-n-step]": 3, "book": 3, "identity": 1}
     assert ranks("solutions/sheet/td.py", 0) == callers | {"[n-step-formula]": 0, "[n-step: late]": 1}
+    both = callers | {"[n-step-formula]": 0, "[n-step: late]": 0}
+    assert ranks("solutions/sheet/td.py", 2) == both  # x, which both mention
     assert ranks("solutions/sheet/td.py", 1) == callers | {"[n-step-formula]": 1, "[n-step: late]": 0}
 
 
-def test_tests_are_run_in_the_order_of_their_ranks_while_the_time_lasts() -> None:
-    times = {"a": 3.0, "b": 1.0, "c": 2.0, "d": 9.0}
-    tests = [(0, "a"), (0, "b"), (1, "d"), (1, "c")]
-    assert within(tests, times, 100) == ("b", "a", "c", "d")
-    assert within(tests, times, 6) == ("b", "a", "c")
-    assert within([*tests, (2, "b")], times, 5) == ("b", "a", "b")
+def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    clock = iter((10.0, 10.0, 13.0, 13.5))
+    monkeypatch.setattr("trial._spent", lambda: next(clock))
+    result = Result()
+    chosen = Chosen(Run(("a", "b", "c"), budget=3), result, tmp_path / "now")
+    chosen.pytest_collection_modifyitems([])
+    items = [cast("pytest.Item", SimpleNamespace(nodeid=test)) for test in "abc"]
+    assert [chosen.pytest_runtest_protocol(item) for item in items] == [None, None, True]
+    assert result.ran == 2
+    assert (tmp_path / "now").read_text() == "b"  # which it was, if it crashes

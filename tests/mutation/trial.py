@@ -32,33 +32,38 @@ _HEAVY = ("flint", "numpy", "pydantic", "rich", "sympy", "typer", "typst")
 
 @dataclass(frozen=True)
 class Run:
-    """What is to be run: tests in their order; a file's changed content; all tests are only collected if asked."""
+    """What is to be run: tests in their order; a file's changed content; all tests are only collected if asked.
+
+    After ``budget`` seconds of the processor no other test is begun: by the clock, tests take longer where others work.
+    """
 
     tests: tuple[str, ...] = ()
     path: str = ""
     content: bytes = b""
     collect_only: bool = False
     keep_going: bool = False
+    budget: float = math.inf
 
 
 @dataclass
 class Result:
-    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, their seconds, the failed."""
+    """How a run ended: pytest's exit code, None where it hung or crashed; the tests seen, how many ran, the failed."""
 
     code: int | None = None
     hung: bool = False
     seconds: float = 0.0
     seen: list[str] = field(default_factory=list)
-    times: dict[str, float] = field(default_factory=dict)
+    ran: int = 0
     failed: list[str] = field(default_factory=list)
 
 
 class Chosen:
     """A plugin of pytest that runs the chosen tests only, in their order, and notes what became of them."""
 
-    def __init__(self, tests: Sequence[str], result: Result) -> None:
-        self._places = {test: place for place, test in enumerate(tests)}
+    def __init__(self, run: Run, result: Result, now: Path) -> None:
+        self._places = {test: place for place, test in enumerate(run.tests)}
         self._result = result
+        self._budget, self._begun, self._now = run.budget, 0.0, now
 
     @pytest.hookimpl(trylast=True)
     def pytest_configure(self) -> None:
@@ -73,15 +78,29 @@ class Chosen:
             chosen = (item for item in items if item.nodeid in self._places)
             items[:] = sorted(chosen, key=lambda item: self._places[item.nodeid])
         self._result.seen = [item.nodeid for item in items]
+        self._begun = _spent()
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
         if report.failed:
             self._result.failed.append(report.nodeid)
 
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> bool | None:
+        """Pass over what there is no time for; note what is run, for it may crash."""
+        if _spent() - self._begun > self._budget:
+            return True
+        self._now.write_text(item.nodeid, encoding="utf-8")
+        self._result.ran += 1
+        return None
+
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        self._result.times[report.nodeid] = self._result.times.get(report.nodeid, 0.0) + report.duration
         if report.failed:
             self._result.failed.append(report.nodeid)
+
+
+def _spent() -> float:
+    """Seconds of the processor, with those of processes that have ended."""
+    return sum(os.times()[:4])
 
 
 def files(root: Path) -> list[str]:
@@ -132,7 +151,9 @@ class _Running:
         self._begun, self._limit = time.monotonic(), _PATIENCE * limit
         self._report = copy.with_suffix(".json")
         self._report.unlink(missing_ok=True)
-        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report, limit))
+        self._now = copy.with_suffix(".now")
+        self._now.write_text("the import of the tests", encoding="utf-8")
+        self.process: BaseProcess = _FORK.Process(target=_work, args=(run, copy, self._report, self._now, limit))
         self.process.start()
 
     def left(self) -> float:
@@ -149,7 +170,7 @@ class _Running:
         self.process.join()
         hung = hung or self.process.exitcode == -signal.SIGXCPU
         self._restore()
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = {"failed": [self._now.read_text(encoding="utf-8")]}
         if self._report.exists() and not hung:
             found = json.loads(self._report.read_text(encoding="utf-8"))
         return Result(**found | {"hung": hung, "seconds": time.monotonic() - self._begun})
@@ -170,11 +191,10 @@ def _change(copy: Path, run: Run) -> Callable[[], None]:
     return restore
 
 
-def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
+def _work(run: Run, copy: Path, report: Path, now: Path, limit: float) -> None:
     """What the process does; it writes its report at the end."""
     os.setsid()
-    if run.path:  # unchanged, the pages of all families in one document may take more
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), resource.RLIM_INFINITY))
     os.chdir(copy)
     os.environ["PYTHONPATH"] = str(copy)
@@ -194,7 +214,7 @@ def _work(run: Run, copy: Path, report: Path, limit: float) -> None:
         else:
             options += ["-x"] * (not run.keep_going) + sorted({test.partition("::")[0] for test in run.tests})
         if run.tests or run.collect_only:
-            result.code = int(pytest.main(options, plugins=[Chosen(run.tests, result)]))
+            result.code = int(pytest.main(options, plugins=[Chosen(run, result, now)]))
         else:
             result.code = pytest.ExitCode.NO_TESTS_COLLECTED
         report.write_text(json.dumps(vars(result)), encoding="utf-8")

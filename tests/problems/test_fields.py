@@ -3,6 +3,7 @@
 import json
 import typing
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -84,13 +85,14 @@ def test_optional_fields_are_found_with_their_defaults() -> None:
 def test_rows_name_their_entries_and_choices_their_words() -> None:
     rows = [field.takes for field in rldrill.fields("value-iteration") if field.path == "mdp.transitions"]
     assert rows[0].endswith("[state, action, next, probability, reward]")
-    assert "[state, action, next, probability]" in rows[1]
+    assert "[state, next, probability, reward]" in rows[1]
+    assert "[state, action, next, probability]" in rows[2]
     assert paths("monte-carlo")["visits"].takes == '"first" or "every"'
     assert paths("value-iteration")["sweeps"].takes == "a whole number from 1 to 1000"
 
 
 @pytest.mark.parametrize(
-    ("name", "forms"), [("bandit", 3), ("advantage", 3), ("expected-sarsa", 2), ("td-zero", 2), ("n-step-return", 1)]
+    ("name", "forms"), [("bandit", 4), ("advantage", 3), ("expected-sarsa", 2), ("td-zero", 2), ("n-step-return", 1)]
 )
 def test_every_form_of_a_union_is_listed(name: str, forms: int) -> None:
     assert len({field.form for field in rldrill.fields(name)}) == forms
@@ -121,3 +123,35 @@ def test_an_unknown_field_is_told_with_the_nearest_known_one(name: str, change: 
     with pytest.raises(FileError) as error:
         rldrill.read({"family": name, "given": given})
     assert says in str(error.value)
+
+
+def test_files_and_processes_without_actions_are_forms_of_a_model() -> None:
+    found = [field for field in rldrill.fields("policy-value") if field.path.startswith("mdp.")]
+    files = [field for field in found if field.path == "mdp.file"]
+    assert [json.loads(field.example) for field in files] == ["model.csv"]
+    rows = [field for field in found if field.path == "mdp.transitions" and "reward]" in field.takes]
+    alone = rows[1]
+    assert alone.takes == "a list, each a list [state, next, probability, reward]"
+    solved = rldrill.read(
+        {
+            "family": "policy-value",
+            "given": {"mdp": {"transitions": json.loads(alone.example), "terminal": ["off"]}, "gamma": 0},
+        }
+    )
+    assert solved.answers()["a"] == {"low": Fraction(1, 2), "high": 2}
+
+
+def test_an_angle_that_is_not_given_is_shown_as_files_write_it() -> None:
+    assert paths("forward-kinematics")["base.phi"].default == '"0"'
+
+
+def test_the_average_reward_needs_no_discount_by_the_schema() -> None:
+    schema = family("policy-value").schema()
+    assert schema["required"] == ["mdp"]
+    assert schema["else"] == {"required": ["gamma"]}
+    assert paths("policy-value")["gamma"].default is None
+
+
+def test_the_form_over_actions_has_an_example_with_actions() -> None:
+    actions = [json.loads(field.example) for field in rldrill.fields("monte-carlo") if field.path == "trajectory"]
+    assert [run.get("actions") for run in actions] == [None, ["left", "right"]]

@@ -189,7 +189,7 @@ def test_spellings_of_a_letter_may_be_mixed() -> None:
 
 def test_the_kinds_of_a_union_are_its_models() -> None:
     from rldrill.problems.bayes.bayes_rule import Given
-    from rldrill.problems.control.bandit import Bounds, Estimates, Preferences
+    from rldrill.problems.control.bandit import Balance, Bounds, Estimates, Preferences
 
-    assert family("bandit").kinds == (Estimates, Bounds, Preferences)
+    assert family("bandit").kinds == (Estimates, Bounds, Balance, Preferences)
     assert family("bayes-rule").kinds == (Given,)

@@ -6,8 +6,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from rldrill.problems.exact import Parameter
+from rldrill.problems.grids import Grid
 from rldrill.problems.gymnasium import from_table
-from rldrill.problems.models import Model, transitions_table
+from rldrill.problems.model_forms import SCHEMAS
+from rldrill.problems.models import Model, sums_to_one, transitions_table
 
 # The 4×3 world of Russell & Norvig, AIMA, section 17.1: moves succeed with 0.8 and slip to either side with 0.1.
 AIMA = {"grid": "...G\n.#.P\n....", "rewards": {"G": 1, "P": -1}, "step": "-0.04", "slip": "0.2"}
@@ -176,3 +179,25 @@ def test_gymnasiums_environments() -> None:
         Model.model_validate({"gymnasium": "CartPole-v1"})
     with pytest.raises(ValidationError, match="cannot make 'NoSuch-v0'"):
         Model.model_validate({"gymnasium": "NoSuch-v0"})
+
+
+@pytest.mark.parametrize("schema", [*SCHEMAS, Grid.model_json_schema()], ids=lambda schema: schema["required"][0])
+def test_the_examples_of_the_fields_of_a_form_make_a_model(schema: dict[str, Any]) -> None:
+    if "gymnasium" in schema["required"]:
+        pytest.importorskip("gymnasium")
+    examples = {name: field["examples"][0] for name, field in schema["properties"].items() if field.get("examples")}
+    assert set(schema["required"]) <= set(examples)
+    assert Model.model_validate(examples).states
+
+
+def test_probabilities_sum_to_one_with_a_parameter_and_its_complement() -> None:
+    half, p, rest = Fraction(1, 2), Parameter("p"), Parameter("1-p")
+    assert sums_to_one([half, half])
+    assert sums_to_one([p, rest])
+    assert sums_to_one([rest, p])
+    assert not sums_to_one([half, Fraction(1, 4)])
+    assert not sums_to_one([p, p])
+    assert not sums_to_one([rest])
+    assert not sums_to_one([p, rest, half])
+    assert not sums_to_one([p, Parameter("1-q")])
+    assert not sums_to_one([p, half])

@@ -8,13 +8,13 @@ from collections.abc import Iterable
 from rich.console import Console, RenderableType
 
 from rldrill.exercise import Exercise, draw
-from rldrill.print.key import answer_lines
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.family import Family
 from rldrill.render.markdown import markdown
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.terminal import asked, render
 from rldrill.render.typst import document
+from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 
 #: As many problems of a level are held to what they were; one of them is shown.

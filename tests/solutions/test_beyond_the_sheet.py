@@ -58,9 +58,10 @@ def test_a_jacobian_that_is_not_square_is_not_asked_about() -> None:
 @given(st.integers(0, 10_000), st.fractions("1/10", 1, max_denominator=10))
 @settings(deadline=None, max_examples=20)
 def test_an_open_step_size_agrees_with_a_closed_one(seed: int, alpha: Any) -> None:
-    solution = draw("maml-step", 3, seed)
-    closed = solved("maml-step", **solution.problem.data()["given"] | {"alpha": str(alpha)})["b"]
-    here = to_sympy(solution.answers["b"]).subs(sympy.Symbol("alpha", positive=True), sympy.Rational(alpha))
+    given_ = draw("maml-step", 2, seed).problem.data()["given"]
+    opened = solved("maml-step", **given_ | {"alpha": "alpha"})["b"]
+    closed = solved("maml-step", **given_ | {"alpha": str(alpha)})["b"]
+    here = to_sympy(opened).subs(sympy.Symbol("alpha", positive=True), sympy.Rational(alpha))
     assert sympy.simplify(here - to_sympy(closed)) == 0
 
 
@@ -85,3 +86,16 @@ def test_a_task_that_is_learnt_in_one_step_teaches_nothing() -> None:
 def test_wrong_givens_are_one_sentence(family: str, given_: dict[str, Any], message: str) -> None:
     with pytest.raises(FileError, match=message):
         solved(family, **given_)
+
+
+def test_the_parameter_that_maml_leaves_alone_and_the_step_that_it_took() -> None:
+    # α = 1/2, tasks (1, 0) and (3, 4): the slopes are 1/2 and −1/2; θ′ = θ/2 and 6 − θ/2; the gradient
+    # θ/4 − 3/2·(2 − θ/2) = θ − 3 is zero at 3.
+    tasks = [[1, 0], [3, 4]]
+    assert solved("maml-step", tasks=tasks, alpha="1/2") == {"a": (fmpq(1, 2), fmpq(-1, 2)), "b": 3}
+    # From θ = 2 the gradient is −1: θ becomes 2 + β, 9/4 for β = 1/4.
+    answers = solved("maml-step", theta=2, tasks=tasks, alpha="1/2", after="9/4")
+    assert answers == {"a": (1, 5), "b": fmpq(1, 4)}
+    # First-order MAML adds 1·(1 − 0) and 3·(5 − 4) instead: 2 − 1/4·4 = 1.
+    answers = solved("maml-step", theta=2, tasks=tasks, alpha="1/2", beta="1/4", first_order=True)
+    assert (answers["b"], answers["c"]) == (fmpq(9, 4), 1)

@@ -108,7 +108,8 @@ def test_epsilon_greedy_sums_to_one_and_favours_the_best(values: dict[str, str],
 @given(st.integers(0, 10_000))
 @settings(deadline=None, max_examples=15)
 def test_tied_probabilities_sum_to_one_for_every_epsilon(seed: int) -> None:
-    assert sum(draw("epsilon-greedy", 3, seed).answers["a"].values()) == 1
+    values = draw("epsilon-greedy", 3, seed).problem.data()["given"]["values"]
+    assert sum(solved("epsilon-greedy", values=values, epsilon="epsilon")["a"].values()) == 1
 
 
 @given(st.integers(0, 10_000))

@@ -8,7 +8,8 @@ import pytest
 from flint import fmpq, fmpq_mat
 from sympy import Expr, Pow, S, evaluate, exp, sqrt
 
-from rldrill.solutions.effort import minutes, whole
+from rldrill.problems.parts import Number, Part
+from rldrill.solutions.effort import minutes, minutes_of, seconds_of, whole, whole_points
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import (
     Clipped,
@@ -37,27 +38,31 @@ def formula(right: Expr, left: Expr = x) -> Formula:
     return Formula("own", left, right, "Title", "Source", "Hint.")
 
 
-def seconds(work: Work, parts: int = 1) -> Fraction:
-    solution: Any = SimpleNamespace(problem=SimpleNamespace(parts=range(parts)), lines=work.lines)
-    return minutes(solution) * 60
+def seconds(work: Work) -> Fraction:
+    return seconds_of(work.lines)
 
 
 def of(right: Expr, **known: Any) -> Fraction:
-    """What there is to compute and to handle in one step; to read the part is 30 s, to write the step 6 s."""
+    """What there is to compute and to handle in one step; to write the step is 8 s."""
     work = Work()
     work.step(formula(right), **known)
-    return seconds(work) - 36
+    return seconds(work) - 8
+
+
+def solution(*, parts: int) -> Any:
+    """A solution in which nothing needs to be written."""
+    asked = [Part("?", Number(), label=label) for label in "abcdefg"[:parts]]
+    return SimpleNamespace(problem=SimpleNamespace(parts=asked), lines_of=lambda _: ())
 
 
 def test_the_minutes_of_one_step() -> None:
     work = Work()
     with evaluate(False):
         work.step(formula(x + y * z), x=fmpq(12), y=fmpq(3, 4), z=fmpq(5))
-    # 12 + 3/4·5: read the part (30 s), write the step (6 s), multiply and add (2·3 s), 5 digits (7.5 s).
-    assert seconds(work) == 30 + 6 + 2 * 3 + 5 * Fraction(3, 2)
-    assert seconds(work, parts=3) == seconds(work) + 2 * 30
+    # 12 + 3/4·5: write the step (8 s), multiply and add (2·3 s), 5 digits (7.5 s).
+    assert seconds(work) == 8 + 2 * 3 + 5 * Fraction(3, 2)
     work.say("A sentence takes no time.")
-    assert seconds(work) == Fraction(99, 2)
+    assert seconds(work) == Fraction(43, 2)
 
 
 @pytest.mark.parametrize(
@@ -104,18 +109,18 @@ def system(work: Work, discount: Any) -> None:
 def test_the_minutes_of_two_equations() -> None:
     work = Work()
     system(work, fmpq(1, 2))
-    # 1 + 1/2·V(hot), twice: write it (6 s), add, multiply and look V up (3·3 s), 3 digits (4.5 s).
-    # Two unknowns are (2³ + 3·2²)/3 operations (3 s) on numbers of three digits (4.5 s).
-    both = 2 * (6 + 9 + Fraction(9, 2)) + Fraction(20, 3) * (3 + Fraction(9, 2))
-    assert seconds(work) == 30 + both == 119
+    # 1 + 1/2·V(hot), twice: write it (8 s), add, multiply and look V up (3·3 s), 3 digits (4.5 s).
+    # Two unknowns are (2³ + 3·2²)/3 operations, each written (2·3 s), on numbers of three digits (4.5 s).
+    both = 2 * (8 + 9 + Fraction(9, 2)) + Fraction(20, 3) * (6 + Fraction(9, 2))
+    assert seconds(work) == both == 113
     system(work, fmpq(1, 2))
-    assert seconds(work) == 30 + 2 * both
+    assert seconds(work) == 2 * both
 
 
 def test_an_open_letter_makes_equations_longer() -> None:
     work = Work()
     system(work, generator("gamma"))
-    assert seconds(work) == 30 + 2 * (6 + 9 + 15) + Fraction(20, 3) * (3 + 9 * Fraction(3, 2))
+    assert seconds(work) == 2 * (8 + 9 + 15) + Fraction(20, 3) * (6 + 9 * Fraction(3, 2))
 
 
 @pytest.mark.parametrize(
@@ -123,3 +128,17 @@ def test_an_open_letter_makes_equations_longer() -> None:
 )
 def test_minutes_are_told_as_whole_ones(time: Fraction, told: int) -> None:
     assert whole(time) == told
+
+
+def test_no_part_takes_less_than_a_minute() -> None:
+    assert minutes_of(solution(parts=1), "a") == 1  # 40 s to read it
+    assert minutes(solution(parts=3)) == 3
+
+
+@pytest.mark.parametrize(
+    ("seconds", "points_"), [(60, 1), (119, 1), (120, 2), (209, 2), (210, 3), (299, 3), (300, 4), (1200, 14)]
+)
+def test_a_point_for_a_minute_and_a_half(seconds: int, points_: int) -> None:
+    """At two minutes a second point begins, and then one every minute and a half: a point is 1 to 2 minutes."""
+    assert whole_points(Fraction(seconds, 60)) == points_
+    assert 1 <= Fraction(seconds, 60) / points_ <= 2

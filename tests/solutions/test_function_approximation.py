@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import pytest
+import sympy
 from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -119,3 +120,62 @@ def test_a_width_may_be_a_square_root(sigma: str) -> None:
 def test_what_is_no_width(sigma: str) -> None:
     with pytest.raises(FileError, match=r"^given\.sigma: [^\n]*\.$"):
         family("rbf").read({"position": [1], "centres": [[0], [3]], "sigma": sigma})
+
+
+def test_the_state_and_the_width_follow_from_features() -> None:
+    # Tents of width 4 at 0, 4 and 7: 3/4 puts the state at ±1, 1/4 at 1 or 7, so it is 1, and 7 is too far away.
+    centres = [[0], [4], [7]]
+    found = solved("piecewise-linear-rbf", centres=centres, width=4, known={1: "3/4", 2: "1/4"})
+    assert found == {"a": 1, "b": (0,)}
+    # A state 3 away from the centre with the feature 2/5: 1 − 3/b = 2/5 for b = 5; 5 away from the other one it is 0.
+    found = solved("piecewise-linear-rbf", position=[3, 4], centres=[[3, 1], [0, 0]], known={1: "2/5"})
+    assert found == {"a": 5, "b": (0,)}
+    # Gaussians with σ = 2: exp(−1/8) is at the distance 1, exp(−9/8) at 3, exp(−1/2) at 2.
+    found = solved("rbf", centres=[[0], [4], [3]], sigma=2, logarithms={1: "-1/8", 2: "-9/8"})
+    assert found == {"a": 1, "b": (sympy.exp(sympy.Rational(-1, 2)),)}
+    assert solved("rbf", position=[3], centres=[[0], [9]], logarithms={1: "-1/2"})["a"] == 3
+
+
+def test_a_value_of_features_is_their_weighted_sum() -> None:
+    # Tents at the distances 1 and 3 of width 4: 3/4 and 1/4, and 4·3/4 − 2·1/4 = 5/2.
+    found = solved("piecewise-linear-rbf", position=[1], centres=[[0], [4]], width=4, theta=[4, -2])
+    assert found == {"a": (fmpq(3, 4), fmpq(1, 4)), "b": fmpq(5, 2)}
+
+
+def test_where_two_actions_are_worth_the_same() -> None:
+    # Tents of width 2 at 0 and 2: x is worth 3 − 3/2·s, y is worth s/2; equal at s = 3/2, where both are 3/4.
+    bumps = {"centres": [[0], [2]], "width": 2}
+    found = solved("linear-value", theta=[3, 0, 0, 1], actions=["x", "y"], bumps=bumps)
+    assert found == {"a": fmpq(3, 2), "b": fmpq(3, 4), "c": {"s": ("x",)}}
+    # With φ = (2, 1): x is worth 4, z is worth 5, and y is worth 2w − 1, which exceeds 5 above w = 3.
+    found = solved("linear-value", theta=[1, 2, "w", -1, 2, 1], actions=["x", "y", "z"], features=[2, 1])
+    assert found == {"a": {("s", "x"): 4, ("s", "z"): 5}, "b": 3}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("rbf", {"centres": [[0], [1]]}, "both cannot be found"),
+        ("rbf", {"centres": [[0], [1]], "sigma": 1, "logarithms": {"1": -1}}, "2 of the features must be known, not 1"),
+        ("rbf", {"centres": [[0], [1]], "sigma": 1, "logarithms": {"1": -1, "3": -1}}, "no centre number 3"),
+        ("rbf", {"position": [0], "centres": [[1]], "logarithms": {"1": 1}}, "lies between 0 and 1"),
+        (
+            "piecewise-linear-rbf",
+            {"centres": [[0, 0], [1, 1]], "width": 1, "known": {"1": "1/2", "2": "1/2"}},
+            "a line",
+        ),
+        ("piecewise-linear-rbf", {"position": [0], "centres": [[1]], "width": 2, "theta": [1, 2]}, "as many weights"),
+        ("linear-value", VALUE | {"theta": [1, "w", 3, "w"], "action": None}, "only one weight may be left open"),
+        ("linear-value", VALUE | {"theta": [1, "w", 3, 4]}, "only asked for where nothing is to be found"),
+    ],
+)
+def test_wrong_givens_of_what_is_sought(name: str, given_: Any, fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given_)
+    assert fragment in str(error.value)
+
+
+def test_features_that_fit_no_state_have_no_solution() -> None:
+    # 2 away from 0 and 4 away from 4.
+    with pytest.raises(FileError, match="exactly one state"):
+        solved("piecewise-linear-rbf", centres=[[0], [4]], width=8, known={1: "3/4", 2: "1/2"})

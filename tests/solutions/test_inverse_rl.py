@@ -42,8 +42,9 @@ def test_a_constant_feature_without_an_end_is_worth_a_geometric_series(value: st
 @quick
 def test_feature_expectations_are_linear_in_the_features_and_make_the_value(seed: int) -> None:
     given_ = draw("feature-expectations-policy", 2, seed).problem.data()["given"]
+    phi = {state: [3 * number + 1, 2 - number] for number, state in enumerate(given_["features"])}
+    given_ |= {"features": phi}
     answers = solved("feature-expectations-policy", **given_)
-    phi = given_["features"]
     # With the reward 2 φ₁ − 3 φ₂ for being in a state, V solves the Bellman equations that policy-value solves.
     rows = [
         [state, action, target, chance, str(2 * Fraction(phi[state][0]) - 3 * Fraction(phi[state][1]))]
@@ -70,7 +71,7 @@ def test_with_gamma_0_only_the_first_states_count(seed: int) -> None:
         assert value == exactly(total / len(firsts))
 
 
-@given(seeds, st.sampled_from([1, 2, 3]))
+@given(seeds, st.sampled_from([1, 2]))
 @quick
 def test_all_constraints_hold_with_the_slack_and_one_is_tight(seed: int, level: int) -> None:
     solution = draw("max-margin", level, seed)
@@ -82,7 +83,7 @@ def test_all_constraints_hold_with_the_slack_and_one_is_tight(seed: int, level: 
     assert answers["b"] == sum(answers["a"]["expert"] >= right for right in need)
 
 
-@given(seeds, st.sampled_from([1, 2, 3]))
+@given(seeds, st.sampled_from([1, 2]))
 @quick
 def test_the_projected_point_lies_on_the_segment_and_is_the_nearest(seed: int, level: int) -> None:
     solution = draw("apprenticeship", level, seed)
@@ -95,7 +96,7 @@ def test_the_projected_point_lies_on_the_segment_and_is_the_nearest(seed: int, l
     assert sum(w * (e - s) for w, s, e in zip(answers["c"], start, mu, strict=True)) == 0
     expert = [exactly(value) for value in given_.expert]
     before = sum((e - s) ** 2 for e, s in zip(expert, start, strict=True))
-    last = list(answers.values())[-1]
+    last = answers["d"]
     assert sign(before - last**2) >= 0
 
 

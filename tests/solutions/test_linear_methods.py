@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rldrill
@@ -21,6 +21,7 @@ from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
+from rldrill.solutions.linear_methods.ddp_backward import _is_negative
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -347,6 +348,34 @@ def test_sums_of_roots_calculate_as_sympys_do(first: Any, second: Any) -> None:
         assert surds.multiply(y, inverse) == surds.read(simplest(1))
 
 
+@pytest.mark.parametrize(
+    ("more", "mistake", "gain"),
+    [
+        # γ = 1/2, A = B = Q = 1, R = 2, P₁ = −1: L₀ = (−1/2)/(−1/2 − 2) = 1/5; without R it is 1.
+        ({"gamma": "1/2"}, "forgot-r", 1),
+        # S₁ = 1: L₀ = 1/(2 + 1) = 1/3; without R it is 1, without the last cost 0.
+        ({"convention": "cost-to-go"}, "forgot-r-in-costs", 1),
+        ({"convention": "xuKP"}, "no-terminal-cost", 0),
+        # With N = 1: L₀ = (−1 − 1)/(−1 − 2) = 2/3; without R it is 2.
+        ({"N": [[1]]}, "forgot-r", 2),
+    ],
+)
+def test_misreadings_are_recognised_in_every_form_of_lqr(more: dict[str, Any], mistake: str, gain: int) -> None:
+    given_ = {"A": 1, "B": 1, "Q": 2 if "N" in more else 1, "R": 2, "start": [1], "horizon": 1, **more}
+    given_ |= {"Q_T": 1} if "N" in more else {}
+    exercise = rldrill.read({"family": "lqr-backward", "given": given_})
+    assert mistake in [made.name for made in exercise.check(str(gain), "a").misconceptions]
+
+
+def test_a_long_horizon_says_how_many_times_are_asked_for() -> None:
+    given_ = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 20}
+    page = str(rldrill.read({"family": "lqr-backward", "given": given_}).question())
+    assert "Only the first 12 of the 20 times are asked for; the recursion begins at the horizon" in page
+    assert "Only the first" not in str(
+        rldrill.read({"family": "lqr-backward", "given": given_ | {"horizon": 12}}).question()
+    )
+
+
 def test_entries_and_a_deviation_by_hand() -> None:
     # x' = x y + u: by x it is y = 3, by y it is x = 2, by u 1; y' = u². A δs + B δa = (3·1 + 2·2 + 1·(1/2), 2·4·(1/2)).
     system = {"dynamics": {"x": "x*y + u", "y": "u^2"}, "state": {"x": 2, "y": 3}, "action": {"u": 4}}
@@ -354,6 +383,22 @@ def test_entries_and_a_deviation_by_hand() -> None:
     assert answers == {"a": (2, 3), "b": 8, "c": (fmpq(15, 2), 4)}
     with pytest.raises(FileError, match="B has 2 rows and 1 columns"):
         solved("linearise", **system, entries={"B": [[1, 2]]})
+
+
+@given(st.lists(st.integers(-6, 2), min_size=6, max_size=6), st.integers(1, 3))
+def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(six: list[int], size: int) -> None:
+    a, b, c, d, e, f = six
+    full = np.array([[a, b, c], [b, d, e], [c, e, f]])[:size, :size]
+    eigenvalues = np.linalg.eigvalsh(full)
+    assume(min(abs(eigenvalues)) > 1e-9)
+    assert _is_negative(matrices.matrix([[fmpq(int(entry)) for entry in line] for line in full])) == bool(
+        max(eigenvalues) < 0
+    )
+
+
+def test_a_matrix_with_an_eigenvalue_of_zero_is_not_negative_definite() -> None:
+    for rows in ([[0]], [[-1, 0], [0, 0]], [[0, 0], [0, -1]], [[-1, 1], [1, -1]]):
+        assert not _is_negative(matrices.matrix([[fmpq(entry) for entry in line] for line in rows]))
 
 
 def test_the_price_of_a_rollout_by_hand() -> None:

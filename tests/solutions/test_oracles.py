@@ -44,3 +44,22 @@ def test_the_average_reward_where_two_states_take_turns() -> None:
     mdp = {"transitions": [["a", "b", 1, 4], ["b", "a", 1, 1]]}
     shares, reward = oracle("policy-value", mdp=mdp, average=True)
     assert [*shares, reward] == pytest.approx([0.5, 0.5, 2.5])
+
+
+@pytest.mark.parametrize(
+    ("criterion", "given", "criteria", "winner"),
+    [
+        # A model that is certain of the data has the log-likelihood 0, and pays for its parameters only.
+        ("AIC", {"sure": {"log_likelihood": 0, "k": 3}, "poor": {"log_likelihood": -4, "k": 0}}, [6, 8], "a"),
+        (
+            "AIC",
+            {"sure": {"likelihood": 1, "k": 3}, "poor": {"likelihood": "1/2", "k": 1}},
+            [6, 2 + 2 * np.log(2)],
+            "b",
+        ),
+    ],
+)
+def test_criteria_of_fitted_models(criterion: str, given: Any, criteria: list[float], winner: str) -> None:
+    found, best = oracle("bic", criterion=criterion, fitted=given)
+    assert found == pytest.approx(criteria)
+    assert best == winner

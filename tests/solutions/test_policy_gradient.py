@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from asking import solved
+from asking import rounded, solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Logarithm, read_weight, shown
@@ -30,7 +30,7 @@ discounts = st.sampled_from(["0", "1/2", "9/10", "1"])
 
 def equal(one: Any, other: Any) -> bool:
     difference = one - other
-    return bool(difference == 0 or (isinstance(difference, sympy.Expr) and sympy.simplify(difference) == 0))
+    return bool(difference == 0 or (isinstance(difference, sympy.Expr) and abs(sympy.N(difference, 50)) < 1e-40))
 
 
 def log_probability(theta: list[sympy.Symbol], features: dict[str, list[int]], action: str) -> sympy.Expr:
@@ -264,3 +264,84 @@ def test_a_policy_is_better_than_one_action_and_worse_than_another(seed: int) ->
 @pytest.mark.parametrize("seed", range(12))
 def test_every_step_counts_against_the_baseline(seed: int) -> None:
     assert all(rldrill.draw("reinforce-baseline", 1 + seed % 2, seed).solve()["a"])
+
+
+def sample(new: str, advantage: int) -> dict[str, Any]:
+    return {"state": "s", "action": "left", "old": "1/2", "new": new, "advantage": advantage}
+
+
+def test_the_clipping_range_follows_from_the_objective() -> None:
+    # Ratios 3/2 and 3/2, advantages 2 and −2: the second gradient is never cut off, u₁ = −3; L = ((1 + ε)·2 − 3)/2 is
+    # −2/5 for ε = 1/10.
+    answers = solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", -2)], objective="-2/5")
+    assert answers == {"a": (fmpq(3, 2), fmpq(3, 2)), "b": (3, -3), "c": fmpq(1, 10)}
+    # (1 + ε)·2 = 4 − 3 … with L = 1/4 the ratio would have to be clipped above 3/2.
+    with pytest.raises(FileError, match="no ε gives this objective"):
+        solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", -2)], objective="1/4")
+    with pytest.raises(FileError, match="exactly one sample"):
+        solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", 1)], objective=1)
+
+
+def test_the_largest_clipping_range_that_cuts() -> None:
+    # Ratios 3/2, 1/2 and 1/4 with the advantages 1, −1 and 1: only the first two can be cut off, up to 1/2 each.
+    answers = solved("ppo-clip", samples=[sample("3/4", 1), sample("1/4", -1), sample("1/8", 1)])
+    assert [answers[label] for label in "bcde"] == [True, True, False, fmpq(1, 2)]
+
+
+def test_x_follows_from_how_often_actions_are_taken() -> None:
+    # left: 2x, right: 3, stay: 1; left is twice as likely as right for x = 3, and then they are 6/10, 3/10 and 1/10.
+    answers = solved(
+        "softmax-policy", theta=["ln 2", "ln 3", "ln x"], odds=["left", "right", 2],
+        features={"left": [1, 0, 1], "right": [0, 1, 0], "stay": [0, 0, 0]},
+    )  # fmt: skip
+    assert answers == {"a": 3, "b": {"left": fmpq(3, 5), "right": fmpq(3, 10), "stay": fmpq(1, 10)}}
+
+
+def test_a_probability_follows_from_a_score() -> None:
+    # The score of left is (1 − p)·(2, 3): 1/2 in the first place for p = 3/4; that of right is −3/4·(2, 3).
+    answers = solved(
+        "score-function", features={"left": [2, 3], "right": [0, 0]}, policy={"left": "p", "right": "1-p"},
+        action="left", component=[1, "1/2"],
+    )  # fmt: skip
+    assert answers == {"a": fmpq(3, 4), "b": (fmpq(-3, 2), fmpq(-9, 4))}
+
+
+def test_the_weight_at_which_the_greedy_action_changes() -> None:
+    # θ = (w, 1): in s left is worth 2w and right 3, equal at 3/2; in t −w and w + 4, equal at −2. At w = 1 right wins.
+    features = {"s": {"left": [2, 0], "right": [0, 3]}, "t": {"left": [-1, 0], "right": [1, 4]}}
+    answers = solved("linear-policy", theta=["w", 1], features=features, at=1)
+    assert answers == {"a": {"s": fmpq(3, 2), "t": -2}, "b": {"s": ("right",), "t": ("right",)}}
+
+
+@pytest.mark.parametrize(
+    ("name", "given_", "fragment"),
+    [
+        ("ppo-clip", {"samples": [SAMPLE], "epsilon": "1/5", "objective": 1}, "not both"),
+        (
+            "softmax-policy",
+            {"theta": ["ln 2"], "features": {"a": [1], "b": [0]}, "odds": ["a", "b", 2]},
+            "must be ln x",
+        ),
+        ("softmax-policy", {"theta": ["ln x"], "features": {"a": [1], "b": [0]}, "odds": ["a", "c", 2]}, "no features"),
+        ("linear-policy", {"theta": ["w", 1], "features": FEATURES}, "at: give it where"),
+        ("score-function", {"features": FEATURES["s"], "theta": [1, 1], "action": "left", "component": [1, 1]}, "1-p"),
+    ],
+)
+def test_wrong_givens_of_what_is_sought(name: str, given_: Any, fragment: str) -> None:
+    with pytest.raises(FileError) as error:
+        family(name).read(given_)
+    assert fragment in str(error.value)
+
+
+def test_an_entropy_with_long_numbers_is_not_factored() -> None:
+    # h = 500 ln 2 and 500 ln 3: nobody takes 2^500 + 3^500 apart into primes.
+    answers = solved("softmax-policy", theta=["ln 2", "ln 3"], features={"a": [500, 0], "b": [0, 500]}, entropy=True)
+    assert rounded(answers["c"], 3) == "0.000"
+
+
+def test_the_entropy_of_a_policy_is_a_third_question_and_worth_two_points() -> None:
+    given = {"features": {"l": [1, 0], "r": [0, 1]}, "theta": [0, 0]}
+    question = rldrill.read({"family": "softmax-policy", "given": given | {"entropy": True}})
+    assert [part.points for part in question.parts] == [1, 2, 2]
+    assert question.solve()["c"] == sympy.log(2)  # both actions with 1/2
+    assert [part.points for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == [1, 2]

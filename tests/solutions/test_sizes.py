@@ -118,3 +118,17 @@ def test_long_numbers_are_stored_whole_and_cut_off_in_the_working_and_endless_on
     with pytest.raises(rldrill.UserError, match="numbers of more than 2000 digits, the most that are written; give"):
         rldrill.read({"family": "value-iteration", "given": given | {"sweeps": 1000}})
     assert decimal(fmpq(10) ** 400, 3) == "1.00e+400"
+
+
+def test_long_polynomials_are_refused_with_the_limit() -> None:
+    # R_t is 1 + γ + … + γ^(T − t − 1).
+    assert str(rldrill.read({"family": "return", "given": {"rewards": [1] * 64, "gamma": "gamma"}}).working())
+    with pytest.raises(rldrill.UserError, match="polynomials of more than 64 terms, the most that are written"):
+        rldrill.read({"family": "return", "given": {"rewards": [1] * 65, "gamma": "gamma"}})
+
+
+def test_a_root_of_a_number_that_nobody_writes_is_refused_before_it_is_drawn() -> None:
+    points = [[f"{10**39 + (7919 * row + 104729 * column) ** 6}" for column in range(20)] for row in range(10)]
+    given = {"expert": points[0], "first": points[1], "policies": points[2:]}
+    with pytest.raises(rldrill.UserError, match="numbers of more than 2000 digits"):
+        rldrill.read({"family": "apprenticeship", "given": given})

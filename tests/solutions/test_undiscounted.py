@@ -3,6 +3,7 @@
 import itertools
 import math
 import random
+import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
@@ -289,3 +290,57 @@ def test_without_discount_no_residual_is_not_enough(value: int, right: bool) -> 
 def test_the_best_action_for_known_values_is_one_that_gets_there() -> None:
     mdp = {"transitions": [["a", "stay", "a", 1, 0], ["a", "go", "end", 1, 5]], "terminal": ["end"]}
     assert solved("optimal-policy-from-v", mdp=mdp, values={"a": 5}, gamma=1)["a"] == {"a": ("go",)}
+
+
+def features_of(features: dict[str, list[int]], motion: Any, **others: Any) -> dict[str, Any]:
+    policy = {state: {"go": 1} for state in features}
+    return {"motion": {"go": motion}, "policy": policy, "features": features, "start": {"a": 1}, "gamma": 1, **others}
+
+
+def test_features_that_are_0_where_it_goes_round_for_ever_have_expectations() -> None:
+    # a is left after 2 steps on average, for b, which is never left.
+    answers = solved(
+        "feature-expectations-policy",
+        **features_of({"a": [1, 3], "b": [0, 0]}, {"a": {"a": "1/2", "b": "1/2"}, "b": {"b": 1}}),
+    )
+    assert answers == {"a": {"a": 2, "b": 0}, "b": {"a": 6, "b": 0}, "c": (2, 6)}
+
+
+def test_features_until_an_end_that_is_reached_by_way_of_a_loop() -> None:
+    # μ(a) = 1 + μ(b)/2 and μ(b) = 2 + μ(a).
+    motion = {"a": {"b": "1/2", "end": "1/2"}, "b": {"a": 1}}
+    answers = solved("feature-expectations-policy", **features_of({"a": [1], "b": [2]}, motion, terminal=["end"]))
+    assert answers == {"a": {"a": 4, "b": 6}, "b": (4,)}
+
+
+@pytest.mark.parametrize(
+    ("features", "motion", "said"),
+    [
+        ({"a": [1], "b": [2]}, {"a": {"b": 1}, "b": {"b": 1}}, "μ_1(b) is +∞: the policy goes on for ever with b (go), "
+         "where the feature is 2 on average"),
+        ({"a": [1], "b": [-1]}, {"a": {"b": 1}, "b": {"a": 1}}, "μ_1(a) does not exist: the policy goes on for ever "
+         "with a (go) and b (go), where the feature cancels on average"),
+    ],
+)  # fmt: skip
+def test_features_that_count_for_ever_have_none(features: Any, motion: Any, said: str) -> None:
+    with pytest.raises(FileError, match=re.escape(said)):
+        solved("feature-expectations-policy", **features_of(features, motion))
+
+
+REST = {"transitions": [["a", "stay", "a", 1, 0], ["b", "go", "a", 1, 2], ["c", "go", "end", 1, 1]]}
+
+
+@pytest.mark.parametrize("family", ["policy-improvement", "policy-improvement-theorem"])
+def test_values_that_only_solve_the_equations_are_not_those_of_the_policy(family: str) -> None:
+    actions = {"a": "stay", "b": "go", "c": "go"}
+    chances = {state: {action: 1} for state, action in actions.items()}
+    policies = {"policy": chances} if family == "policy-improvement" else {"policy": actions, "other": actions}
+    with pytest.raises(FileError, match=r"values: 'a' is given as 5, but its value under the policy is 0: with γ = 1"):
+        solved(family, mdp=REST, values={"a": 5, "b": 7, "c": 1}, gamma=1, **policies)
+    assert solved(family, mdp=REST, values={"a": 0, "b": 2, "c": 1}, gamma=1, **policies)
+
+
+def test_values_of_what_never_settles_are_refused() -> None:
+    mdp = {"transitions": [["a", "go", "b", 1, 1], ["b", "go", "a", 1, -1]]}
+    with pytest.raises(FileError, match=r"with γ = 1 'a' has no value, for the policy comes back to it for ever"):
+        solved("policy-improvement", mdp=mdp, policy={s: {"go": 1} for s in "ab"}, values={"a": 1, "b": 0}, gamma=1)

@@ -4,6 +4,7 @@ from fractions import Fraction
 from math import factorial
 from typing import Any
 
+import numpy as np
 import pytest
 import sympy
 from flint import fmpq
@@ -300,8 +301,8 @@ def test_the_weather_in_the_land_of_oz() -> None:
 
 
 def test_the_regression_of_rs_manual() -> None:
-    # R, help(AIC): lm(Fertility ~ ., data = swiss) has AIC 326.0716 and BIC 339.0226, with log-likelihood −156.0358, 47
-    # data and 7 parameters.
+    # The example of R's help(AIC), lm(Fertility ~ ., data = swiss), with 47 data and 7 parameters: R prints the AIC
+    # 326.0716. So the log-likelihood is 7 − 326.0716/2 = −156.0358, and the BIC 326.0716 − 14 + 7 ln 47 = 339.0226.
     fitted = {"all": {"log_likelihood": "-156.0358", "k": 7}, "worse": {"log_likelihood": "-180", "k": 2}}
     akaike, bayes = solved("bic", criterion="AIC", fitted=fitted), solved("bic", fitted=fitted, n=47)
     assert rounded(akaike["a"]["all"], 4) == "326.0716"
@@ -310,10 +311,18 @@ def test_the_regression_of_rs_manual() -> None:
 
 
 def test_speed_and_stopping_distance_of_cars_in_r() -> None:
-    # logLik, AIC and BIC of lm(dist ~ speed, data = cars) are −206.5784 (df = 3), 419.1569 and 424.8929, from 50 data.
-    # Of the mean alone: −25 (ln 2π + ln 650.7796 + 1) = −232.9012. A fourth parameter without any use costs 2.
+    # R's data cars, speed and stopping distance of 50 cars (Ezekiel 1930); the line by least squares.
+    speed = np.repeat([4, 7, *range(8, 21), *range(22, 26)], [2, 2, 1, 1, 3, 2, 4, 4, 4, 3, 2, 3, 4, 3, 5, 1, 1, 4, 1])
+    distance = np.array(
+        [2, 10, 4, 22, 16, 10, 18, 26, 34, 17, 28, 14, 20, 24, 28, 26, 34, 34, 46, 26, 36, 60, 80, 20, 26, 54, 32, 40,
+         32, 40, 50, 42, 56, 76, 84, 36, 46, 68, 32, 48, 52, 56, 64, 66, 54, 70, 92, 93, 120, 85]
+    )  # fmt: skip
+    line = np.polyval(np.polyfit(speed, distance, 1), speed)
+    for left, printed in ((distance - line, "-206.57843"), (distance - distance.mean(), "-232.90120")):
+        assert f"{-25 * (np.log(2 * np.pi * np.mean(left**2)) + 1):.5f}" == printed
+    # R prints the AIC 419.1569 and the BIC 424.8929. A fourth parameter without any use costs 2.
     fitted = {
-        "mean": {"log_likelihood": "-232.9012", "k": 2},
+        "mean": {"log_likelihood": "-232.90120", "k": 2},
         "line": {"log_likelihood": "-206.57843", "k": 3},
         "more": {"log_likelihood": "-206.57843", "k": 4},
     }

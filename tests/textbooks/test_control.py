@@ -41,6 +41,19 @@ def test_example_5_5(lefts: int) -> None:
     assert answers["c"] == 1
 
 
+def test_the_step_size_is_found_from_the_value_after_a_transition() -> None:
+    # Eq. 6.7: 2 + α(1 + 1/2·6 − 2) = 5/2, so α = 1/4. Eq. 6.8 with the greatest value 10: 2 + α(1 + 5 − 2) = 5/2: 1/8.
+    run = {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [1]}
+    given = {"trajectory": run, "values": {"a": {"x": 2}, "b": {"x": 10, "y": 6}}, "alpha": "alpha", "gamma": "1/2",
+             "outcome": ["a", "x", "5/2"]}  # fmt: skip
+    assert solved("sarsa", **given)["a"] == fmpq(1, 4)
+    assert solved("q-learning", **given)["a"] == fmpq(1, 8)
+    with pytest.raises(FileError, match="leave one number open"):
+        solved("sarsa", **given | {"alpha": "1/2"})
+    with pytest.raises(FileError, match=r"\(b, y\) is not updated"):
+        solved("sarsa", **given | {"outcome": ["b", "y", 1]})
+
+
 def test_expected_sarsa_by_hand() -> None:
     # Eq. 6.9 with α = γ = 1/2, ε = 1/2 and three actions: π is 2/3 for the best, 1/6 for the others.
     # 2/3·6 + 1/6·3 + 1/6·(−3) = 4; Q(a, x) = 2 + 1/2·(1 + 1/2·4 − 2) = 5/2.
@@ -48,6 +61,34 @@ def test_expected_sarsa_by_hand() -> None:
     run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
     answers = solved("expected-sarsa", trajectory=run, values=values, alpha=0.5, gamma=0.5, epsilon=0.5)
     assert answers["a"] == {("a", "x"): fmpq(5, 2)}
+
+
+def test_the_exploration_rate_is_found_from_an_expected_update() -> None:
+    # The next state is worth (1 − ε)·6 + ε·(6 + 2)/2 = 6 − 2ε: 2 + 1/2·(1 + 6 − 2ε − 2) = 4, so ε = 1/2.
+    run = {"states": ["a", "b"], "actions": ["x"], "rewards": [1]}
+    answers = solved("expected-sarsa", trajectory=run, values={"a": {"x": 2}, "b": {"x": 2, "y": 6}}, alpha="1/2",
+                     gamma=1, epsilon="epsilon", outcome=["a", "x", 4])  # fmt: skip
+    assert answers["a"] == fmpq(1, 2)
+
+
+def test_epsilon_is_found_from_what_the_policy_does() -> None:
+    # Three actions, so π of the best one is 1 − ε + ε/3 = 1 − 2/3·ε = 3/4 for ε = 3/8.
+    values = {"x": 1, "y": 5, "z": 3}
+    assert solved("epsilon-greedy", values=values, epsilon="epsilon", taken=["y", "3/4"])["a"] == fmpq(3, 8)
+    # V = (1 − ε)·5 + ε·(1 + 5 + 3)/3 = 5 − 2ε = 4 for ε = 1/2.
+    assert solved("epsilon-greedy", values=values, epsilon="epsilon", state_value=4)["a"] == fmpq(1, 2)
+    with pytest.raises(FileError, match="leave it open, for it is asked for"):
+        solved("epsilon-greedy", values=values, epsilon="1/2", state_value=4)
+
+
+def test_lambda_is_found_from_a_value() -> None:
+    # γ = 1, α = 1/2: Q(a, x) = 2 + 1/2·(1 + 4 − 2) = 7/2; then δ₁ = 6 − 4 = 2, Q(a, x) = 7/2 + 1/2·2·λ = 4: λ = 1/2.
+    answers = solved(
+        "sarsa-lambda",
+        trajectory={"states": ["a", "b", "end"], "actions": ["x", "y"], "rewards": [1, 6], "terminal": ["end"]},
+        values={"a": {"x": 2}, "b": {"y": 4}}, alpha="1/2", gamma=1, lam="lambda", outcome=["a", "x", 4],
+    )  # fmt: skip
+    assert answers["a"] == fmpq(1, 2)
 
 
 def test_double_q_learning_by_hand() -> None:
@@ -108,6 +149,24 @@ def test_ucb_by_hand() -> None:
     expected = {"x": 3 + 2 * sympy.sqrt(log / 2), "y": 1 + 2 * sympy.sqrt(log / 3), "z": 5 + 2 * sympy.sqrt(log)}
     assert answers["b"] == expected
     assert answers["c"] == {"next": ("z",)}
+
+
+def test_the_weight_that_makes_two_bounds_equal_by_hand() -> None:
+    # Eq. 2.10 at t = 6: x has 3 after 4 pulls, y has 1 after one. 3 + c/2·√(ln 6) = 1 + c·√(ln 6), so c = 4/√(ln 6).
+    pulls = [["x", 2], ["x", 4], ["y", 1], ["x", 1], ["x", 5]]
+    answers = solved("bandit", pulls=pulls, between=["x", "y"])
+    assert sympy.simplify(answers["b"] - 4 / sympy.sqrt(sympy.log(6))) == 0
+    assert answers["c"] == {"next": ("y",)}
+    with pytest.raises(FileError, match="no weight above 0 makes their bounds equal"):
+        solved("bandit", pulls=pulls, between=["y", "x"])
+
+
+def test_a_gradient_bandit_with_logarithms_by_hand() -> None:
+    # e^(ln 3) = 3 and e^0 = 1: π = 3/4 and 1/4. The reward is 4 above the mean 2: H(x) = ln 3 − 1/2·4·3/4.
+    answers = solved("bandit", pulls=[["x", 1], ["y", 3]], preferences={"x": "ln 3", "y": 0}, alpha="1/2",
+                     pulled=["y", 6])  # fmt: skip
+    assert answers["a"] == {"x": fmpq(3, 4), "y": fmpq(1, 4)}
+    assert answers["b"] == {"x": sympy.log(3) - sympy.Rational(3, 2), "y": fmpq(3, 2)}
 
 
 def test_a_gradient_bandit_by_hand() -> None:

@@ -27,6 +27,22 @@ def test_features_of_a_loop() -> None:
     assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": (fmpq(7, 6),)}
 
 
+def test_the_policy_that_matches_the_expert_by_hand() -> None:
+    # In x the policy stays with probability q and ends otherwise, γ = 1/2: μ = 1 + q/2·μ = 4/3 for q = 1/2.
+    answers = solved(
+        "feature-expectations-policy",
+        motion={"stay": {"x": {"x": 1}}, "go": {"x": {"end": 1}}}, policy={"x": {"stay": "q", "go": "1-q"}},
+        features={"x": [1]}, start={"x": 1}, terminal=["end"], gamma="1/2", matched="4/3",
+    )  # fmt: skip
+    assert answers == {"a": fmpq(1, 2)}
+
+
+def test_the_discount_is_found_from_an_estimate() -> None:
+    # (1 + γ·2)/1 = 2 for γ = 1/2; the other feature has 0 + 1/2·4 = 2.
+    given = {"features": {"x": [1, 0], "y": [2, 4]}, "trajectories": [["x", "y"]], "gamma": "gamma", "estimate": 2}
+    assert solved("feature-expectations", **given) == {"a": fmpq(1, 2), "b": fmpq(2)}
+
+
 def test_a_projection_in_the_plane() -> None:
     # From (0, 0) towards (4, 0) with the expert at (3, 2): the foot is (3, 0), w = (0, 2) and 2 is left;
     # (4, 0) itself is √(1 + 4) away.
@@ -37,11 +53,33 @@ def test_a_projection_in_the_plane() -> None:
     assert answers["d"] == 2
 
 
+def test_the_next_policy_of_apprenticeship_learning_by_hand() -> None:
+    # From (0, 0) towards (4, 0): the foot of (2, 3) is (2, 0), w = (0, 3), so B with 3·6 beats A with 3·1. From (2, 0)
+    # towards (8, 6), along (6, 6): c = 18/72 = 1/4, the point is (7/2, 3/2), and (−3/2, 3/2) is left: 3/√2 = 2.12 > 2.
+    answers = solved(
+        "apprenticeship", expert=[2, 3], first=[0, 0], policies=[[4, 0]], candidates={"A": [9, 1], "B": [8, 6]},
+        tolerance=2,
+    )  # fmt: skip
+    assert answers["a"] == (2, 0)
+    assert answers["b"] == (0, 3)
+    assert answers["c"] == "B"
+    assert answers["d"] == (fmpq(7, 2), fmpq(3, 2))
+    assert answers["e"] == 3 / sympy.sqrt(2)
+    assert answers["f"] is False
+
+
 def test_the_slack_of_two_constraints() -> None:
     # w = (1, 2): the expert is worth 8, the others 5 + 4 = 9 and 6 + 1 = 7 with their margins; so one holds, ξ = 1.
     others = {"x": {"mu": [1, 2], "margin": 4}, "y": {"mu": [0, 3], "margin": 1}}
     answers = solved("max-margin", w=[1, 2], expert=[2, 3], policies=others)
     assert answers == {"a": {"expert": fmpq(8), "x": fmpq(5), "y": fmpq(6)}, "b": fmpq(1), "c": fmpq(1)}
+
+
+def test_the_weight_from_which_on_all_constraints_hold() -> None:
+    # With w = (x, 2) the expert is worth 3x + 2. π₁: 3x + 2 ≥ x + 4 + 2 from x = 2 on; π₂: 3x + 2 ≥ 2x + 1 from −1 on.
+    others = {"π₁": {"mu": [1, 2], "margin": 2}, "π₂": {"mu": [2, 0], "margin": 1}}
+    answers = solved("max-margin", w=["x", 2], expert=[3, 1], policies=others)
+    assert answers == {"a": {"π₁": fmpq(2), "π₂": fmpq(-1)}, "b": fmpq(2)}
 
 
 # A feature that is the reward itself makes feature expectations values, for which there are printed numbers.

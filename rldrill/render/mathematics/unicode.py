@@ -57,9 +57,20 @@ def unicode(math: Math) -> str:
             return f"{left}{' ; '.join(lines)}{right}"
 
 
-def inline(text: str) -> str:
-    """A text with its mathematics in Unicode."""
-    return "".join(piece if isinstance(piece, str) else unicode(piece).strip() for piece in pieces(text))
+#: Stands for the spaces of a formula while its paragraph is broken into lines.
+GLUE = "\ue000"
+#: A formula that is longer than this may be broken.
+_LONG = 30
+
+
+def inline(text: str, *, glued: bool = False) -> str:
+    """A text with its mathematics in Unicode; ``glued`` where short formulas stay in one piece."""
+    return "".join(piece if isinstance(piece, str) else _piece(piece, glued=glued) for piece in pieces(text))
+
+
+def _piece(math: Math, *, glued: bool) -> str:
+    written = unicode(math).strip()
+    return written.replace(" ", GLUE) if glued and len(written) <= _LONG else written
 
 
 def _row(items: tuple[Math, ...]) -> str:

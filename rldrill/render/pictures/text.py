@@ -19,6 +19,8 @@ from rldrill.render.pictures.tree import tree
 
 _BAR = 20
 _MOST_ARROWS = 24
+#: The arcs of more joints than these run into one another where two dots are a sign; the table says it all.
+_MOST_LINKS = 2
 _PARTS = " ▏▎▍▌▋▊▉█"
 
 
@@ -42,7 +44,7 @@ def lines(picture: Picture, width: int = 100) -> list[str]:
         case Bumps():
             return raster(plots.bumps(picture))
         case Arm():
-            return raster(mechanics.arm(picture))
+            return raster(mechanics.arm(picture)) if len(picture.lengths) <= _MOST_LINKS else []
         case Pendulum():
             return raster(mechanics.pendulum(picture))
         case _:
@@ -79,37 +81,50 @@ def _states(states: tuple[str, ...], terminal: tuple[str, ...], arrows: tuple[Ar
 
 
 def _timeline(line: Timeline, width: int) -> list[str]:
-    """Three lines, or folded as many times: time, states with arrows, and between them actions and rewards."""
-    steps = [_step(line, time) for time in range(len(line.states))]
+    """Three lines, or folded as many times: time, states with arrows, and between them actions and rewards.
+
+    Where it is folded, the next lines begin with the state that these end in.
+    """
+    states = [_state(line, time) for time in range(len(line.states))]
+    arrows = [_arrow(line, time) for time in range(len(line.states))]
+    last = len(states) - 1
     result: list[str] = []
-    while steps:
-        fitting = 1
-        while fitting < len(steps) and sum(len(step[0]) for step in steps[: fitting + 1]) <= width:
-            fitting += 1
-        row, steps = steps[:fitting], steps[fitting:]
+    start = 0
+    while not result or start < last:
+        end, row = start, [states[start]]
+        while end < last:
+            more = [arrows[end], states[end + 1], *([arrows[last]] if end + 1 == last else [])]
+            if end > start and sum(len(part[0]) for part in (*row, *more)) > width:
+                break
+            row, end = [*row, *more], end + 1
+        if start == last:
+            row.append(arrows[last])
         folded = ["".join(parts).rstrip() for parts in zip(*row, strict=True)]
         result += [*([""] if result else []), *(text for text in folded if text)]
+        start = end
     return result
 
 
-def _step(line: Timeline, time: int) -> tuple[str, str, str, str]:
-    """A state and the arrow that leaves it: the lines for time, action, state and reward."""
-    last = time == len(line.states) - 1
-    time_label = inline(line.times[time])
-    state = f"{'□' if line.ended and last else '○'} {inline(line.states[time])}"
+#: What stands in the lines for time, action, state and reward, equally wide.
+_Column = tuple[str, str, str, str]
+
+
+def _state(line: Timeline, time: int) -> _Column:
+    ended = line.ended and time == len(line.states) - 1
+    state = f"{'□' if ended else '○'} {inline(line.states[time])}"
+    label = inline(line.times[time])
+    wide = max(len(state), len(label))
+    return (label.ljust(wide), " " * wide, state.ljust(wide), " " * wide)
+
+
+def _arrow(line: Timeline, time: int) -> _Column:
+    """The arrow that leaves a state; nothing leaves the last one, unless an action is taken there."""
     action = inline(line.actions[time]) if time < len(line.actions) else ""
-    reward = "" if last else inline(line.rewards[time])
-    if last and not action:
-        return (time_label.ljust(len(state)), " " * len(state), state, " " * len(state))
-    wide = max(len(action), len(reward), 3) + 3
-    arrow = f" {'─' * (wide - 2)}▶ "
-    before = " " * (len(state) + 1)
-    return (
-        time_label.ljust(len(state) + wide + 1),
-        f"{before}{action.center(wide - 2)}  ",
-        f"{state}{arrow}",
-        f"{before}{reward.center(wide - 2)}  ",
-    )
+    reward = inline(line.rewards[time]) if time < len(line.rewards) else ""
+    if time == len(line.states) - 1 and not action:
+        return ("", "", "", "")
+    wide = max(len(action), len(reward), 3) + 1
+    return (" " * (wide + 3), f" {action.center(wide)}  ", f" {'─' * wide}▶ ", f" {reward.center(wide)}  ")
 
 
 def _grid(rows: list[list[str]]) -> list[str]:

@@ -36,7 +36,7 @@ class PutInName(Leaf, sympy.Symbol):
 class Slot(Leaf):
     """A 0 or 1 that was put in: it keeps its place in the rule until the next line."""
 
-    look = Look.NUMBER
+    look = Look.SLOT
 
     def _typeset(self, _: object) -> Math:
         return number(self.args[0])

@@ -1,0 +1,201 @@
+"""Runs whose updates stay readable, and questions that ask back: for the step size or the discount, from a value."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
+from itertools import accumulate
+from typing import Annotated, Any, NamedTuple, Self
+
+from pydantic import Field, model_validator
+
+from rldrill.problems.draws import Draws
+from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
+from rldrill.problems.models import Name
+from rldrill.problems.parts import Number, Part
+from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, Trajectory, after, draw_action_run
+from rldrill.problems.settings import Setting
+
+Rows = dict[str, dict[str, Fraction]]
+
+
+#: What a next state is worth to the target, by its action values and the action taken there.
+Worth = Callable[[Mapping[str, Fraction], str], Fraction]
+
+
+class Outcome(NamedTuple):
+    """What a pair of state and action is worth in the end."""
+
+    state: Name
+    action: Name
+    value: Exact
+
+
+_Ending = Annotated[
+    Outcome | None,
+    Field(
+        description="A state, an action and its value in the end, from which the one number that is left open is asked "
+        "for.",
+        examples=[["A", "left", "3/2"]],
+    ),
+]
+
+
+class BackRun(ActionRun):
+    """A run with its action values, α and γ; or one of them left open, and a value in the end from which it follows."""
+
+    outcome: _Ending = None
+
+    @model_validator(mode="after")
+    def _follows(self) -> Self:
+        _check(self.outcome, self.updated, super().parameters())
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none, where what is left open is asked for."""
+        return () if self.outcome else super().parameters()
+
+    @property
+    def asked_for(self) -> str:
+        """The parameter that is asked for."""
+        return "".join(super().parameters())
+
+
+class BackMoves(ActionMoves):
+    """The same for transitions that need not join."""
+
+    outcome: _Ending = None
+
+    @model_validator(mode="after")
+    def _follows(self) -> Self:
+        _check(self.outcome, self.updated, super().parameters())
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none, where what is left open is asked for."""
+        return () if self.outcome else super().parameters()
+
+    @property
+    def asked_for(self) -> str:
+        """The parameter that is asked for."""
+        return "".join(super().parameters())
+
+
+def _check(outcome: Outcome | None, updated: tuple[tuple[str, str], ...], left_open: tuple[str, ...]) -> None:
+    if outcome and (outcome.state, outcome.action) not in updated:
+        raise ValueError(f"outcome: ({outcome.state}, {outcome.action}) is not updated, so nothing follows from it")
+    if outcome and len(left_open) != 1:
+        raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
+
+
+class Rates(NamedTuple):
+    """A step size and a discount, and the unit of which action values are multiples, so that updates are readable."""
+
+    alpha: Fraction
+    gamma: Fraction
+    unit: int
+
+
+def draw_rates(rng: Draws) -> Rates:
+    """Rates whose products with the values have small denominators, also after two updates."""
+    gamma, unit = rng.choice((("1/2", 2), ("1/2", 4), ("1/4", 4), ("3/4", 4), ("4/5", 5), ("2/5", 5)))
+    return Rates(Fraction(1, 2), Fraction(gamma), unit)
+
+
+def readable(
+    rows: Rows, moves: Iterable[ActionMove], terminal: tuple[str, ...], alpha: Fraction, gamma: Fraction, worth: Worth
+) -> bool:
+    """Whether every update changes a value, and to a number that is easily read."""
+    values = {state: {**row} for state, row in rows.items()}
+    for state, action, entered, reward, following in moves:
+        ahead = Fraction(0) if entered in terminal else worth(values[entered], following or "")
+        gap = reward + gamma * ahead - values[state][action]
+        values[state][action] += alpha * gap
+        if gap == 0 or values[state][action].denominator > 100 or abs(values[state][action].numerator) > 300:
+            return False
+    return True
+
+
+def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str, Any]:
+    """A run with its action values, α and γ: no TD error is 0, and no value hard to read.
+
+    Args:
+        rng: the stream of choices.
+        visits: the order of visits, as ``draw_action_run`` takes it.
+        count: how many actions there are.
+        worth: what a next state is worth to the target, by its action values and the action taken there.
+    """
+    alpha, gamma, unit = draw_rates(rng)
+    run, table = draw_action_run(rng, visits, count, same=True)
+    rows = draw_rows(rng, tuple(table), tuple(next(iter(table.values()))), unit)
+    following = (*run.actions[1:], None)
+    moves = list(map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, following))
+    if not readable(rows, moves, run.terminal, alpha, gamma, worth):
+        return draw_forward(rng, visits, count, worth)
+    return {"trajectory": run, "values": rows, "alpha": alpha, "gamma": gamma}
+
+
+def draw_rows(rng: Draws, states: Sequence[str], actions: tuple[str, ...], unit: int) -> Rows:
+    """Different multiples of a unit, none 0, for every action of a state."""
+    most = max(3, 10 // unit)
+    worth = [unit * number for number in range(-(most // 3), most + 1) if number]
+    return {
+        state: dict(zip(actions, map(Fraction, rng.shuffled(worth)[: len(actions)]), strict=True)) for state in states
+    }
+
+
+def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: str, *, steps: int = 1) -> dict[str, Any]:
+    """Givens with a value from which a parameter follows: a run of one step, or two transitions from the same pair.
+
+    Args:
+        rng: the stream of choices.
+        setting: the world.
+        count: how many actions there are.
+        worth: what a next state is worth to the target, by its action values and the action taken there.
+        sought: the parameter.
+        steps: how many transitions update the pair; after two of them α is no longer in a linear equation.
+    """
+    state, *others = rng.shuffled(setting.states)[: steps + 1]
+    actions = setting.actions[:count]
+    alpha = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "3/5")
+    gamma = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "4/5")
+    rows = draw_rows(rng, [name for name in setting.states if name in (state, *others)], actions, gamma.denominator)
+    action = rng.choice(actions)
+    following = [rng.choice([name for name in actions if rows[other][name] < max(rows[other].values())])
+                 for other in others]  # fmt: skip
+    ahead = [worth(rows[other], after) for other, after in zip(others, following, strict=True)]
+    gaps = [rng.nonzero(-2, 3) * alpha.denominator for _ in others]
+    reached = list(accumulate(gaps, lambda value, gap: value + alpha * gap, initial=rows[state][action]))
+    rewards = [value + gap - gamma * there for value, gap, there in zip(reached, gaps, ahead, strict=False)]
+    if reached[-1] == reached[0] or any(reward.denominator > 1 or abs(reward) > 20 for reward in rewards):
+        return draw_back(rng, setting, count, worth, sought, steps=steps)
+    end = reached[-1]
+    if end not in rows[state].values() and rng.chance(Fraction(1, 2)):
+        rows[state][rng.choice([name for name in actions if name != action])] = end
+    rates: dict[str, Any] = {"alpha": alpha, "gamma": gamma} | {sought: Parameter(sought)}
+    if steps > 1:
+        moves = [ActionMove(state, action, *rest) for rest in zip(others, rewards, following, strict=True)]
+        return {"transitions": moves, "values": rows, "outcome": Outcome(state, action, end), **rates}
+    run = Trajectory(states=(state, *others), actions=(action, *following), rewards=tuple(rewards))
+    return {"trajectory": run, "values": rows, "outcome": Outcome(state, action, end), **rates}
+
+
+def back_asked(given: BackRun | BackMoves, outcome: Outcome, table: Rows, of: str = "Q") -> Part:
+    """The part that asks for what is left open, by its value or by an action that is as good in the end.
+
+    Args:
+        given: the run.
+        outcome: what a pair is worth in the end.
+        table: the action values in which the pair is updated, before the run.
+        of: how they are called.
+    """
+    state, action, value = outcome
+    sought = f"{_CALLED[given.asked_for]} ${PARAMETERS[given.asked_for]}$"
+    rival = next((other for other, worth in table[state].items() if other != action and worth == value), None)
+    if rival and (state, rival) not in given.updated:
+        pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{rival}")$'
+        return Part(f"For which {sought} are {pair} equal {after(given)}?", Number())
+    ask = f'{after(given).capitalize()} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
+    return Part(ask, Number())
+
+
+#: What is asked for, by its parameter.
+_CALLED = {"alpha": "step size", "gamma": "discount", "lambda": "trace parameter", "epsilon": "exploration rate"}

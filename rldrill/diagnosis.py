@@ -1,0 +1,300 @@
+"""Why an answer is wrong, in a sentence, and where in the working it went wrong."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from threading import Event, Thread
+from typing import Any
+
+from rldrill.problems.document import Equation
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
+from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis.explaining import MOST, Explained, explained
+from rldrill.solutions.diagnosis.following import Line, Standing, follow
+from rldrill.solutions.diagnosis.replay import Application
+from rldrill.solutions.diagnosis.saying import Words, place, saying
+from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.exact import is_rational
+from rldrill.solutions.solution import Solution
+
+#: The time that there is at a prompt, in seconds.
+AT_THE_PROMPT = 0.15
+#: What is close to the key is wrong where this much speaks for it.
+_SURE = 0.6
+#: A decimal of more places than this is no rounded one.
+_PLACES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where in the working it went wrong.
+
+    Args:
+        formula: the key of the formula.
+        step: the number of the step among all steps of the working, from 0; None where it is every one by that formula.
+    """
+
+    formula: str
+    step: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What an answer comes from.
+
+    Args:
+        kind: ``right``, ``unreadable`` or ``unexplained``; ``listed`` for a typical mistake of the family; else the
+            name of what was done, such as ``factor-left-out``; ``located`` where only the place is known.
+        sentence: one sentence to the person.
+        place: where it was done; None where it was no step.
+        alternatives: what else gives the same answer, as likely.
+        confidence: how sure this is, 0 to 1.
+        wrong: the formula as it was read, where one was misread, and ``right`` as it is.
+    """
+
+    kind: str
+    sentence: str
+    place: Place | None = None
+    alternatives: tuple["Diagnosis", ...] = ()
+    confidence: float = 0.0
+    wrong: Equation | None = None
+    right: Equation | None = None
+
+    @property
+    def explains(self) -> bool:
+        """Whether it says anything that the verdict does not."""
+        return self.kind not in ("right", "unreadable", "unexplained")
+
+    def of(self, verdict: Verdict) -> str:
+        """What is said of an answer that was judged so: which entries are wrong, and what they come from."""
+        if self.sentence == verdict.says or verdict.outcome is Outcome.CLOSE or not verdict.wrong_cells:
+            return self.sentence
+        return f"{verdict.says} {self.sentence}"
+
+    def to_json(self) -> dict[str, Any]:
+        """The diagnosis as JSON has it."""
+        where = None if self.place is None else {"formula": self.place.formula, "step": self.place.step}
+        return {
+            "kind": self.kind,
+            "sentence": self.sentence,
+            "place": where,
+            "confidence": self.confidence,
+            "alternatives": [other.to_json() for other in self.alternatives],
+        }
+
+
+class Diagnosing:
+    """Diagnoses the wrong answers to one problem; what is found out about the problem is kept."""
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution = solution
+        self._searches: dict[str, Search] = {}
+        self._stop = Event()
+        self._thread: Thread | None = None
+
+    def search(self, earlier: Mapping[str, Any]) -> Search:
+        """The search that goes on from a person's own earlier answers."""
+        key = str(sorted(earlier.items(), key=lambda item: item[0]))
+        return self._searches.setdefault(key, Search(self.solution, earlier))
+
+    def begin(self) -> None:
+        """Search ahead, while the person types."""
+        if self._thread is not None and self._thread.is_alive():
+            return
+        self._stop.clear()
+        self._thread = Thread(target=self._ahead, daemon=True)
+        self._thread.start()
+
+    def _ahead(self) -> None:
+        search, clock = self.search({}), Clock(stop=self._stop)
+        search.whole(clock)
+        for application in search.applications:
+            if clock.over:
+                return
+            search.alternatives(application)
+
+    def _finish(self) -> None:
+        """Whatever was searched ahead is enough now."""
+        if self._thread is not None:
+            self._stop.set()
+            self._thread.join()
+            self._thread = None
+
+    def unmasked(self, label: str, text: str, verdict: Verdict) -> Verdict:
+        """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
+        if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
+            return verdict
+        diagnosis = self.diagnose(label, text, verdict)
+        if diagnosis.confidence < _SURE:
+            return verdict
+        return replace(verdict, outcome=Outcome.WRONG, says=diagnosis.sentence)
+
+    def _rounded(self, label: str, text: str) -> bool:
+        """Whether the wrong numbers are right ones with fewer digits than are asked for."""
+        typed = self._typed(label, text)
+        return all(_is_shorter(typed.cells[name], typed.key[name]) for name in typed.wrong)
+
+    def _typed(self, label: str, text: str) -> Typed:
+        part = part_of(self.solution, label)
+        kind = answer_kind(part.kind)
+        problem = self.solution.problem
+        cells = kind.read(text, problem.parameters, problem.given.terminal_states())
+        return Typed(part, cells, kind.cells(self.solution.answers[label]))
+
+    def diagnose(
+        self,
+        label: str,
+        text: str,
+        verdict: Verdict,
+        earlier: Mapping[str, Any] | None = None,
+        seconds: float | None = None,
+    ) -> Diagnosis:
+        """What the answer to a part comes from.
+
+        Args:
+            label: the part.
+            text: what was typed.
+            verdict: how it was judged.
+            earlier: the person's own answers to earlier parts.
+            seconds: the time to search; without end if None.
+        """
+        if verdict.outcome is Outcome.UNREADABLE:
+            return Diagnosis("unreadable", verdict.says)
+        if verdict.accepted:
+            return Diagnosis("right", verdict.says, confidence=1.0)
+        if verdict.told:
+            return _listed(self.solution, verdict)
+        self._finish()
+        typed = self._typed(label, text)
+        clock = Clock(seconds)
+        for carried in ({}, earlier) if earlier else ({},):
+            search = self.search(carried)
+            found = explained(search, typed, clock)
+            if found.causes:
+                return _told(found, search.applications, verdict)
+        return Diagnosis("unexplained", verdict.says)
+
+
+def _is_shorter(cell: Cell, key: Any) -> bool:
+    """Whether a number is the key, rounded or cut off where its own digits end."""
+    if not isinstance(cell, Reading) or not is_rational(cell.value):
+        return False
+    places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), None)
+    return places is not None and abs(approximate(cell.value) - approximate(key)) < 10.0**-places
+
+
+def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
+    first = verdict.told[0]
+    formula = next((formula for formula in solution.work.read if first in formula.misread), None)
+    where = None if formula is None else Place(formula.key, None)
+    wrong = right = None
+    if formula is not None:
+        wrong, right = formula.equation(formula.misread[first]), formula.equation(formula.right)
+    confidence = 1.0 if len(verdict.told) == 1 else 0.5
+    return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right)
+
+
+def _told(found: Explained, applications: Sequence[Application], verdict: Verdict) -> Diagnosis:
+    causes = found.causes
+    if len(causes) > MOST:
+        return _located(causes, applications) or Diagnosis("unexplained", verdict.says)
+    first, *others = (_diagnosis(cause, applications, found.confidence) for cause in causes)
+    said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
+    said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says
+    return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
+
+
+def _located(causes: Sequence[Cause], applications: Sequence[Application]) -> Diagnosis | None:
+    """Several causes at the same place: the place is known, at least."""
+    places = {None if cause.application is None else cause.application.number for cause in causes}
+    where = causes[0].application
+    if len(places) != 1 or where is None:
+        return None
+    return Diagnosis(
+        "located", f"Something is wrong{_sentence(place(where, applications))}.", _place(causes[0]), (), 0.5
+    )
+
+
+def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:
+    if cause.mistake is not None:
+        return Diagnosis("listed", cause.mistake.says, None, (), confidence)
+    said = f"It looks as if {_sentence(saying(cause, applications))}."
+    wrong = right = None
+    if cause.edit is not None and cause.formula is not None and not cause.term:
+        wrong, right = cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
+    return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)
+
+
+def _place(cause: Cause) -> Place | None:
+    if cause.application is not None:
+        return Place(cause.application.formula.key, cause.application.nth)
+    return None if cause.formula is None else Place(cause.formula.key, None)
+
+
+def _sentence(words: Words) -> str:
+    return "".join(word if isinstance(word, str) else unicode(word) for word in words)
+
+
+@dataclass(frozen=True, slots=True)
+class FollowedLine:
+    """One line of somebody's own working.
+
+    Args:
+        text: what was written.
+        standing: ``right``; ``follows`` from a line that departed; ``miscalculated`` where its own sides are not equal;
+            ``departs`` from the working; ``unread``.
+        sentence: what is said of it; empty where all is well.
+        step: the number of the step that it gives, among all steps of the working, from 0.
+        kind: what it comes from, where it departs and that is known.
+    """
+
+    text: str
+    standing: str
+    sentence: str = ""
+    step: int | None = None
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """Somebody's own working, held against the right one; ``first`` is the number of the first line that departs."""
+
+    lines: tuple[FollowedLine, ...]
+
+    @property
+    def first(self) -> int | None:
+        """The number of the first line that goes wrong, from 0; None where none does."""
+        wrong = (Standing.DEPARTS.value, Standing.MISCALCULATED.value)
+        return next((number for number, line in enumerate(self.lines) if line.standing in wrong), None)
+
+    @property
+    def sentence(self) -> str:
+        """What is said of the whole."""
+        if self.first is not None:
+            return self.lines[self.first].sentence
+        if all(line.standing == Standing.UNREAD.value for line in self.lines):
+            return "No line of this could be read; write lines such as “V1 = 8 + 1/2*4 = 10”."
+        return "All of this is right as far as it goes."
+
+
+def followed(search: Search, texts: Sequence[str]) -> Followed:
+    """Each line of a working, held against the right one."""
+    return Followed(tuple(_followed(line, search.applications) for line in follow(search, texts)))
+
+
+def _followed(line: Line, applications: Sequence[Application]) -> FollowedLine:
+    step = None if line.application is None else line.application.nth
+    where = "" if line.application is None else _sentence(place(line.application, applications))
+    said, kind = "", ""
+    if line.standing is Standing.UNREAD:
+        said = "This line was not understood, and is passed over."
+    elif line.standing is Standing.MISCALCULATED:
+        one, two = line.sides
+        said, kind = f"{one.echo} is not {two.echo}: a slip of arithmetic{where}.", "arithmetic"
+    elif line.standing is Standing.DEPARTS:
+        said = f"Here the working goes wrong{where}."
+        if line.causes:
+            causes = ", or ".join(_sentence(saying(cause, applications)) for cause in line.causes)
+            said, kind = f"Here it goes wrong: it looks as if {causes}.", line.causes[0].kind
+    return FollowedLine(line.text, line.standing.value, said, step, kind)

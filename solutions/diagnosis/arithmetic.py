@@ -1,0 +1,102 @@
+"""Slips of arithmetic: the values that are written for a value by mistake."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from flint import fmpq
+
+from rldrill.solutions.exact import is_rational, is_zero
+from rldrill.solutions.matrices import is_matrix, matrix
+from rldrill.solutions.vector import Vector
+
+Slip = tuple[str, Any]
+
+
+def slips(value: Any) -> Iterator[Slip]:
+    """What may be written for a value by a slip, the likeliest first."""
+    if is_matrix(value):
+        yield from _in_matrix(value)
+    elif isinstance(value, Vector):
+        yield from _in_vector(value)
+    elif is_rational(value):
+        yield from _of_rational(value)
+    elif hasattr(value, "__neg__") and not is_zero(value):
+        yield "sign", -value
+        yield "tenfold", value * 10
+        yield "tenfold", value / 10
+        yield "one-off", value + 1
+        yield "one-off", value - 1
+        yield "doubled", value * 2
+        yield "halved", value / 2
+
+
+def _of_rational(value: fmpq) -> Iterator[Slip]:
+    top, bottom = int(value.p), int(value.q)
+    if top == 0:
+        yield "one-off", fmpq(1)
+        yield "one-off", fmpq(-1)
+        return
+    yield "sign", -value
+    yield "tenfold", value * 10
+    yield "tenfold", value / 10
+    yield "one-off", value + 1
+    yield "one-off", value - 1
+    if bottom != 1:
+        yield "numerator", fmpq(top + 1, bottom)
+        yield "numerator", fmpq(top - 1, bottom)
+        yield "denominator", fmpq(top, bottom + 1)
+        if bottom > 2:
+            yield "denominator", fmpq(top, bottom - 1)
+    if abs(top) != bottom:
+        yield "inverse", fmpq(bottom, top)
+    for other in _digits_swapped(abs(top)):
+        yield "digits", fmpq(other if top > 0 else -other, bottom)
+    if bottom != 1 and (written := _decimal(value)) is not None:
+        digits, scale = written
+        for other in _digits_swapped(abs(digits)):
+            yield "digits", fmpq(other if digits > 0 else -other, scale)
+    yield "doubled", value * 2
+    yield "halved", value / 2
+
+
+def _digits_swapped(number: int) -> Iterator[int]:
+    digits = str(number)
+    if len(digits) > 7:
+        return
+    for place in range(len(digits) - 1):
+        if digits[place] != digits[place + 1] and (place or digits[1] != "0"):
+            yield int(digits[:place] + digits[place + 1] + digits[place] + digits[place + 2 :])
+
+
+def _decimal(value: fmpq) -> tuple[int, int] | None:
+    """The digits of a short decimal and the power of ten below them."""
+    for places in range(1, 5):
+        if 10**places % int(value.q) == 0:
+            return int(value.p) * (10**places // int(value.q)), 10**places
+    return None
+
+
+#: Slips that are likely enough to be made in an entry of a matrix.
+_IN_ENTRIES = {"sign", "one-off", "tenfold", "numerator", "denominator", "digits", "doubled", "halved"}
+
+
+def _in_matrix(value: Any) -> Iterator[Slip]:
+    rows = value.tolist()
+    for line, row in enumerate(rows):
+        for column, entry in enumerate(row):
+            for kind, other in slips(entry):
+                if kind in _IN_ENTRIES:
+                    changed = [list(each) for each in rows]
+                    changed[line][column] = other
+                    yield kind, matrix(changed)
+    if len(rows) * len(rows[0]) > 1:
+        yield "sign", -value
+
+
+def _in_vector(value: Vector) -> Iterator[Slip]:
+    entries = list(value)
+    for place, entry in enumerate(entries):
+        for kind, other in slips(entry):
+            if kind in _IN_ENTRIES:
+                yield kind, Vector([*entries[:place], other, *entries[place + 1 :]])
+    yield "sign", -value

@@ -1,0 +1,179 @@
+"""What an answer comes from: the causes that give it, weighed against each other and against chance."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Any
+
+from rldrill.solutions.answers.judging import wrong_cells
+from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis import weights
+from rldrill.solutions.diagnosis.replay import Change
+from rldrill.solutions.diagnosis.search import Candidate, Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.diagnosis.weights import ALIKE
+from rldrill.solutions.exact import is_rational
+
+#: How many likelier causes there may be for every answer that could have been typed, at most.
+CHANCE = 0.85
+#: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
+NEAR = (0.2, 0.4, 0.65)
+#: More causes than this explain nothing.
+MOST = 2
+#: As many answers there must be that could have been typed, before two causes together are believed.
+ROOM_FOR_TWO = 20_000
+#: A decimal has no more places than this.
+_PLACES = 8
+#: A decimal tells no more numbers apart than this, where it is a rounded one.
+_ROUNDED = 900
+
+
+@dataclass(frozen=True)
+class Explained:
+    """The causes that an answer is put down to, the likeliest first, and how sure that is, 0 to 1."""
+
+    causes: tuple[Cause, ...]
+    confidence: float
+    chance: float = 0.0
+    every: tuple[Cause, ...] = ()
+
+
+def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
+    """What a wrong answer comes from; nothing, where that could be anything."""
+    room = _room(typed, exact=True)
+    found = [*_single(search, typed, clock)]
+    if not found and room >= ROOM_FOR_TWO:
+        found = [*_apart(search, typed, clock)] or [
+            each for each in search.in_turn(typed, clock) if search.fits(typed, each.answers)
+        ]
+    if not found:
+        return Explained((), 0.0)
+    found = [_weighed(typed, candidate) for candidate in found]
+    found.sort(key=lambda candidate: -candidate.cause.weight)
+    best = found[0]
+    room = _room(typed, exact=_exactly(typed, best))
+    chance = _as_likely(search, typed, best.cause) / room
+    near = _near(found)
+    every = tuple(_distinct([each.cause for each in found]))
+    if chance > CHANCE:
+        return Explained((), 0.0, chance, every)
+    share = best.cause.weight / sum(cause.weight for cause in near)
+    return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)
+
+
+def _weighed(typed: Typed, candidate: Candidate) -> Candidate:
+    """A candidate, less likely where it agrees with what was typed in three digits only, and more were typed."""
+    cells = typed.cells_of(candidate.answers) or {}
+    wrong = ((typed.cells[name], cells[name]) for name in typed.wrong)
+    if all(_to_the_last_digit(cell, value) for cell, value in wrong if isinstance(cell, Reading)):
+        return candidate
+    cause = replace(candidate.cause, weight=candidate.cause.weight * weights.LOOSE)
+    return replace(candidate, cause=cause)
+
+
+def _to_the_last_digit(cell: Reading, value: Any) -> bool:
+    """Whether a typed number is a value, rounded where its own digits end."""
+    if not is_rational(cell.value):
+        return True
+    places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), _PLACES)
+    return abs(approximate(cell.value) - approximate(value)) <= 0.51 * 10.0**-places
+
+
+def _near(found: Sequence[Candidate]) -> list[Cause]:
+    """The causes that are about as likely as the likeliest; where they are many, only those that are nearly so."""
+    for bound in NEAR:
+        least = bound * found[0].cause.weight
+        near = _distinct([each.cause for each in found if each.cause.weight >= least])
+        if len(near) <= MOST:
+            break
+    return near
+
+
+def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
+    yield from (each for each in search.whole(clock) if search.fits(typed, each.answers))
+    yield from (each for each in search.written_down(typed) if search.fits(typed, each.answers))
+    wrong = set(typed.wrong)
+    for each in search.local(typed, clock, lambda changed: changed >= wrong):
+        if search.fits(typed, each.answers):
+            yield each
+
+
+def _apart(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
+    """Two causes, each of other cells."""
+    wrong = set(typed.wrong)
+    if len(wrong) < 2:
+        return
+    partly: dict[frozenset[str], Candidate] = {}
+    for each in search.local(typed, clock, lambda changed: bool(changed & wrong) and not changed >= wrong):
+        cells = frozenset(_explains(typed, each))
+        if cells and (cells not in partly or partly[cells].cause.weight < each.cause.weight):
+            partly[cells] = each
+    for (one, first), (two, second) in combinations(partly.items(), 2):
+        if one | two != wrong or one & two or first.cause.application is None or second.cause.application is None:
+            continue
+        values = {each.cause.application.number: each.cause.became for each in (first, second)}  # type: ignore[union-attr]
+        answers = search.replay(Change(values=values))
+        if answers is not None and search.fits(typed, answers):
+            yield Candidate(_together(first.cause, second.cause), answers)
+
+
+def _explains(typed: Typed, each: Candidate) -> set[str]:
+    """The wrong cells that come out as typed, if no right one is spoilt."""
+    cells = typed.cells_of(each.answers)
+    still = set(wrong_cells(typed.cells, cells)) if cells is not None else set(typed.key)
+    return set(typed.wrong) - still if still <= set(typed.wrong) else set()
+
+
+def _together(first: Cause, second: Cause) -> Cause:
+    weight = first.weight * second.weight / 100
+    one, two = sorted((first, second), key=lambda cause: cause.application.number if cause.application else -1)
+    return replace(one, weight=weight, then=two)
+
+
+def _room(typed: Typed, *, exact: bool) -> float:
+    """How many answers could have been typed as well as this one."""
+    room = 1.0
+    for name in typed.wrong:
+        cell = typed.cells[name]
+        if not isinstance(cell, Reading):
+            room *= 2
+            continue
+        value, key = cell.value, typed.key[name]
+        if not is_rational(value):
+            room *= 10_000 if exact else _ROUNDED
+            continue
+        size = max(abs(approximate(value)), abs(approximate(key)), 1.0)
+        grid = 4 * size * int(value.q)
+        room *= max(4.0, grid if exact else min(grid, _ROUNDED))
+    return min(room, 1e15)
+
+
+def _exactly(typed: Typed, candidate: Candidate) -> bool:
+    """Whether what was typed is the candidate's answer to the last digit."""
+    cells = typed.cells_of(candidate.answers) or {}
+    return all(
+        bool(cell.value == cells[name]) for name in typed.wrong if isinstance(cell := typed.cells[name], Reading)
+    )
+
+
+def _as_likely(search: Search, typed: Typed, cause: Cause) -> float:
+    """How many causes are as likely as this one, or likelier, of those that spoil the same cells and no others."""
+    if cause.then is not None:
+        return ROOM_FOR_TWO
+    return max(1, sum(weight >= cause.weight for weight in search.rivals(typed)))
+
+
+def _distinct(causes: Sequence[Cause]) -> list[Cause]:
+    """The causes that differ in what is done or where: of those that say the same, the likeliest."""
+    found: list[Cause] = []
+    for cause in causes:
+        if not any(_alike(cause, other) for other in found):
+            found.append(cause)
+    return found
+
+
+def _alike(one: Cause, two: Cause) -> bool:
+    if one.application is not two.application and None not in (one.application, two.application):
+        return False
+    if one.mistake or two.mistake:
+        return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
+    return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)

@@ -1,0 +1,141 @@
+"""The givens misread: another problem that somebody solves who reads one thing wrongly."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+#: At most so many values of a table are tried one by one.
+_MOST = 24
+
+
+@dataclass(frozen=True)
+class Misread:
+    """Givens in which one thing is read wrongly, and what was done: a name, and what is said of it."""
+
+    kind: str
+    given: Any
+    what: str
+
+
+def misread(given: BaseModel) -> Iterator[Misread]:
+    """The givens with one thing read wrongly, those alone that make a problem."""
+    for kind, changed, what in _model(given):
+        yield Misread(kind, changed, what)
+
+
+Changed = Iterator[tuple[str, Any, str]]
+
+
+def _model(model: BaseModel) -> Changed:
+    fields = {name: getattr(model, name) for name in type(model).model_fields}
+    numbers = [name for name, value in fields.items() if _number(value)]
+    for one, two in combinations(numbers, 2):
+        if fields[one] != fields[two]:
+            yield from _again(model, {one: fields[two], two: fields[one]}, "givens-exchanged", f"{one} and {two}")
+    for name, value in fields.items():
+        if isinstance(value, bool):
+            continue
+        for kind, changed, what in _inside(value, name):
+            yield from _again(model, {name: changed}, kind, what)
+
+
+def _again(model: BaseModel, update: dict[str, Any], kind: str, what: str) -> Changed:
+    fields = {name: getattr(model, name) for name in model.model_fields_set | set(update)}
+    try:
+        yield kind, type(model)(**{**fields, **update}), what
+    except (ValidationError, ValueError, TypeError, ArithmeticError, LookupError):
+        return
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, Fraction | int) and not isinstance(value, bool)
+
+
+def _inside(value: Any, name: str) -> Changed:
+    if isinstance(value, BaseModel):
+        yield from _model(value)
+    elif _number(value):
+        yield from _of_number(value, name)
+    elif isinstance(value, dict):
+        yield from _of_table(value, name)
+    elif isinstance(value, tuple) and not hasattr(value, "_fields"):
+        yield from _of_list(value, name)
+
+
+def _of_number(value: Any, name: str) -> Changed:
+    if isinstance(value, int):
+        yield "one-too-many", value + 1, name
+        yield "one-too-few", value - 1, name
+    elif value < 0:
+        yield "minus-lost", -value, name
+    if isinstance(value, Fraction) and 0 < value < 1:
+        yield "complement", 1 - value, name
+
+
+def _of_table(value: dict[Any, Any], name: str) -> Changed:
+    keys = list(value)[:_MOST]
+    for key in keys:
+        if _number(value[key]) and value[key] < 0:
+            yield "minus-lost", {**value, key: -value[key]}, f"{name} {_named(key)}"
+    for one, two in list(combinations(keys, 2))[:_MOST]:
+        if value[one] != value[two]:
+            what = f"{name} of {_named(one)} and {_named(two)}"
+            yield "rows-exchanged", {**value, one: value[two], two: value[one]}, what
+    for key in keys:
+        if isinstance(value[key], BaseModel | dict):
+            for kind, changed, what in _inside(value[key], name):
+                yield kind, {**value, key: changed}, what
+
+
+def _of_list(value: tuple[Any, ...], name: str) -> Changed:
+    if not 1 < len(value) <= _MOST:
+        return
+    yield "reversed", value[::-1], name
+    for place in range(len(value)):
+        yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{_ordinal(place)} of {name}"
+        if place + 1 < len(value) and value[place] != value[place + 1]:
+            swapped = (*value[:place], value[place + 1], value[place], *value[place + 2 :])
+            yield "entries-exchanged", swapped, f"{name}, {_ordinal(place)} and {_ordinal(place + 1)}"
+        if _number(value[place]) and value[place] < 0:
+            yield "minus-lost", (*value[:place], -value[place], *value[place + 1 :]), f"{_ordinal(place)} of {name}"
+        if isinstance(value[place], tuple | BaseModel):
+            for kind, changed, what in _row(value[place], name, place):
+                yield kind, (*value[:place], changed, *value[place + 1 :]), what
+
+
+def _row(row: Any, name: str, place: int) -> Changed:
+    """One row of a table: a number in it without its minus, two of its numbers exchanged."""
+    if isinstance(row, BaseModel):
+        yield from _model(row)
+        return
+    entries: Sequence[Any] = row
+    make = row._replace if hasattr(row, "_fields") else None
+
+    def changed(update: dict[int, Any]) -> Any:
+        if make:
+            return make(**{row._fields[column]: entry for column, entry in update.items()})
+        return tuple(update.get(column, entry) for column, entry in enumerate(entries))
+
+    numbers = [column for column, entry in enumerate(entries) if _number(entry)]
+    for column in numbers:
+        if entries[column] < 0:
+            yield "minus-lost", changed({column: -entries[column]}), f"{_ordinal(place)} row of {name}"
+    for one, two in combinations(numbers, 2):
+        if entries[one] != entries[two]:
+            update = {one: entries[two], two: entries[one]}
+            yield "givens-exchanged", changed(update), f"{_ordinal(place)} row of {name}"
+
+
+def _named(key: Any) -> str:
+    return ", ".join(map(str, key)) if isinstance(key, tuple) else str(key)
+
+
+ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+
+
+def _ordinal(place: int) -> str:
+    return ORDINALS[place] if place < len(ORDINALS) else f"{place + 1}th"

@@ -1,0 +1,228 @@
+"""The working of a problem taken down, and gone through again with something changed in it."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from sympy import Expr
+
+from rldrill.problems.family import Problem
+from rldrill.solutions.exact import NoSolution, NotGiven, NotReal, TooLong, length, tidy
+from rldrill.solutions.formula.compiling import value_of
+from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.solution import solver
+from rldrill.solutions.work import Step, Work
+
+#: Numbers with more binary digits than this come from no slip that anybody makes.
+_LONGEST = 2000
+#: A changed working is given up when it has so many times the steps of the right one, and a hundred more.
+_LONGER = 3
+#: What a changed problem, which need not be one, may lead to.
+UNDONE = (NoSolution, NotGiven, NotReal, TooLong, ArithmeticError, LookupError, TypeError, ValueError, AttributeError)
+
+
+@dataclass(frozen=True, eq=False)
+class Application:
+    """One application of a formula in the right working; ``nth`` says which of all its steps it is, from 0.
+
+    The equations of a system are applications, too, each with the value that the solution gives its unknown.
+    """
+
+    number: int
+    nth: int
+    step: Step
+    value: Any
+    known: Mapping[str, Any]
+    equation: bool = False
+
+    @property
+    def formula(self) -> Formula:
+        """The formula that was applied."""
+        return self.step.formula
+
+    @property
+    def right(self) -> Expr:
+        """The right side that was computed with."""
+        return self.step.right
+
+    def old(self) -> Any:
+        """What the quantity was worth before, where a table of its values is among what is known; else None."""
+        left = self.formula.left
+        if not isinstance(left, Quantity) or not isinstance(self.known.get(left.code), Mapping):
+            return None
+        try:
+            return value_of(left, self.known)
+        except UNDONE:
+            return None
+
+
+class Recorder(Work):
+    """A solver's notebook that also takes down every application with what was known."""
+
+    def __init__(self, carried: Mapping[str, Any]) -> None:
+        super().__init__(carried=carried)
+        self.applications: list[Application] = []
+
+    def step(self, formula: Formula, **named: Any) -> Any:
+        """As in any working."""
+        value = super().step(formula, **named)
+        self._take_down(len(self.lines) - 1, value, self.lines[-1].known, equation=False)  # type: ignore[union-attr]
+        return value
+
+    def system(
+        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any
+    ) -> Any:
+        """As in any working."""
+        cases, start = list(cases), len(self.lines)
+        solution = super().system(formula, unknown, cases, **named)
+        for place, case in enumerate(cases):
+            known = {**named, unknown.code: dict(solution), **case}
+            self._take_down(start + place, solution[_key(case)], known, equation=True)
+        return solution
+
+    def _take_down(self, line: int, value: Any, known: Mapping[str, Any], *, equation: bool) -> None:
+        step = self.lines[line]
+        assert isinstance(step, Step)
+        nth = sum(isinstance(each, Step) for each in self.lines[:line])
+        self.applications.append(Application(len(self.applications), nth, step, value, known, equation))
+
+
+def _key(case: Mapping[str, Any]) -> Any:
+    return tuple(case.values()) if len(case) > 1 else next(iter(case.values()))
+
+
+#: What somebody does with what is known before every application.
+Habit = Callable[["Replay", Formula, Mapping[str, Any]], Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Change:
+    """What is changed in a working.
+
+    Args:
+        rights: right sides that are exchanged for others, wherever they are read.
+        values: for the numbers of applications, other values that come out.
+        letters: what the exchanged right sides need besides; or what gives that for what is known.
+        habit: what is done with what is known before every application.
+    """
+
+    rights: Mapping[Expr, Expr] = field(default_factory=dict)
+    values: Mapping[int, Any] = field(default_factory=dict)
+    letters: Mapping[str, Any] | Callable[[Mapping[str, Any]], Mapping[str, Any]] = field(default_factory=dict)
+    habit: Habit | None = None
+
+
+#: An application in a changed working: its number, the right side, what was known, and its value.
+Traced: TypeAlias = tuple[int, Expr, Mapping[str, Any], Any]
+
+
+class Replay(Work):
+    """A notebook in which the change is made, and nothing is written down."""
+
+    def __init__(
+        self, change: Change, carried: Mapping[str, Any], limit: int, trace: list[Traced] | None = None
+    ) -> None:
+        super().__init__(carried=carried)
+        self.change = change
+        self.trace = trace
+        self.limit = limit
+        self.number = 0
+        self.found: dict[str, dict[Any, Any]] = {}
+        self.first: dict[str, Any] = {}
+        self._again: dict[Any, Any] = {}
+
+    def reading(self, formula: Formula) -> Expr:
+        """The right side, exchanged if it is among those."""
+        self._count()
+        return self.change.rights.get(formula.right, formula.right)
+
+    def step(self, formula: Formula, *, right: Any = None, **known: Any) -> Any:
+        """The value alone."""
+        for written in ("into", "sign", "label"):
+            known.pop(written, None)
+        number, self.number = self.number, self.number + 1
+        if number in self.change.values:
+            self._count()
+            self._again[_same(formula, known)] = value = self.change.values[number]
+            if self.trace is not None:
+                self.trace.append((number, formula.right, known, value))
+            return value
+        right = self.reading(formula) if right is None else self.change.rights.get(right, right)
+        if self.change.habit:
+            known = dict(self.change.habit(self, formula, known))
+        value = _bounded(tidy(value_of(right, {**known, **self._letters(known)})))
+        if self.trace is not None:
+            self.trace.append((number, right, known, value))
+        if self.change.habit:
+            left = formula.left
+            if isinstance(left, Quantity) and left.code in known:
+                arguments = tuple(value_of(argument, known) for argument in left.args)
+                key = arguments[0] if len(arguments) == 1 else arguments
+                self.found.setdefault(left.code, {})[key] = value
+        return value
+
+    def value(self, formula: Formula, **known: Any) -> Any:
+        """The value, as it was changed where the same step was changed before."""
+        same = _same(formula, known)
+        if same in self._again:
+            return self._again[same]
+        return _bounded(super().value(formula, **known, **self._letters(known)))
+
+    def system(
+        self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any
+    ) -> Any:
+        """The solution, changed where its values are."""
+        cases = list(cases)
+        solution = super().system(formula, unknown, cases, **named, **self._letters(named))
+        for case in cases:
+            if self.number in self.change.values:
+                solution[_key(case)] = self.change.values[self.number]
+            if self.trace is not None:
+                self.trace.append((self.number, formula.right, named, solution[_key(case)]))
+            self.number += 1
+        return solution
+
+    def _letters(self, known: Mapping[str, Any]) -> Mapping[str, Any]:
+        letters = self.change.letters
+        return letters(known) if callable(letters) else letters
+
+    def _count(self) -> None:
+        self.limit -= 1
+        if self.limit < 0:
+            raise NoSolution("it goes on and on")
+
+
+def _same(formula: Formula, known: Mapping[str, Any]) -> Any:
+    """What tells one application of a formula from another: its indices."""
+    return formula, tuple((name, value) for name, value in known.items() if isinstance(value, str | int))
+
+
+def _bounded(value: Any) -> Any:
+    if length(value) > _LONGEST:
+        raise NoSolution("the numbers get too long")
+    return value
+
+
+def recorded(problem: Problem, carried: Mapping[str, Any]) -> Recorder:
+    """The right working, with all applications."""
+    work = Recorder(carried)
+    solver(problem.family).solve(problem.given, work)
+    return work
+
+
+def replayed(
+    problem: Problem, change: Change, carried: Mapping[str, Any], steps: int, trace: list[Traced] | None = None
+) -> Mapping[str, Any] | None:
+    """The answers of the changed working; None where it leads to none. Its applications are added to ``trace``."""
+    work = Replay(change, carried, _LONGER * steps + 100, trace)
+    try:
+        solver(problem.family).solve(problem.given, work)
+    except UNDONE:
+        return None
+    return work.answers
+
+
+def with_givens(problem: Problem, given: Any, carried: Mapping[str, Any], steps: int) -> Mapping[str, Any] | None:
+    """The answers for other givens; None where there are none."""
+    return replayed(Problem(problem.family, given), Change(), carried, steps)

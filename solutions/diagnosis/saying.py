@@ -1,0 +1,219 @@
+"""What is said of a cause: one sentence, as a good lecturer puts it."""
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+from sympy import Expr
+
+from rldrill.problems.mathematics import Math, name, relation, row
+from rldrill.solutions.diagnosis.givens import ORDINALS
+from rldrill.solutions.diagnosis.replay import Application
+from rldrill.solutions.diagnosis.search import Cause
+from rldrill.solutions.formula.letters import GLYPHS
+from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.typesetting import typeset, typeset_value
+from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.vector import Vector
+
+#: A sentence, or a part of one: words, and mathematics between them.
+Words: TypeAlias = tuple[str | Math, ...]
+
+#: What an edit does, by its kind; {part} is what was changed, {instead} what stands there.
+_EDITS = {
+    "term-left-out": "{part} is missing",
+    "factor-left-out": "{part} is missing",
+    "bracket-left-out": "the factor ({part}) is missing",
+    "sign": "{part} has the wrong sign",
+    "twice": "{part} is counted twice",
+    "difference": "{part} is taken with the opposite sign",
+    "bracket": "a bracket is set in the wrong place in {part}",
+    "index": "{instead} stands where {part} belongs",
+    "twin": "{instead} stands where {part} belongs",
+    "range": "there is a term too many or too few in the sum",
+    "complement": "{instead} stands where {part} belongs",
+    "complement-of-value": "{instead} stands where {part} belongs",
+    "confused": "{instead} stands where {part} belongs",
+    "exchanged": "{part} and {instead} are exchanged",
+    "squared": "the factor {part} is there twice",
+    "squared-value": "the factor {part} is there twice",
+    "added": "the factors of {part} are added, not multiplied",
+    "divided": "it is divided by {part}, not multiplied with it",
+    "upside-down": "{part} is upside down",
+    "order-of-factors": "the matrices of {part} stand in the wrong order",
+    "inverse": "the inverse is forgotten in {part}",
+    "root": "the root is forgotten in {part}",
+    "power": "the power is off in {part}",
+    "power-as-product": "{part} is multiplied out, not raised to its power",
+    "transposed": "the transpose is forgotten in {part}",
+    "case": "the wrong case is taken in {part}",
+    "choice": "{instead} is taken without the choice",
+    "function": "{instead} stands where {part} belongs",
+    "summand-left-out": "the term is missing",
+    "summand-sign": "the term has the wrong sign",
+    "smallest": "the smallest is taken, not the greatest",
+    "other-taken": "the value of another action than the best is taken",
+    "mean-for-max": "the mean is taken, not the maximum",
+    "min-for-max": "the minimum is taken, not the maximum",
+    "sum-for-max": "the sum is taken, not the maximum",
+    "mean-for-sum": "the mean is taken, not the sum {part}",
+    "max-for-sum": "the maximum is taken, not the sum {part}",
+    "min-for-sum": "the minimum is taken, not the sum {part}",
+    "sum-for-mean": "the sum is taken, not the mean",
+    "max-for-mean": "the maximum is taken, not the mean",
+    "min-for-mean": "the minimum is taken, not the mean",
+    "sum-for-product": "the sum is taken, not the product",
+    "mean-for-product": "the mean is taken, not the product",
+    "max-for-product": "the maximum is taken, not the product",
+    "min-for-product": "the minimum is taken, not the product",
+}
+#: What happened to the value of a place in a formula; {was} was right, {became} was taken.
+_INSIDE = {
+    "minus-lost": "the minus of {part} = {was} is lost",
+    "sign": "{part} = {was} has the wrong sign",
+    "tenfold": "the decimal point of {part} = {was} has slipped: {became}",
+    "elsewhere": "{became} is put in for {part}, which is {was}",
+    "digits": "the digits of {part} = {was} are exchanged: {became}",
+    "inverse": "{part} = {was} is upside down",
+    "crosswise": "the fractions of {part} are added top to top and bottom to bottom",
+    "": "{became} is put in for {part}, which is {was}",
+}
+#: What happened to the value that a step gives.
+_VALUES = {
+    "kept": "the old value {became} is kept, as if the update were left out",
+    "repeated": "the update is made twice",
+    "sign": "the result has the wrong sign: {became} for {was}",
+    "tenfold": "the decimal point of the result has slipped: {became} for {was}",
+    "digits": "two digits of the result are exchanged: {became} for {was}",
+    "inverse": "the result is upside down: {became} for {was}",
+    "": "there is a slip of arithmetic: {became} for {was}",
+}
+#: What happened all along, or to the answer.
+_WHOLE = {
+    "stale": "the old values are used all along, though some of them have been updated",
+    "early": "new values are used at once, though they should wait for the next round",
+    "round-left-out": "the {what} round of updates is left out",
+    "one-too-many": "it is one too many: {what}",
+    "one-too-few": "it is one too few: {what}",
+    "givens-exchanged": "two givens are exchanged: {what}",
+    "rows-exchanged": "two entries are exchanged: {what}",
+    "minus-lost": "a minus is lost in reading {what}",
+    "complement": "{what} is taken for 1 minus itself",
+    "reversed": "the {what} are taken in the opposite order",
+    "entry-left-out": "the {what} is left out",
+    "entries-exchanged": "the order is wrong in {what}",
+    "another-quantity": "this is {left}, not what is asked for",
+    "exchanged-cells": "the answers for {what} are exchanged",
+    "all-signs": "all signs are turned",
+    "sign": "the sign is wrong",
+    "answer-transposed": "rows and columns are exchanged",
+    "answer-scaled": "all entries are wrong by the same factor, {was}",
+    "one-minus": "this is 1 minus the answer",
+    "inverse": "this is the answer upside down",
+    "percent": "this is the answer times 100",
+    "tenfold": "the decimal point has slipped",
+    "digits": "two digits are exchanged",
+    "": "there is a slip of arithmetic in the last step",
+}
+
+
+def saying(cause: Cause, applications: Sequence[Application]) -> Words:
+    """What was done, and where, without a full stop."""
+    words = (*_what(cause), *_where(cause, applications))
+    if cause.then is not None:
+        words = (*words, ", and ", *saying(cause.then, applications))
+    return words
+
+
+def _what(cause: Cause) -> Words:
+    if cause.edit is not None:
+        instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
+        return _filled(_EDITS[cause.kind], part=_short(cause.edit.part), instead=instead)
+    if cause.probe is not None:
+        template = _INSIDE.get(cause.kind, _INSIDE[""])
+        part = _short(cause.probe.part)
+        return _filled(template, part=part, was=_number(cause.was), became=_number(cause.other))
+    if cause.application is not None and cause.kind != "another-quantity":
+        template = _VALUES.get(cause.kind, _VALUES[""])
+        return _filled(template, was=_number(cause.was), became=_number(cause.became))
+    template = _WHOLE.get(cause.kind, _WHOLE[""])
+    left = None if cause.application is None else typeset(cause.application.step.left)
+    was = None if cause.was is None else _number(cause.was)
+    return _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+
+
+def _filled(template: str, **values: Any) -> Words:
+    words: list[str | Math] = []
+    for piece in template.replace("}", "{").split("{"):
+        words.append(values[piece] if piece in values and values[piece] is not None else piece)
+    return tuple(word for word in words if word != "")
+
+
+def _short(part: Expr) -> Math:
+    return typeset(part.args[0]) if isinstance(part, Over) and part.body.is_Add else typeset(part)
+
+
+def _number(value: Any) -> Any:
+    from rldrill.solutions.work import shown_value
+
+    if isinstance(value, tuple) or is_matrix(value) or isinstance(value, Vector):
+        return shown_value(value)
+    return typeset_value(value)
+
+
+def _where(cause: Cause, applications: Sequence[Application]) -> Words:
+    if cause.kind == "another-quantity" or (cause.application is None and cause.formula is None):
+        return ()
+    term = _term(cause)
+    if cause.application is None:
+        assert cause.formula is not None
+        updates = cause.formula.sign == "←"
+        return (*term, " in every update" if updates else " every time")
+    return (*term, *place(cause.application, applications))
+
+
+def place(application: Application, applications: Sequence[Application]) -> Words:
+    """Where an application stands in the working: `` in the second update (t = 1)``."""
+    alike = [each for each in applications if each.formula is application.formula]
+    left = typeset(application.step.left)
+    update = application.formula.sign == "←"
+    if application.equation:
+        return (" in the equation of ", left)
+    if len(alike) == 1:
+        return (" in the update",) if update else (" in ", left)
+    time = application.known.get("t")
+    times = [each.known.get("t") for each in alike]
+    at: Words = ()
+    if isinstance(time, int):
+        at = (row(GLYPHS_T, relation("="), name(str(time))),)
+    if update and (not at or len(set(times)) == len(times)):
+        where: Words = (f" in the {_ordinal(alike.index(application))} update",)
+        return (*where, " (", *at, ")") if at else where
+    lefts = [str(each.step.left) for each in alike]
+    if lefts.count(str(application.step.left)) == 1:
+        return (" in ", left)
+    if at:
+        return (" in ", left, " at ", *at)
+    nth = [each for each in alike if str(each.step.left) == str(application.step.left)].index(application)
+    return (f" in the {_ordinal(nth)} step for ", left)
+
+
+GLYPHS_T = next((glyph for symbol, glyph in GLYPHS.items() if symbol.name == "t"), name("t"))
+
+
+def _term(cause: Cause) -> Words:
+    within = cause.edit.within if cause.edit is not None else cause.probe.within if cause.probe is not None else ()
+    if not cause.term and cause.nth is not None:
+        return (f" in the {_ordinal(cause.nth)} term of the sum",)
+    if not cause.term:
+        return ()
+    pairs = [
+        row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
+    ]
+    words: list[str | Math] = [" in the term of "]
+    for number, pair in enumerate(pairs):
+        words += [", ", pair] if number else [pair]
+    return tuple(words)
+
+
+def _ordinal(place: int) -> str:
+    return ORDINALS[place] if place < len(ORDINALS) else f"{place + 1}th"

@@ -1,0 +1,76 @@
+"""The value of a letter from what comes out: exactly from an equation, independently from two trials."""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any, TypeVar
+
+from rldrill.problems.exact import Parameter, Scalar, shown
+from rldrill.problems.reversible import Reversible
+from rldrill.problems.runs import ValueRun
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
+from rldrill.solutions.oracle import at
+from rldrill.solutions.work import Work
+
+Given = TypeVar("Given", bound=Reversible)
+Run = TypeVar("Run", bound=ValueRun)
+
+#: Two numbers that any letter may stand for: between 0 and 1.
+_TRIALS = Fraction(1, 4), Fraction(3, 4)
+
+
+def find(given: Reversible, work: Work, value: Value) -> Value:
+    """Answer with the number for the letter that makes the value, worked out with the letter in it, what is known.
+
+    Raises:
+        NoSolution: the value does not depend on the letter.
+    """
+    if not given.letters:
+        raise NoSolution("what is known says nothing of the letter that is asked for; change what is left open")
+    return work.answer(work.equate(given.letter, value, exact(given.known or 0)))
+
+
+def tried(given: Given, outcome: Callable[[Given], float]) -> float:
+    """The number for the letter, where a straight line through the outcomes of two trials reaches what is known."""
+    low, high = (outcome(with_letter(given, trial)) for trial in _TRIALS)
+    first, second = map(float, _TRIALS)
+    return first + (second - first) * (at(given.known or 0) - low) / (high - low)
+
+
+def reading(letter: Value) -> Callable[[Scalar], Value]:
+    """What reads given numbers where the letter left open has this value."""
+    return lambda number: letter if isinstance(number, Parameter) else exact(number)
+
+
+def with_letter(given: Given, number: Fraction) -> Given:
+    """The problem with a number for its letter, and nothing known of what comes out."""
+    data = given.model_dump(mode="json", exclude_none=True, exclude={"known"})
+    return type(given).model_validate(_replaced(data, given.letter, str(number)))
+
+
+def _replaced(data: Any, letter: str, number: str) -> Any:
+    if isinstance(data, dict):
+        return {key: _replaced(inner, letter, number) for key, inner in data.items()}
+    if isinstance(data, list):
+        return [_replaced(inner, letter, number) for inner in data]
+    if data == f"1-{letter}":
+        return str(1 - Fraction(number))
+    return number if data == letter else data
+
+
+def find_and_finish(
+    given: ValueRun, work: Work, updated: Callable[[Callable[[Scalar], Value]], dict[str, Value]]
+) -> None:
+    """Answer with the letter, from the value that is known after all updates, and with the other values."""
+    first, *others = given.updated
+    letter = find(given, work, updated(exact)[first])
+    if others:
+        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$ the updates are:")
+        after = updated(reading(letter))
+        work.answer({state: after[state] for state in others})
+
+
+def found_and_finished(given: Run, updated: Callable[[Run], Sequence[float]]) -> Sequence[Any]:
+    """The same in floating point; ``updated`` gives the values of the updated states."""
+    letter = tried(given, lambda trial: updated(trial)[0])
+    others = updated(with_letter(given, Fraction(letter).limit_denominator(10**6)))[1:]
+    return (letter, others) if len(others) else (letter,)

@@ -1,0 +1,57 @@
+"""What commands do without options, and how much may be asked of them: what courses' scripts rely on."""
+
+import inspect
+from pathlib import Path
+from types import ModuleType
+from typing import Any, get_type_hints
+
+import pytest
+
+from rldrill.commands import audit, fields, generate, list_, quiz, sheet, show, solve, verify, worksheet
+from rldrill.commands.arguments import complete_families, complete_ids, complete_names
+
+#: For every option its default, and the least and most that it takes.
+OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
+    quiz: {"number": (10, 1, 1000), "level": (None, 1, 3), "seed": (None, 0, None)},
+    worksheet: {
+        "count": (8, 1, 100), "level": (None, 1, 3), "seed": (None, 0, None), "versions": (1, 1, 200),
+        "paper": ("a4", None, None), "output": (Path("worksheet.pdf"), None, None), "title": (None, None, None),
+        "as_json": (False, None, None),
+    },
+    verify: {"json": (False, None, None), "show_key": (False, None, None)},
+    solve: {"json": (False, None, None)},
+    show: {"json": (False, None, None)},
+    sheet: {
+        "output": (None, None, None), "paper": ("a4", None, None), "latex": (False, None, None),
+        "workings": (False, None, None),
+    },
+    list_: {"json": (False, None, None)},
+    fields: {"json": (False, None, None)},
+    generate: {
+        "number": (10, 1, 10**6), "level": (None, 1, 3), "seed": (None, 0, None), "answers": (False, None, None),
+    },
+    audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "json": (False, None, None)},
+}  # fmt: skip
+_ARGUMENTS = {"names", "files", "problem", "family"}
+
+
+@pytest.mark.parametrize("module", OPTIONS, ids=[module.NAME for module in OPTIONS])
+def test_the_defaults_and_bounds_of_every_option(module: ModuleType) -> None:
+    told = {name: hint.__metadata__[0] for name, hint in get_type_hints(module.command, include_extras=True).items()
+            if name != "return"}  # fmt: skip
+    parameters = inspect.signature(module.command).parameters
+    assert {
+        name: (parameters[name].default, told[name].min, told[name].max)
+        for name in parameters
+        if name not in _ARGUMENTS
+    } == OPTIONS[module]
+
+
+def test_names_are_completed() -> None:
+    assert complete_names("td-z") == ["td-zero"]
+    assert complete_names("temporal-d") == ["temporal-difference"]
+    assert complete_families("temporal-d") == []
+    assert complete_ids("td-z") == ["td-zero/"]
+    assert complete_ids("td-zero/") == ["td-zero/1/", "td-zero/2/", "td-zero/3/"]
+    assert complete_ids("td-zero/2") == ["td-zero/2/"]
+    assert complete_ids("no-family/") == []

@@ -1,0 +1,78 @@
+"""Edits of formulas: what somebody may write instead, found in the expression alone."""
+
+import pytest
+
+from rldrill.render.mathematics.unicode import unicode
+from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.compiling import value_of
+from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, edits, probes
+from rldrill.solutions.formula.typesetting import typeset
+from rldrill.solutions.sheet import formulas
+from rldrill.solutions.sheet.bayes import BAYES
+from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V
+from rldrill.solutions.sheet.temporal_difference import TD_ZERO
+
+
+def written(formula) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for edit in edits(formula.right):
+        found.setdefault(edit.kind, set()).add(unicode(typeset(edit.right)))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("kind", "line"),
+    [
+        ("factor-left-out", "V(sₜ) + rₜ₊₁ + γV(sₜ₊₁) − V(sₜ)"),
+        ("factor-left-out", "V(sₜ) + α(rₜ₊₁ + V(sₜ₊₁) − V(sₜ))"),
+        ("term-left-out", "α(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))"),
+        ("term-left-out", "V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁))"),
+        ("sign", "V(sₜ) − α(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))"),
+        ("sign", "V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁) + V(sₜ))"),
+        ("index", "V(sₜ) + α(rₜ + γV(sₜ₊₁) − V(sₜ))"),
+        ("index", "V(sₜ) + α(rₜ₊₁ + γV(sₜ) − V(sₜ))"),
+        ("complement", "V(sₜ) + (1 − α)·(rₜ₊₁ + γV(sₜ₊₁) − V(sₜ))"),
+        ("bracket", "V(sₜ) + α(rₜ₊₁ + γV(sₜ₊₁)) − V(sₜ)"),
+        ("exchanged", "V(sₜ) + γ(rₜ₊₁ + αV(sₜ₊₁) − V(sₜ))"),
+    ],
+)
+def test_an_update_is_edited_as_a_student_errs(kind: str, line: str) -> None:
+    assert line in written(TD_ZERO)[kind]
+
+
+def test_the_mean_stands_for_the_maximum() -> None:
+    kinds = written(BELLMAN_OPTIMALITY_V)
+    assert {"mean-for-max", "min-for-max", "sum-for-max"} <= set(kinds)
+
+
+def test_one_hypothesis_is_left_out_of_the_evidence() -> None:
+    # 1/2·1/4 / (1/2·1/4 + 1/2·3/4) = 1/4; without the second hypothesis 1, without the first 1/3.
+    known = {
+        "h": "a",
+        "z": "on",
+        "p": {"a": exact(1) / 2, "b": exact(1) / 2},
+        "likelihood": {("on", "a"): exact(1) / 4, ("on", "b"): exact(3) / 4},
+        "hypotheses": ("a", "b"),
+    }
+    assert value_of(BAYES.right, known) == exact(1) / 4
+    left_out = next(edit for edit in edits(BAYES.right) if edit.kind == "summand-left-out")
+    assert value_of(left_out.once, {**known, "at_1": "b"}) == 1
+    assert value_of(left_out.once, {**known, "at_1": "a"}) == exact(1) / 3
+
+
+def test_a_place_of_a_formula_takes_another_value() -> None:
+    # 8 + 1/2·(4 + 1/2·6 − 8) = 15/2; with 2 for γV(s′) it is 8 + 1/2·(4 + 2 − 8) = 7.
+    known = {
+        "t": 0, "S": {0: "a", 1: "b"}, "r": {1: exact(4)}, "V": {"a": exact(8), "b": exact(6)},
+        "alpha": exact(1) / 2, "gamma": exact(1) / 2,
+    }  # fmt: skip
+    assert value_of(TD_ZERO.right, known) == exact(15) / 2
+    place = next(probe for probe in probes(TD_ZERO.right) if unicode(typeset(probe.part)) == "γV(sₜ₊₁)")
+    assert value_of(place.right, {**known, SCALE.name: exact(0), SHIFT.name: exact(2)}) == 7
+
+
+@pytest.mark.parametrize("formula", formulas().values(), ids=lambda formula: formula.key)
+def test_every_edit_of_every_formula_is_another_formula(formula) -> None:
+    for edit in edits(formula.right):
+        assert edit.kind in IN_ONE_TERM or edit.right != formula.right
+        assert (edit.once is not None) == bool(edit.within)

@@ -1,0 +1,103 @@
+"""How large a problem in a file may be: the largest is read, and the next refused with the limit named."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from rldrill.problems.catalogue import family
+from rldrill.problems.errors import FileError
+from rldrill.problems.exact import read_fraction
+from rldrill.problems.pomdp_format import read_pomdp
+
+
+def cycle(states: int) -> dict[str, Any]:
+    return {"transitions": [[f"s{n}", "a", f"s{(n + 1) % states}", 1, 1] for n in range(states)]}
+
+
+def unit(size: int) -> list[list[int]]:
+    return [[int(row == column) for column in range(size)] for row in range(size)]
+
+
+def lqr(states: int, horizon: int) -> dict[str, Any]:
+    return {
+        "A": unit(states), "B": [[1]] * states, "Q": unit(states), "R": 1, "start": [1] * states, "horizon": horizon,
+    }  # fmt: skip
+
+
+def kalman(states: int, steps: int) -> dict[str, Any]:
+    return {
+        "mean": [[0]] * states, "covariance": unit(states), "A": unit(states), "B": [[1]] * states,
+        "C": [[1] * states], "process": unit(states), "sensor": 1, "steps": [{"z": 1}] * steps,
+    }  # fmt: skip
+
+
+def run(steps: int) -> dict[str, Any]:
+    return {"states": ["a"] * steps + ["end"], "rewards": [1] * steps, "terminal": ["end"]}
+
+
+#: The family, its givens by their size, the largest, and what is said of the next.
+LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
+    "states": (
+        "policy-value", lambda size: {"mdp": cycle(size), "gamma": "1/2"}, 1024,
+        "there are 1025 states; at most 1024 can be solved exactly",
+    ),
+    "cells": (
+        "policy-value", lambda size: {"mdp": {"grid": "." * size}, "gamma": "1/2"}, 1000,
+        "the grid has 1001 cells; 1000 are the most",
+    ),
+    "letters of a name": (
+        "policy-value", lambda size: {"mdp": {"transitions": [["s" * size, "a", "s" * size, 1, 1]]}, "gamma": "1/2"},
+        40, "has 41 characters, 40 are the most; shorten it",
+    ),
+    "outcomes of all sweeps": (
+        "policy-evaluation", lambda size: {"mdp": cycle(size), "gamma": "1/2", "sweeps": 1000}, 300,
+        "sweeps: 1000 sweeps over 301 transitions take too long; at most 996 are possible here",
+    ),
+    "horizon": ("lqr-backward", lambda size: lqr(1, size), 100, "it must be at most 100"),
+    "horizon with two states": (
+        "lqr-backward", lambda size: lqr(2, size), 25, "horizon is 26; with 2 states and 1 action, 25 is the most",
+    ),
+    "horizon with three states": (
+        "lqr-backward", lambda size: lqr(3, size), 12, "horizon is 13; with 3 states and 1 action, 12 is the most",
+    ),
+    "steps of a filter": ("kalman-filter", lambda size: kalman(1, size), 100, "it may have at most 100 entries"),
+    "steps of a filter with two components": (
+        "kalman-filter", lambda size: kalman(2, size), 25,
+        "steps has 26 entries; with 2 components of the state, 25 are the most",
+    ),
+    "steps of a filter with six components": (
+        "kalman-filter", lambda size: kalman(6, size), 5,
+        "steps has 6 entries; with 6 components of the state, 5 are the most",
+    ),
+    "n of an n-step return": (
+        "n-step-return",
+        lambda size: {"trajectory": run(3), "values": {"a": 1}, "gamma": "1/2", "asked": [[0, size]]},
+        1000, "number of steps 1001 from 1 to 1000",
+    ),
+    "rows of a system": (
+        "lqr-infinite", lambda size: {"A": unit(size), "B": unit(size), "Q": unit(size), "R": unit(size)}, 6,
+        "A has 7 rows; 6 are the most",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("limit", LIMITS)
+def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
+    name, given, largest, said = LIMITS[limit]
+    family(name).read(given(largest))
+    with pytest.raises(FileError) as refused:
+        family(name).read(given(largest + 1))
+    assert said in str(refused.value)
+
+
+def test_two_hundred_characters_of_a_number_are_read() -> None:
+    assert read_fraction(" " * 199 + "1") == 1
+    with pytest.raises(ValueError, match="longer than 200 characters"):
+        read_fraction(" " * 200 + "1")
+
+
+def test_more_than_a_million_transitions_of_a_pomdp_file_are_not_written_out() -> None:
+    # 1001 states, each with a way to each: 1 002 001.
+    with pytest.raises(ValueError, match="line 5: T: there are more than 1000000 transitions; write a smaller model"):
+        read_pomdp("discount: 0.5\nvalues: reward\nstates: 1001\nactions: 1\nT: * uniform\nR: * : * : * 1\n")

@@ -1,0 +1,95 @@
+"""The notation between dollar signs: what it is read as, and what is refused."""
+
+import pytest
+
+from rldrill.problems.mathematics import (
+    Accent,
+    Fence,
+    Fraction,
+    Math,
+    Row,
+    Script,
+    listed,
+    mathematics,
+    name,
+    number,
+    operator,
+    punctuation,
+    relation,
+    row,
+    variable,
+    word,
+)
+
+a, b, s, t = map(variable, "abst")
+one, two = number(1), number(2)
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ("a", a),
+        ("ab", word("ab")),
+        ("a b", row(a, b)),
+        ('"a"', a),
+        ('"smoking hot"', word("smoking hot")),
+        ("s'", variable("s′")),
+        ("s₁", variable("s₁")),
+        ("12", number(12)),
+        ("1/2", Fraction(one, two)),
+        ("1.5", number("1.5")),
+        ("-1", row(operator("−"), one)),
+        ("a - b", row(a, operator("−"), b)),
+        ("a * b", row(a, operator("·"), b)),
+        ("a = b", row(a, relation("="), b)),
+        ("a ≤ b", row(a, relation("≤"), b)),
+        ("a, b", row(a, punctuation(","), b)),
+        ("a|b", row(a, punctuation("|"), b)),
+        ("(a)", Fence(a)),
+        ("[a]", Fence(a, "[", "]")),
+        ("‖a‖", Fence(a, "‖", "‖")),
+        ("{a b}", row(a, b)),
+        ("a_t", Script(a, t)),
+        ("a^2", Script(a, above=two)),
+        ("a_t^2", Script(a, t, two)),
+        ("a^2_t", Script(a, t, two)),
+        ("a_{t+1}", Script(a, row(t, operator("+"), one))),
+        ("a^*", Script(a, above=operator("*"))),
+        ("a_t^*", Script(a, t, operator("*"))),
+        ("(a)_t", Script(Fence(a), t)),
+        ("(a_t)^2", Script(Fence(Script(a, t)), above=two)),
+        ("a_t_s", Script(Script(a, t), s)),
+        ("_t", Script(word(""), t)),
+        ("s^⊤", Script(s, above=word("T"))),
+        ("a\u0302", Accent(a, "hat")),
+        ("a\u0304_t", Script(Accent(a, "bar"), t)),
+        ("a\u0303", Accent(a, "tilde")),
+        ("", Row(())),
+    ],
+)
+def test_what_is_read(text: str, read: Math) -> None:
+    assert mathematics(text) == read
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a_", "a script is missing"), ("a^", "a script is missing"), ("(a", r"'\)' is missing"),
+        ("{a", "'}' is missing"), ("[a", r"'\]' is missing"), ("(a]", r"'\)' is missing"), ("‖a", "'‖' is missing"),
+        ("a_{t", "'}' is missing"),
+    ],
+)  # fmt: skip
+def test_what_is_left_open(text: str, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        mathematics(text)
+
+
+def test_lists_rows_names_and_numbers() -> None:
+    assert listed([a, b, s]) == Row((a, punctuation(","), b, punctuation(","), s))
+    assert listed([a, b], ";") == Row((a, punctuation(";"), b))
+    assert listed([a]) == row(a) == a
+    assert row(a, Row((b, s)), t) == Row((a, b, s, t))
+    assert [name(text) for text in ("s", "s₁", "s′", "ab", "1a", "s_1")] == [
+        a.__class__("s", "variable"), variable("s₁"), variable("s′"), word("ab"), word("1a"), word("s_1"),
+    ]  # fmt: skip
+    assert number("-3/4") == Row((operator("−"), Fraction(number(3), number(4))))

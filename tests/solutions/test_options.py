@@ -1,0 +1,84 @@
+"""What only files ask for: drawn problems with another option chosen, solved with the formulas and without them."""
+
+from typing import Any
+
+import pytest
+
+from rldrill.audit import Finding, examine
+from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.draws import Draws
+from rldrill.problems.errors import FileError
+from rldrill.problems.family import Problem
+from rldrill.solutions.solution import solve
+from rldrill.solutions.value import NoSolution
+
+#: Each with what is changed in drawn givens; None takes a field away.
+OPTIONS: list[tuple[str, dict[str, Any]]] = [
+    ("value-iteration", {"in_place": True}),
+    ("value-iteration", {"action_values": True, "start": None}),
+    ("batch-td-and-mc", {"visits": "every"}),
+    ("batch-td-and-mc", {"visits": "first"}),
+    ("eligibility-trace", {"replacing": True}),
+    ("lambda-return", {"time": 1}),
+    ("td-lambda-backward", {"replacing": True}),
+    ("td-zero", {"td_errors": True}),
+    ("q-learning", {"td_errors": True}),
+    ("sarsa", {"td_errors": True}),
+    ("sarsa-lambda", {"replacing": True}),
+    ("sarsa-lambda", {"watkins": True}),
+    ("sarsa-lambda", {"watkins": True, "replacing": True}),
+    ("softmax-policy", {"entropy": True}),
+    ("linearise", {"step": "1/10", "discretisation": "zero-order hold"}),
+    ("linearise-affine", {"step": "1/10", "discretisation": "zero-order hold"}),
+    ("lqr-backward", {"gamma": "1/2"}),
+    ("lqr-backward", {"convention": "cost-to-go"}),
+    ("lqr-backward", {"Q_T": [[3]]}),
+    ("lqr-backward", {"Q_T": [[3, 1], [1, 2]]}),
+    ("lqr-backward", {"N": [["1/4"]]}),
+    ("lqr-backward", {"N": [["1/4"], ["1/8"]], "gamma": "1/2"}),
+    ("lqr-backward", {"convention": "xuKP", "N": [["1/4"]], "gamma": "1/2"}),
+    ("lqr-gain", {"convention": "xuKP", "P": [[5, 1], [1, 2]]}),
+    ("lqr-gain", {"convention": "cost-to-go", "P": [[5]], "gamma": "1/2", "N": [["1/4"]]}),
+    ("lqr-gain", {"N": [["1/4"], ["1/8"]]}),
+    ("lqr-gain", {"N": [["1/4", 0], ["1/8", "1/2"]], "gamma": "1/2"}),
+    ("lqr-gain", {"gamma": "1/2"}),
+    ("lqr-gain", {"N": [["1/4"]]}),
+    ("lqr-infinite", {"gamma": "1/2"}),
+    ("lqr-infinite", {"N": [["1/4"]]}),
+    ("lqr-infinite", {"N": [["1/4"]], "gamma": "3/4"}),
+    ("lqr-infinite", {"N": [["1/4", 0], [0, "1/8"]]}),
+    ("lqr-infinite", {"convention": "xuKP"}),
+    ("lqr-infinite", {"convention": "cost-to-go", "N": [["1/4"]], "gamma": "3/4"}),
+    ("lqr-reward", {"gamma": "1/2"}),
+    ("lqr-reward", {"N": [["1/4"]]}),
+    ("lqr-reward", {"N": [["1/4"], ["1/8"]], "gamma": "1/2"}),
+    ("lqr-reward", {"Q_T": [[3]]}),
+    ("lqr-reward", {"Q_T": [[3, 1], [1, 2]]}),
+    ("bic", {"criterion": "AIC"}),
+    ("denavit-hartenberg", {"frames": True}),
+    ("denavit-hartenberg", {"base": [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]}),
+    ("denavit-hartenberg", {"frames": True, "base": [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]}),
+    ("forward-kinematics", {"frames": True}),
+    ("forward-kinematics", {"base": {"x": 1, "y": -2, "phi": "pi/2"}}),
+    ("forward-kinematics", {"frames": True, "base": {"x": 1, "y": -2, "phi": "pi/2"}}),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "changed"), OPTIONS, ids=[f"{name}: {', '.join(changed)}" for name, changed in OPTIONS]
+)
+def test_both_ways_to_solve_it_agree(name: str, changed: dict[str, Any]) -> None:
+    family = family_of(name)
+    finding = Finding(family, 1)
+    for level in family.levels:
+        for number in range(4):
+            given = family.draw(level, Draws(f"options {level} {number}")).model_dump(mode="json", exclude_none=True)
+            given = {field: value for field, value in (given | changed).items() if value is not None}
+            try:
+                solution = solve(Problem(family, family.read(given)))
+            except (FileError, NoSolution):
+                continue  # it does not fit this problem
+            examine(solution, finding)
+    assert finding.drawn
+    assert not finding.disagreements
+    assert not finding.refused
