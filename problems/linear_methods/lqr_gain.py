@@ -115,6 +115,8 @@ def draw(level: int, rng: Draws) -> Given:
     discounted = kind in ("discount", "both") or (kind in ("open", "found") and rng.chance(Fraction(1, 3)))
     gamma = rng.fraction("1/2", "1/3", "2/3") if discounted else Fraction(1)
     start = tuple(rng.nonzero(-2, 3) for _ in range(2)) if kind in ("start", "both", "found") else None
+    if inputs == 1 and not all(single_gain(A, B, Fraction(1), P)):
+        return draw(level, rng)  # an entry of the start would play no part
     if kind == "found" and start is not None:
         price = rng.whole(1, 3)
         action = -dot(single_gain(A, B, price / gamma, P), start)
