@@ -32,11 +32,12 @@ TITLES: dict[Backup, str] = {
     "q-learning": "Q-learning",
 }
 
-#: What a reader of such diagrams must know.
-LEGEND = (
-    "In a backup diagram open circles are states, filled dots are actions, and an arc across branches "
-    "takes their maximum; a grey square is the end of an episode."
-)
+
+def legend(*, arcs: bool, ends: bool) -> str:
+    """What a reader of such diagrams must know: of arcs and of ends of episodes, where there may be any."""
+    arc = " An arc across branches takes their maximum." if arcs else ""
+    end = " A grey square is the end of an episode." if ends else ""
+    return f"In a backup diagram open circles are states and filled dots are actions.{arc}{end}"
 
 
 def backup_diagram(backup: Backup, branches: int = 2, steps: int = 2, title: str = "") -> BackupDiagram:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, Probability, Scalar, shown
+from rldrill.problems.exact import Exact, Parameter, Probability, Scalar, dot, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
@@ -236,5 +236,25 @@ def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
     A = rng.choice((((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)),
                     ((0, 1), (-1, 2)), ((1, -1), (1, 0))))  # fmt: skip
     B = rng.choice((((0,), (1,)), ((1,), (0,)), ((1,), (1,)), ((0,), (2,))))
-    Q = ((rng.whole(1, 3), 0), (0, rng.whole(0, 2)))
+    Q = ((rng.whole(1, 3), 0), (0, rng.whole(1, 2)))
     return {"A": A, "B": B, "Q": Q, "R": ((price,),)}
+
+
+def single_gain(A: Rows, B: Rows, price: Fraction, P: Rows) -> tuple[Fraction, ...]:
+    """The gain of a single action from the next value matrix; with a discount γ, for the price divided by it."""
+    inputs = [line[0] for line in B]
+    ahead = [dot(inputs, column) for column in zip(*P, strict=True)]
+    return tuple(dot(ahead, column) / (dot(ahead, inputs) - price) for column in zip(*A, strict=True))
+
+
+def value_before(A: Rows, B: Rows, Q: Rows, P: Rows, gain: Sequence[Fraction], gamma: Fraction) -> Rows:
+    """The value matrix one time earlier, with the gain of a single action."""
+    columns, inputs = tuple(zip(*A, strict=True)), [line[0] for line in B]
+    ahead = [[dot(column, line) for line in zip(*P, strict=True)] for column in columns]  # AᵀP
+    return tuple(
+        tuple(
+            gamma * (dot(row, column) - dot(row, inputs) * entry) - cost
+            for column, entry, cost in zip(columns, gain, costs_, strict=True)
+        )
+        for row, costs_ in zip(ahead, Q, strict=True)
+    )

@@ -132,10 +132,28 @@ def _reward_before(rng: Draws, after: Fraction, unit: int) -> Fraction:
     return rng.fitting(-5, 9, lambda reward: reward + after != 0 and (reward + after) % unit == 0)
 
 
-def draw_episode(rng: Draws, states: tuple[str, ...], terminal: str) -> Trajectory:
-    """An episode through these states to the terminal one, with small whole rewards that are not 0."""
-    rewards = tuple(rng.nonzero(-4, 8) for _ in states)
-    return Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,))
+def draw_whole(
+    rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction
+) -> tuple[Trajectory, dict[str, Fraction]]:
+    """A run, and values of its states, with longest n-step returns that are whole and no state's value.
+
+    The run ends in the state ``end``, or is cut off in another one.
+    """
+    terminal = tuple(state for state in states if state == end)
+    values = draw_values(rng, sorted(set(states) - {end}), gamma)
+    V = values | dict.fromkeys(terminal, Fraction(0))
+    rewards: tuple[Fraction, ...] = ()
+    later = gamma * V[states[-1]]  # what the longest return adds to a reward; the one-step return adds γV
+    for state, after in reversed([*pairwise(states)]):
+        reward = _reward_to_whole(rng, later, gamma * V[after], V[state], gamma.denominator)
+        rewards, later = (reward, *rewards), gamma * (reward + later)
+    return Trajectory(states=states, rewards=rewards, terminal=terminal), values
+
+
+def _reward_to_whole(rng: Draws, later: Fraction, soon: Fraction, value: Fraction, unit: int) -> Fraction:
+    return rng.fitting(
+        -6, 9, lambda reward: (reward + later) % unit == 0 and value not in (reward + soon, reward + later)
+    )
 
 
 #: Whether eligibility traces are replacing.

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
-from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
 from rldrill.solutions.oracle import at
 from rldrill.solutions.work import Work
 
@@ -19,7 +19,13 @@ _TRIALS = Fraction(1, 4), Fraction(3, 4)
 
 
 def find(given: Reversible, work: Work, value: Value) -> Value:
-    """Answer with the number for the letter that makes the value, worked out with the letter in it, what is known."""
+    """Answer with the number for the letter that makes the value, worked out with the letter in it, what is known.
+
+    Raises:
+        NoSolution: the value does not depend on the letter.
+    """
+    if not given.letters:
+        raise NoSolution("what is known says nothing of the letter that is asked for; change what is left open")
     return work.answer(work.equate(given.letter, value, exact(given.known or 0)))
 
 

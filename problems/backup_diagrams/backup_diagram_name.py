@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.backups import BACKUPS, LEGEND, TITLES, Backup, backup_diagram
+from rldrill.problems.backups import BACKUPS, TITLES, Backup, backup_diagram, legend
 from rldrill.problems.document import Beside, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Givens, Question
@@ -12,7 +12,9 @@ from rldrill.problems.parts import Choice, Part
 
 TITLE = "Name of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6, 6.1 to 6.6 and 7.1"
-REVISION = 1
+REVISION = 2
+#: One chooses among the options; and the name must not depend on how many branches or steps are drawn.
+DISTRACTORS = ("diagrams.*.options.*", "diagrams.*.branches", "diagrams.*.steps")
 
 
 class Shown(Givens):
@@ -89,9 +91,10 @@ def question(given: Given) -> Question:
     )
     parts = tuple(
         Part(
-            f"What does {f'diagram {index + 1}' if count > 1 else 'the diagram'} show?",
+            f"Which equation or method does {f'diagram {index + 1}' if count > 1 else 'the diagram'} show?",
             Choice({letter: TITLES[option] for option, letter in item.letters.items()}),
         )
         for index, item in enumerate(given.diagrams)
     )
-    return Question((Paragraph(LEGEND), Beside(drawn)), parts)
+    ends = any(item.shows == "monte-carlo" for item in given.diagrams)
+    return Question((Paragraph(legend(arcs=True, ends=ends)), Beside(drawn)), parts)

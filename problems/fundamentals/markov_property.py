@@ -9,16 +9,16 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Choice, Part, Values, YesNo
+from rldrill.problems.parts import Choice, Number, Part, Values, YesNo
 from rldrill.problems.readings import distribution, note_of
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Markov property"
 SOURCE = "Sutton & Barto 2018, section 3.1"
-REVISION = 1
+REVISION = 2
 
 
 class Seen(NamedTuple):
@@ -27,13 +27,14 @@ class Seen(NamedTuple):
     before: Name
     now: Name
     next: Name
-    weight: Exact
+    weight: Open
 
 
 class Given(Givens):
     """The table, and the next state whose probabilities are asked for.
 
-    The weights are counts, or joint probabilities if they sum to 1; what is not in the table was never seen.
+    The weights are counts, or joint probabilities if they sum to 1; what is not in the table was never seen. A count
+    left open is asked for, so that its present state is consistent with the Markov property.
     """
 
     table: tuple[Seen, ...] = Field(
@@ -49,30 +50,48 @@ class Given(Givens):
     @field_validator("table")
     @classmethod
     def _as_meant(cls, table: tuple[Seen, ...], info: ValidationInfo) -> tuple[Seen, ...]:
-        weights = distribution({number: row.weight for number, row in enumerate(table)}, note_of(info))
+        numbers = {number: row.weight for number, row in enumerate(table) if isinstance(row.weight, Fraction)}
+        if len(numbers) < len(table):
+            return table
+        weights = distribution(numbers, note_of(info))
         return tuple(row._replace(weight=weights[number]) for number, row in enumerate(table))
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        check_one_letter(self)
         for row in self.table:
-            if row.weight < 0:
+            if isinstance(row.weight, Fraction) and row.weight < 0:
                 raise ValueError(f"table: the weight of {', '.join(row[:3])} is below 0")
         (doubled, count), *_ = Counter(row[:3] for row in self.table).most_common(1)
         if count > 1:
             raise ValueError(f"table: {', '.join(doubled)} is given twice; give it once")
-        if not self.probabilities and any(row.weight.denominator != 1 for row in self.table):
+        if not self.probabilities and any(weight.denominator != 1 for weight in self.numbers):
             raise ValueError("table: the weights are neither whole counts nor probabilities that sum to 1")
         for history in self.histories:
-            if not sum(row.weight for row in self.table if row[:2] == history):
+            if all(row.weight == 0 for row in self.table if row[:2] == history):
                 raise ValueError(f"table: the history {', '.join(history)} never occurs; leave its rows out")
         if self.asked not in self.outcomes:
             raise ValueError(f"asked: {self.asked!r} is not a next state of the table")
         return self
 
     @property
+    def missing(self) -> Seen | None:
+        """The row whose count is asked for."""
+        return next((row for row in self.table if isinstance(row.weight, Parameter)), None)
+
+    @property
+    def numbers(self) -> tuple[Fraction, ...]:
+        """The weights that are known."""
+        return tuple(row.weight for row in self.table if isinstance(row.weight, Fraction))
+
+    def parameters(self) -> tuple[str, ...]:
+        """None that an answer may contain: a count left open is asked for."""
+        return ()
+
+    @property
     def probabilities(self) -> bool:
         """Whether the weights are joint probabilities, not counts."""
-        return sum(row.weight for row in self.table) == 1
+        return self.missing is None and sum(self.numbers) == 1
 
     @property
     def histories(self) -> tuple[tuple[str, str], ...]:
@@ -90,36 +109,79 @@ class Given(Givens):
         return tuple(dict.fromkeys(row.next for row in self.table))
 
 
+def check_one_letter(given: Given) -> None:
+    """Demand that at most one count is left open, and that there is a history to find it from.
+
+    Raises:
+        ValueError: there are more, or the present state has no other history.
+    """
+    hidden = [row for row in given.table if isinstance(row.weight, Parameter)]
+    if len(hidden) > 1:
+        raise ValueError(f"table: the weights of {len(hidden)} rows are left open; leave one open at most")
+    if hidden and not _other_history(given, hidden[0]):
+        raise ValueError(f"table: {hidden[0].now!r} has one history only, so nothing says what is left open")
+
+
+def _other_history(given: Given, hidden: Seen) -> bool:
+    return any(now == hidden.now and before != hidden.before for before, now in given.histories)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two histories with two next states; then four; then six, as joint probabilities, with three."""
+    """Two histories with two next states; then four or six; then joint probabilities, or a count to be found."""
     setting = draw_setting(rng)
-    befores, nows, nexts = (setting.states[:count] for count in ((2, 1, 2), (2, 2, 2), (3, 2, 3))[level - 1])
+    finding = level == 3 and rng.chance(Fraction(1, 2))
+    shapes = {1: ((2, 1, 2),), 2: ((2, 2, 2), (3, 2, 2), (2, 2, 3)), 3: ((2, 2, 3), (3, 2, 2))}
+    count = (2 + rng.below(2), 2, 2) if finding else rng.choice(shapes[level])
+    befores, nows, nexts = (rng.sample(setting.states, number) for number in count)
     histories = tuple(product(befores, nows))
-    if level == 3:  # probabilities over 100, every history a multiple of 5/100
+    if level == 3 and not finding:  # probabilities over 100, every history a multiple of 5/100
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
     else:
         totals = dict(zip(histories, (5 * count for count in rng.distinct(len(histories), 1, 8)), strict=True))
+    matters = _where_it_matters(rng, nows)
+    if finding:
+        matters = matters[:1]
     chances = {now: rng.split(len(nexts), (5,)) for now in nows}
     given_history = {history: chances[history[1]] for history in histories}
-    if broken := rng.choice((*nows, None)):
-        given_history[rng.choice(befores), broken] = rng.split(len(nexts), (5,))
+    for now in matters:
+        given_history[rng.choice(befores), now] = _another(rng, chances[now])
     table = tuple(
         Seen(*history, after, chance * totals[history])
         for history in histories
         for after, chance in zip(nexts, given_history[history], strict=True)
     )
+    if finding:
+        place = rng.choice([place for place, row in enumerate(table) if row.now not in matters])
+        table = (*table[:place], table[place]._replace(weight=Parameter("x")), *table[place + 1 :])
     return Given(table=table, asked=rng.choice(nexts), story=setting.story)
+
+
+def _where_it_matters(rng: Draws, nows: tuple[str, ...]) -> tuple[str, ...]:
+    """The present states in which the history matters: in half of the problems none, else one or all."""
+    if rng.chance(Fraction(1, 2)):
+        return ()
+    return rng.choice((*((now,) for now in nows), *([nows] if len(nows) > 1 else [])))
+
+
+def _another(rng: Draws, chances: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+    """Other probabilities of as many next states."""
+    while (other := rng.split(len(chances), (5,))) == chances:
+        pass
+    return other
 
 
 def question(given: Given) -> Question:
     """The table with a line for every history; probabilities, the verdict, and the state at which it breaks."""
     weight = {row[:3]: row.weight for row in given.table}
-    told = "the joint probability" if given.probabilities else "how often"
-    of = "of three states in a row" if given.probabilities else "three states were seen in a row"
     rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."
+    counts = "how often three successive states $s_{t-1}, s_t, s_{t+1}$ were observed"
+    told = "the joint probability of three successive states $s_{t-1}, s_t, s_{t+1}$" if given.probabilities else counts
+    rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."
+    hidden = given.missing
+    lost = " One of the counts, $x$, is not known." if hidden else ""
     blocks = (
-        Paragraph(f"{given.story} Only its states are looked at.".strip()),
-        Paragraph(f"This table tells {told} {of}: $s_{{t-1}}$, $s_t$ and $s_{{t+1}}$.{rest}"),
+        Paragraph(f"{given.story} Only the states are considered, not the actions and rewards.".strip()),
+        Paragraph(f"This table gives {told}.{rest}{lost}"),
         Table(
             header=("$s_{t-1}$", "$s_t$", *(f'$s_{{t+1}} = "{after}"$' for after in given.outcomes)),
             rows=tuple(
@@ -129,18 +191,25 @@ def question(given: Given) -> Question:
         ),
     )
     ask = f'What is $Pr(s_{{t+1}} = "{given.asked}" | s_{{t-1}}, s_t)$ for every history $s_{{t-1}}, s_t$ of the table?'
-    parts = [
-        Part(ask, Values("Pr", given.histories)),
-        Part("Can the process of these states be Markov, going by this table?", YesNo()),
-    ]
+    consistent = "Is this table consistent with the Markov property?"
+    parts = []
+    if hidden:
+        wanted = f'What must $x$ be so that the distribution of $s_{{t+1}}$ after $s_t = "{hidden.now}"$'
+        parts.append(Part(f"{wanted} does not depend on $s_{{t-1}}$?", Number(), zero=True))
+        ask, consistent = (
+            f"With this $x$: {ask[0].lower()}{ask[1:]}",
+            "Is the whole table then consistent with the Markov property?",
+        )
+    parts += [Part(ask, Values(f'Pr("{given.asked}"|·)', given.histories)), Part(consistent, YesNo())]
     if options := where(given):
-        parts.append(Part("In which present state $s_t$ does it matter what $s_{t-1}$ was?", Choice(options)))
+        asked = "For which present state $s_t$ does the distribution of $s_{t+1}$ depend on $s_{t-1}$?"
+        parts.append(Part(asked, Choice(options)))
     return Question(blocks, tuple(parts))
 
 
 def where(given: Given) -> dict[str, str]:
     """The options of the last part: each present state, none, several; no options where there is one state only."""
-    if not 1 < len(given.present) <= 20:
+    if given.missing or not 1 < len(given.present) <= 20:
         return {}
-    texts = (*given.present, "in none of them", "in more than one of them")
+    texts = (*given.present, "for none of them", "for more than one of them")
     return dict(zip("ABCDEFGHIJKLMNOPQRSTUVWXYZ", texts, strict=False))

@@ -9,7 +9,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
-from rldrill.problems.linear_quadratic import Conventional, quadratic
+from rldrill.problems.linear_quadratic import Conventional, quadratic, single_gain
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatrixField,
@@ -115,8 +115,8 @@ def draw(level: int, rng: Draws) -> Given:
     gamma = rng.fraction("1/2", "1/3", "2/3") if discounted else Fraction(1)
     start = tuple(rng.nonzero(-2, 3) for _ in range(2)) if kind in ("start", "both", "found") else None
     if kind == "found" and start is not None:
-        (price,), *_ = R
-        action = -dot(_gain(A, B, price / gamma, P), start)
+        price = rng.whole(1, 3)
+        action = -dot(single_gain(A, B, price / gamma, P), start)
         return Given(A=A, B=B, R=((_OPEN,),), P=P, gamma=gamma, start=start, action=action)
     return Given(A=A, B=B, R=((_OPEN,),) if kind == "open" else R, P=P, gamma=gamma, start=start)
 
@@ -131,13 +131,6 @@ _SYSTEMS: tuple[Rows, ...] = tuple(
     )
 )  # fmt: skip
 _INPUTS = ((1, 1), (2, 1), (1, 2), (1, -1))
-
-
-def _gain(A: Rows, B: Rows, price: Fraction, P: Rows) -> tuple[Fraction, ...]:
-    """The gain where there is one action, without a discount; with one, the price is γ times less."""
-    inputs = [line[0] for line in B]
-    ahead = [dot(inputs, column) for column in zip(*P, strict=True)]
-    return tuple(dot(ahead, column) / (dot(ahead, inputs) - price) for column in zip(*A, strict=True))
 
 
 def _open(given: Given) -> str:

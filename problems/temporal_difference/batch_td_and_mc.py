@@ -1,6 +1,7 @@
 """What batch TD(0) and batch Monte Carlo make of the same episodes."""
 
 from collections import Counter
+from fractions import Fraction
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -16,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Batch TD(0) and batch Monte Carlo"
 SOURCE = "Sutton & Barto 2018, section 6.3"
-REVISION = 1
+REVISION = 2
 
 
 class Observed(Givens):
@@ -57,43 +58,76 @@ class Given(Givens):
         return tuple(dict.fromkeys(state for episode in self.episodes for state in episode.states))
 
 
+#: The paths of the episodes of each level, by the numbers of the states.
+_PATHS: dict[int, tuple[tuple[tuple[int, ...], ...], ...]] = {
+    1: (((0, 1), (1,), (1,), (1,)),),
+    2: (
+        ((0, 1), (0, 1), (0,), (1,), (1,), (1,)),
+        ((0, 1), (1, 0), (1,), (1,), (0,)),
+        ((0, 1), (0,), (0,), (1,), (1,)),
+        ((0, 0, 1), (0, 1), (1,), (1,)),
+    ),
+    3: (
+        ((0, 1, 2), (0, 2), (1, 2), (1, 2), (2,), (2,)),
+        ((0, 1), (1, 2), (1, 2), (2,), (2,)),
+        ((0, 1, 2), (0, 1), (1, 2), (2,)),
+        ((0, 1, 1), (1,), (0,), (1,)),
+    ),
+}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two states, and one episode through both; then more of both; then three states with γ left open."""
+    """Two states, and one episode through both; then more of both; then with γ left open."""
     setting = draw_setting(rng)
-    named = rng.sample(setting.states, 2 if level < 3 else 3)
-    paths = {
-        1: ((0, 1), (1,), (1,), (1,)),
-        2: ((0, 1), (0, 1), (0,), (1,), (1,), (1,), (1,), (1,)),
-        3: ((0, 1, 2), (0, 2), (1, 2), (1, 2), (2,), (2,)),
-    }[level]
+    named = rng.shuffled(setting.states)[:3]
+    paths = rng.choice(_PATHS[level])
+    episodes = _episodes(rng, named, paths, level)
+    while not _all_count(episodes):
+        episodes = _episodes(rng, named, paths, level)
+    twice = any(len(set(path)) < len(path) for path in paths)
+    return Given(
+        episodes=episodes,
+        gamma=Parameter("gamma") if level == 3 else Fraction(1) if level == 1 else rng.fraction("1/2", "1"),
+        visits=rng.choice(("first", "every")) if twice else "every",
+    )
+
+
+def _episodes(
+    rng: Draws, named: tuple[str, ...], paths: tuple[tuple[int, ...], ...], level: int
+) -> tuple[Observed, ...]:
     high = 4 if level > 1 else 3
     seen = Counter((tuple(named[place] for place in path), tuple(rng.whole(0, high) for _ in path)) for path in paths)
-    return Given(
-        episodes=tuple(
-            Observed(states=states, rewards=rewards, times=times) for (states, rewards), times in seen.items()
-        ),
-        gamma=Parameter("gamma") if level == 3 else rng.fraction("1") if level == 1 else rng.fraction("1/2", "1"),
-    )
+    return tuple(Observed(states=states, rewards=rewards, times=times) for (states, rewards), times in seen.items())
+
+
+def _all_count(episodes: tuple[Observed, ...]) -> bool:
+    """Whether each reward that ends an episode differs from the mean reward of its state, which it then changes."""
+    earned: dict[str, list[Fraction]] = {}
+    for episode in episodes:
+        for state, reward in zip(episode.states, episode.rewards, strict=True):
+            earned.setdefault(state, []).extend([reward] * episode.times)
+    means = {state: sum(rewards, Fraction(0)) / len(rewards) for state, rewards in earned.items()}
+    return all(episode.rewards[-1] != means[episode.states[-1]] for episode in episodes)
 
 
 def question(given: Given) -> Question:
     """The episodes as Example 6.4 lists them; what each method converges to is a part."""
     blocks = (
-        Paragraph("These episodes were seen: state, reward, state, reward and so on. Each ends after its last reward."),
+        Paragraph("These episodes are observed (state, reward, state, reward, …). Each ends after its last reward."),
         Table(
             header=("times", "episode"),
             rows=tuple((f"${episode.times}$", run_text(episode)) for episode in given.episodes),
         ),
         Paragraph(discount(given.gamma)),
         Paragraph(
-            "All the episodes are presented again and again as one batch. The values change only after each whole "
-            "batch, by the sum of all the updates in it, with a small constant step size, until they no longer change."
+            "All episodes are presented again and again as one batch. The values change only at the end of each batch, "
+            "by the sum of all its updates with a small constant step size, until they have converged."
         ),
     )
     tail = in_open(given)
     key = Values("V", given.states)
     what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
-    ask = f"What are {what} at the end if the updates are those of"
+    ask = f"To what {'does' if len(given.states) == 1 else 'do'} {what} converge with the updates of"
     return Question(
         blocks,
         (

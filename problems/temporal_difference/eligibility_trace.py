@@ -1,26 +1,33 @@
 """The eligibility traces of all states along a run, accumulating or replacing."""
 
+from dataclasses import replace
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, OpenProbability, Parameter
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import Discount, OpenProbability, Parameter, shown
+from rldrill.problems.family import Question
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.runs import Replacing
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Eligibility traces"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 1
+REVISION = 2
 
 
-class Given(Givens):
-    """The states visited at times 0, 1, …, γ and λ, and the times at which the traces are asked for."""
+class Given(Reversible):
+    """The states visited at times 0, 1, …, γ and λ, and the times at which the traces are asked for.
+
+    Where ``known`` is the trace of the first state at the first of these times, what is left open is asked for, and
+    then the traces at the other times.
+    """
 
     states: tuple[Name, ...] = Field(
         min_length=1, max_length=301, description="The states visited at the times 0, 1, and so on."
@@ -48,18 +55,41 @@ class Given(Givens):
         return tuple(dict.fromkeys(self.states))
 
 
+#: γ and λ; traces decay by their product, which is 1/2 or 1/3.
+_DECAYS = tuple(
+    (Fraction(gamma), Fraction(lam))
+    for gamma, lam in (("1/2", "2/3"), ("2/3", "3/4"), ("3/4", "2/3"), ("2/3", "1/2"), ("4/5", "5/8"), ("5/6", "3/5"))
+)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """Two visits and a return; then five visits of three states; then with λ left open."""
+    """Two visits and a return; then four or five visits; then with a letter left open, or to be found."""
     setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
-    tours = ((first, second, first, third, first), (first, second, first, third, second),
-             (first, first, second, third, first), (first, second, third, second, first))  # fmt: skip
-    return Given(
-        states=(first, second, first) if level == 1 else rng.choice(tours),
-        gamma=rng.fraction("1/2", "4/5"),
-        lam=Parameter("lambda") if level == 3 else rng.fraction("1/2", "1/4"),
-        asked=(2,) if level == 1 else (2, 4),
+    a, b, c = rng.shuffled(setting.states)[:3]
+    gamma, lam = (rng.fraction("1/2", "2/3"), Fraction(1, 2)) if level == 1 else rng.choice(_DECAYS)
+    if level == 1:
+        return Given(states=(a, b, a), gamma=gamma, lam=lam, asked=(2,))
+    tours = (a, b, a, c, a), (a, b, a, c, b), (a, a, b, c, a), (a, b, c, b, a), (a, b, b, a), (a, b, a, b), (a, a, b, a)
+    states = rng.choice(tours)
+    last = len(states) - 1
+    given = Given(
+        states=states,
+        gamma=gamma,
+        lam=lam,
+        asked=rng.choice(((last - 1, last), (last,))) if level == 2 else (last,),
+        replacing=rng.chance(Fraction(1, 3)),
     )
+    kind = rng.below(4)
+    if level == 2:
+        return given
+    update: dict[str, object] = {"gamma": Parameter("gamma")} if kind % 2 else {"lam": Parameter("lambda")}
+    if kind < 2:
+        update = {"gamma": Fraction(1, 2), "lam": Fraction(1, 2)} | update
+    else:
+        again = states[1] == a
+        known = Fraction(1) if again and given.replacing else gamma * lam + again
+        update |= {"known": known, "asked": (1, last), "replacing": given.replacing and not again}
+    return given.model_copy(update=update)
 
 
 def question(given: Given) -> Question:
@@ -74,18 +104,26 @@ def question(given: Given) -> Question:
             header=("$t$", *(f"${time}$" for time in range(len(given.states)))),
             rows=(("$s_t$", *given.states),),
         ),
-        Paragraph(f"{discount(given.gamma)} {trace_parameter(given.lam)}"),
+        Paragraph(unknown(given, f"{discount(given.gamma)} {trace_parameter(given.lam)}")),
         Paragraph(
-            f"Each state has {kind}. All traces are $0$ before the first visit, "
-            "and all are updated at every time, from $t = 0$ on."
+            f"Each state has {kind}. All traces are $0$ before the first visit, and all are updated at every time, "
+            "from $t = 0$ on."
         ),
     )
-    every = "all states" if len(given.visited) > 1 else "the state"
-    parts = tuple(
-        Part(
-            f"What are the traces $e(s)$ of {every} after the update at $t = {time}${in_open(given)}?",
-            Values("e", given.visited),
+    first = given.states[0]
+    parts = [_traces(given, time) for time in given.asked]
+    if given.known is not None:
+        letter = letter_asked(given)
+        told = (
+            f'After the update at $t = {given.asked[0]}$ the trace of {first} is $e("{first}") = {shown(given.known)}$.'
         )
-        for index, time in enumerate(given.asked)
-    )
-    return Question(blocks, parts)
+        parts[0] = replace(letter, ask=f"{told} {letter.ask}")
+    return Question(blocks, tuple(parts))
+
+
+def _traces(given: Given, time: int) -> Part:
+    states = given.visited
+    asked = "traces of all states" if len(states) > 1 else f"trace of {states[0]}"
+    verb = "are" if len(states) > 1 else "is"
+    ask = f"What {verb} the {asked} after the update at $t = {time}${in_open(given)}?"
+    return Part(ask, Values("e", states))

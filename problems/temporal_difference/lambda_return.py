@@ -1,33 +1,37 @@
 """The λ-return of an episode, or of a run that is cut off, from its n-step returns."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discounts, Exact, OpenProbability, Parameter
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import Discounts, Open, OpenProbability, Parameter, shown
+from rldrill.problems.family import Question
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_episode, per_step, seen
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 1
+REVISION = 2
+#: The table gives the value of every state, that of the start too: which of them count is a part of the question.
+DISTRACTORS = ("values.*",)
 
 
-class Given(Givens):
+class Given(Reversible):
     """An episode, the current values, γ and λ, and the time from which the λ-return is asked.
 
     Instead of one discount there may be a list with one for every step. A run that is cut off, in a state that is not
-    terminal, goes on with the value of that state.
+    terminal, goes on with the value of that state. Where ``known`` is the λ-return, what is left open is asked for.
     """
 
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
-    values: dict[Name, Exact] = Field(description="The current value of every state.")
+    values: dict[Name, Open] = Field(description="The current value of every state.")
     gamma: Discounts
     lam: OpenProbability = Field(description="How much later returns count.")
     time: int = Field(default=0, ge=0, description="The time from which the return is asked for.", examples=[1])
@@ -44,7 +48,7 @@ class Given(Givens):
     @property
     def in_parts(self) -> bool:
         """Whether the returns that are averaged are a part of their own; they say nothing about an open λ."""
-        return self.bootstraps and not isinstance(self.lam, Parameter)
+        return self.bootstraps and not isinstance(self.lam, Parameter) and self.known is None
 
     @property
     def bootstraps(self) -> bool:
@@ -58,29 +62,60 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """An episode of two steps; then of three; then of four, with λ left open."""
+    """An episode of two steps; then three steps, to the end or cut off; then a letter left open, or to be found."""
     setting = draw_setting(rng)
-    steps = level + 1
-    states = rng.shuffled(setting.states)[:steps]
-    return Given(
-        trajectory=draw_episode(rng, states, setting.terminal),
-        values={state: rng.nonzero(-4, 10) for state in setting.states if state in states},
-        gamma=rng.fraction("1/2", "1") if level == 3 else rng.fraction("1/2", "4/5"),
-        lam=Parameter("lambda") if level == 3 else rng.fraction("1/2", "1/4"),
-    )
+    end, gamma = setting.terminal, rng.fraction("1/2", "4/5", "3/4")
+    lam = rng.fraction("1/2", "1/4", "3/4")
+    a, b, c, d = rng.shuffled(setting.states)
+    if level == 1:
+        return _matters(rng, (a, b, end), end, gamma, lam)
+    longer = rng.choice(((a, b, c, end), (a, b, c, d), (a, b, a, end), (a, b, b, end)))
+    if level == 2:
+        return _matters(rng, longer, end, gamma, lam)
+    kind = rng.below(3)
+    given = _matters(rng, longer if kind == 0 else rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
+    if kind == 0:
+        return given.model_copy(update={"lam": Parameter("lambda")})
+    if kind == 1:
+        return given.model_copy(update={"lam": Parameter("lambda"), "known": _average(given)})
+    return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+
+
+def _matters(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, lam: Fraction) -> Given:
+    """A run whose λ-return depends on γ and λ."""
+    while True:
+        run, values = draw_whole(rng, states, end, gamma)
+        given = Given(trajectory=run, values=values, gamma=gamma, lam=lam)
+        if all(_average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")):
+            return given
+
+
+def _average(given: Given) -> Fraction:
+    """The λ-return of a run in which nothing is left open, backwards in time."""
+    run, lam = given.trajectory, Fraction(given.lam)
+    V = {state: Fraction(value) for state, value in given.values.items()}
+    worth = V.get(run.states[-1], Fraction(0))
+    for after, reward in zip(reversed(run.states), reversed(run.rewards), strict=False):
+        worth = reward + Fraction(str(given.gamma)) * ((1 - lam) * V.get(after, Fraction(0)) + lam * worth)
+    return worth
 
 
 def question(given: Given) -> Question:
     """The returns that are averaged, then their average; in an open λ the average alone."""
     t = given.time
+    letter = "The value $x$ is left open." if "x" in given.letters else ""
+    told = f"These are the current values. {discount(given.gamma)} {trace_parameter(given.lam)} {letter}"
     blocks = (
         *seen(given.trajectory),
-        Paragraph(f"The current values are these. {discount(given.gamma)} {trace_parameter(given.lam)}"),
+        Paragraph(unknown(given, told).strip()),
         values_table(given.values),
         *cut_off(given.trajectory),
     )
     whole = "episode" if given.trajectory.ends else "run"
     average = f"What is the λ-return $R_{{{t}}}^{{(λ)}}$ of this {whole}{in_open(given)}?"
+    if given.known is not None:
+        told = f"The λ-return of this {whole} is $R_{{{t}}}^{{(λ)}} = {shown(given.known)}$."
+        return Question((*blocks, Paragraph(told)), (letter_asked(given),))
     if not given.in_parts:
         return Question(blocks, (Part(average, Number()),))
     entries = tuple(f"R_{{{t}}}^{{({n})}}" for n in range(1, given.steps_left + 1))

@@ -1,34 +1,37 @@
 """The values after several visits by the sample average, or by a constant step size where the returns drift."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, StepSize, shown
-from rldrill.problems.family import Givens, Question
+from rldrill.problems.exact import Exact, Open, Parameter, StepSize, shown
+from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys, values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, step_size
+from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Sample average"
 SOURCE = "Sutton & Barto 2018, sections 2.4 and 2.5"
-REVISION = 1
+REVISION = 2
 
 
-class Given(Givens):
+class Given(Reversible):
     """The values so far, how often each state was visited, and further visits: pairs of a state and its return.
 
-    With a step size ``alpha`` all visits are to one state, and the counts play no part.
+    With a step size ``alpha`` all visits are to one state, and the counts play no part. Where ``known`` is the value of
+    the first visited state after all visits, what is left open is asked for.
     """
 
     values: dict[Name, Exact] = Field(min_length=1, description="The value of every state so far.")
     counts: dict[Name, int] = Field(
         default_factory=dict, description="How often each state was visited so far; without a step size it is needed."
     )
-    visits: tuple[tuple[Name, Exact], ...] = Field(
+    visits: tuple[tuple[Name, Open], ...] = Field(
         min_length=1, max_length=300, description="The visits after that, each as [state, return]."
     )
     alpha: StepSize | None = Field(default=None, description="The step size; without it the values stay averages.")
@@ -59,57 +62,100 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One visit; then four visits of two states; then four with a constant step size left open."""
+    """One visit; then three or four visits of two states; then a step size left open, or a letter to be found."""
     setting = draw_setting(rng)
-    first, second = rng.shuffled(setting.states)[:2]
-    if level == 3:
-        return Given(
-            values={first: rng.nonzero(-4, 8)},
-            visits=tuple((first, rng.nonzero(-4, 9)) for _ in range(4)),
-            alpha=Parameter("alpha"),
-        )
-    named = (first,) if level == 1 else (first, second)
-    states = (first,) if level == 1 else rng.shuffled((first, first, second, first, second))
+    a, b = rng.shuffled(setting.states)[:2]
+    if level == 1:
+        return _averaged(rng, (a,))
+    tours = (a, a, b), (a, b, a), (b, a, b, a), (a, a, b, a), (b, a, a, b), (a, b, b, a)
+    if level == 2 and rng.chance(Fraction(2, 3)):
+        return _averaged(rng, rng.choice(tours))
+    count = 2 + rng.below(3)
+    returns = [rng.nonzero(-4, 9) for _ in range(count)]
+    value = _before(rng, returns)
+    if level == 2:
+        alpha = rng.fraction("1/2", "1/3") if count < 4 else Fraction(1, 2)
+        return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=alpha)
+    kind = rng.below(4)
+    if kind == 0:
+        return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=Parameter("alpha"))
+    if kind == 1:  # the step size from one visit
+        alpha = rng.fraction("1/2", "1/3", "1/4", "2/3", "1/5", "3/4")
+        first = rng.fitting(-9, 12, lambda each: each != value and (alpha * (each - value)).denominator == 1)
+        known = value + alpha * (first - value)
+        return Given(values={a: value}, visits=((a, first),), alpha=Parameter("alpha"), known=known)
+    hidden = rng.below(count)
+    visits = tuple((a, each if index != hidden else Parameter("x")) for index, each in enumerate(returns))
+    if kind == 2:
+        alpha, known = Fraction(1, 2), value
+        for each in returns:
+            known += alpha * (each - known)
+        return Given(values={a: value}, visits=visits, alpha=alpha, known=known)
+    before = 1 + rng.below(5)
+    known = (before * value + sum(returns)) / (before + count)
+    return Given(values={a: value}, counts={a: before}, visits=visits, known=known)
+
+
+def _averaged(rng: Draws, states: tuple[str, ...]) -> Given:
+    named = sorted(set(states))
+    visits = tuple((state, rng.nonzero(-6, 12)) for state in states)
     return Given(
-        values={state: rng.nonzero(-4, 10) for state in named},
-        counts={state: 2 + rng.below(4) if level == 1 else 1 + rng.below(3) for state in named},
-        visits=tuple((state, rng.nonzero(-6, 12)) for state in states),
+        values={state: _before(rng, [each for visited, each in visits if visited == state]) for state in named},
+        counts={state: (2 if len(states) == 1 else 1) + rng.below(4) for state in named},
+        visits=visits,
     )
+
+
+def _before(rng: Draws, returns: list[Fraction]) -> Fraction:
+    """An average so far that the returns change."""
+    return rng.fitting(-4, 10, lambda value: len(returns) * value != sum(returns))
 
 
 def question(given: Given) -> Question:
     """The values so far, the further visits, and the step size that is used."""
     if given.alpha is None:
-        return Question(
-            (
-                Paragraph("Every-visit Monte Carlo averages the returns after all visits to a state. So far it has:"),
-                _averages(given),
-                *_visits(given, "averaged in"),
+        blocks: tuple[Block, ...] = (
+            Paragraph(
+                "Every-visit Monte Carlo estimates $V(s)$ by the average of the returns after all $n(s)$ visits."
             ),
-            (Part(_values_asked(given), Values("V", given.visited)),),
+            Paragraph("The estimates so far are:"),
+            _averages(given),
+            *_visits(given, "averaged in"),
         )
+        if given.known is not None:
+            return Question((*blocks, _told(given)), (letter_asked(given),))
+        return Question(blocks, (Part(_values_asked(given), Values("V", given.visited)),))
     state, count = given.visited[0], len(given.visits)
     blocks = (
-        Paragraph("The world drifts, so Monte Carlo uses a constant step size. So far it has:"),
+        Paragraph(
+            "The environment changes over time, so Monte Carlo uses a constant step size. The estimate so far is:"
+        ),
         values_table(given.values),
         *_visits(given, "used for one update"),
-        Paragraph(step_size(given.alpha)),
+        Paragraph(unknown(given, step_size(given.alpha))),
     )
+    if given.known is not None:
+        return Question((*blocks, _told(given)), (letter_asked(given),))
     tail = in_open(given)
     entries = tuple(f"w_{{{index + 1}}}" for index in range(count))
     after = f'$V("{state}")$ after {"all these updates" if count > 1 else "the update"}'
     value = f"What is {after}{tail}?"
     if count == 1:
-        weights = Part(f"With which weight $w_1$ does the return enter {after}{tail}?", Number())
+        weights = Part(f"With what weight $w_1$ does the return enter {after}{tail}?", Number())
     else:
-        ask = f"With which weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
+        ask = f"With what weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
         weights = Part(f"{ask} {after}{tail}?", Numbers(entries))
     return Question(blocks, (weights, Part(value, Number())))
 
 
+def _told(given: Given) -> Paragraph:
+    letter = "The return $x$ is not known. " if given.letter == "x" else ""
+    return Paragraph(f'{letter}In the end $V("{given.visited[0]}") = {shown(given.known or 0)}$.')
+
+
 def _values_asked(given: Given) -> str:
     state, *others = given.visited
-    asked = "the value of every state that was visited" if others else f'$V("{state}")$'
+    asked = "the value of every visited state" if others else f'$V("{state}")$'
     return f"What is {asked} afterwards?"
 
 
@@ -126,9 +172,9 @@ def _averages(given: Given) -> Table:
 def _visits(given: Given, used: str) -> tuple[Block, ...]:
     if len(given.visits) == 1:
         ((state, value),) = given.visits
-        return (Paragraph(f"Now {state} is visited, and the return after this visit is ${shown(value)}$."),)
+        return (Paragraph(f"Then {state} is visited, and the return after this visit is ${shown(value)}$."),)
     return (
-        Paragraph(f"Then these visits follow. The return after each is {used}, in this order."),
+        Paragraph(f"Then these visits follow. The return after each of them is {used}, in this order."),
         Table(
             header=("visit", *(f"${index + 1}$" for index in range(len(given.visits)))),
             rows=(

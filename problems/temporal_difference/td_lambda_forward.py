@@ -1,7 +1,6 @@
 """The values of some states of a run after TD(λ) updates in the forward view."""
 
 from fractions import Fraction
-from itertools import pairwise
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -13,7 +12,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, Trajectory, ValueRun, cut_off, draw_values, run_situation, sought_parts
+from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, run_situation, sought_parts
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
@@ -75,29 +74,10 @@ def _run(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) 
 
 
 def _whole(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
-    terminal = tuple(state for state in states if state == end)
     gamma = rng.fraction("1/2", "4/5", "3/4")
-    values = draw_values(rng, [state for state in states if state not in terminal], gamma)
-    V = values | dict.fromkeys(terminal, Fraction(0))
-    rewards: tuple[Fraction, ...] = ()
-    later = gamma * V[states[-1]]  # what the longest return has after the reward; the one-step return has γV
-    for state, after in reversed([*pairwise(states)]):
-        reward = _reward(rng, later, gamma * V[after], V[state], gamma.denominator)
-        rewards, later = (reward, *rewards), gamma * (reward + later)
-    return Given(
-        trajectory=Trajectory(states=states, rewards=rewards, terminal=terminal),
-        values=values,
-        alpha=rng.fraction("1/2", "1/4"),
-        gamma=gamma,
-        lam=rng.fraction("1/2", "1/4", "3/4"),
-        asked=asked,
-    )
-
-
-def _reward(rng: Draws, later: Fraction, soon: Fraction, value: Fraction, unit: int) -> Fraction:
-    return rng.fitting(
-        -6, 9, lambda reward: (reward + later) % unit == 0 and value not in (reward + soon, reward + later)
-    )
+    run, values = draw_whole(rng, states, end, gamma)
+    alpha, lam = rng.fraction("1/2", "1/4"), rng.fraction("1/2", "1/4", "3/4")
+    return Given(trajectory=run, values=values, alpha=alpha, gamma=gamma, lam=lam, asked=asked)
 
 
 def _learned(run: Given) -> Fraction:

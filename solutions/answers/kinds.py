@@ -248,9 +248,9 @@ class ValuesAnswer(Answer[parts.Values]):
         return [(self._left(key), typeset_answer(value[key])) for key in self.kind.keys]
 
     def _left(self, key: parts.Key) -> Math:
-        if "·" in self.kind.of and isinstance(key, str):
-            return mathematics(self.kind.of.replace("·", f'"{key}"'))
         names = (key,) if isinstance(key, str) else key
+        if "·" in self.kind.of:
+            return mathematics(self.kind.of.replace("·", ", ".join(f'"{each}"' for each in names)))
         return row(mathematics(self.kind.of), Fence(listed(map(name, names))))
 
     def how_to_type(self) -> str:

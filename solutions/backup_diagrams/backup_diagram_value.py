@@ -11,6 +11,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
     BELLMAN_OPTIMALITY_V,
@@ -24,7 +25,14 @@ from rldrill.solutions.work import Work
 def solve(given: Given, work: Work) -> None:
     """Averages where there is no arc, the best action where there is one."""
     known = _known(given)
-    work.answer(_root(given, work, known, _inner(given, work, known)))
+    _answer(given, work, _root(given, work, known, _inner(given, work, known)))
+
+
+def _answer(given: Given, work: Work, value: Value) -> None:
+    if given.known is None:
+        work.answer(value)
+    else:
+        find(given, work, value)
 
 
 def _known(given: Given) -> dict[str, Any]:
@@ -60,13 +68,18 @@ def _root(given: Given, work: Work, known: dict[str, Any], values: dict[str, Val
 
 
 def _has_policy(given: Given) -> bool:
-    return given.policy is not None
+    return given.policy is not None and "p" not in given.letters
+
+
+def _compares(given: Given) -> bool:
+    """Whether the actions that are averaged could be compared, since nothing is left open."""
+    return given.policy is not None and not given.letters
 
 
 @slip(
     "max-for-mean",
     "There is no arc, so the actions are averaged with the probabilities beside them; only an arc takes the maximum.",
-    when=_has_policy,
+    when=_compares,
 )
 def maximum(given: Given, work: Work) -> None:
     """As if there were arcs."""
@@ -114,7 +127,7 @@ def gamma_on_reward(given: Given, work: Work) -> None:
     """As if every reward were γ times as much."""
     known = _known(given)
     known["R"] = {key: known["gamma"] * reward for key, reward in known["R"].items()}
-    work.answer(_root(given, work, known, _inner(given, work, known)))
+    _answer(given, work, _root(given, work, known, _inner(given, work, known)))
 
 
 @slip(
@@ -125,7 +138,7 @@ def gamma_on_reward(given: Given, work: Work) -> None:
 def one_level(given: Given, work: Work) -> None:
     """As if γ were 1 at the root."""
     known = _known(given)
-    work.answer(_root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
+    _answer(given, work, _root(given, work, known | {"gamma": ONE}, _inner(given, work, known)))
 
 
 MISCONCEPTIONS = (maximum, mean, total, forgot_gamma, gamma_on_reward, one_level)
@@ -133,6 +146,8 @@ MISCONCEPTIONS = (maximum, mean, total, forgot_gamma, gamma_on_reward, one_level
 
 def oracle(given: Given) -> Answers:
     """Down from the root, one branch after the other."""
+    if given.known is not None:
+        return (tried(given, lambda trial: float(oracle(trial)[0])),)
     gamma = at(given.gamma)
     over = _over(given)
 

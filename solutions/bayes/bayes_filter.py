@@ -7,7 +7,7 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
@@ -39,8 +39,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         belief = _moves(given.run[0], work, moves, start, {**known, "weighed": weighed})
         value = work.answer(work.equate(given.left_open[0], belief[state], share))
         work.say(f"With this ${given.left_open[0]}$ the first step is:")
-        start = put_in(start, value)
-        known |= {name: put_in(known[name], value) for name in ("motion", "likelihood")}
+        start = knowns.settled(start, value)
+        known |= {name: knowns.settled(known[name], value) for name in ("motion", "likelihood")}
     belief = start
     for step, event in enumerate(given.run, 1):
         before = belief = start if afresh else belief

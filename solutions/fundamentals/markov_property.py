@@ -1,13 +1,14 @@
 """Conditional probabilities from the table, compared history by history."""
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.document import joined
-from rldrill.problems.fundamentals.markov_property import Given, where
+from rldrill.problems.fundamentals.markov_property import Given, Seen, where
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value, exact, sign
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_rational, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
@@ -23,13 +24,30 @@ Chances = dict[tuple[str, str, str], Value]
 
 
 def solve(given: Given, work: Work) -> None:
-    """The probability asked for after every history, then the other next states, then the comparison."""
-    chances = _chances(given, work)
+    """A count that is missing; then the probability asked for after every history, the others, and the comparison."""
+    whole = _completed(given, work)
+    chances = _chances(whole, work)
     work.recall(MARKOV_PROPERTY)
-    matters = _matters(given, chances)
-    for now in given.present:
-        _compare(given, work, now, chances, differs=now in matters)
+    matters = _matters(whole, chances)
+    for now in whole.present:
+        _compare(whole, work, now, chances, differs=now in matters)
     _conclude(given, work, matters)
+
+
+def _completed(given: Given, work: Work) -> Given:
+    """The table with the count that is asked for: its share must be that after another history."""
+    hidden = given.missing
+    if hidden is None:
+        return given
+    other = next(h for h in given.histories if h[1] == hidden.now and h[0] != hidden.before)
+    share = _probability(given, work, hidden[:2], hidden.next)
+    wanted = _probability(given, work, other, hidden.next)
+    work.say("Both must be the same:")
+    count = work.answer(work.equate("x", share, wanted))
+    if not is_rational(count):
+        raise NoSolution("the missing count must be a number")
+    rows = [row._replace(weight=Fraction(int(count.p), int(count.q))) if row == hidden else row for row in given.table]
+    return given.model_copy(update={"table": tuple(rows)})
 
 
 def _chances(given: Given, work: Work) -> Chances:
@@ -67,9 +85,10 @@ def _counts(given: Given) -> dict[tuple[str, str, str], Value]:
 
 def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:
     verdict = _verdict(given, matters)
+    work.say(f"So the table is {'' if verdict[0] else 'not '}consistent with the Markov property.")
     work.answer(verdict[0])
     if len(verdict) > 1:
-        work.say(f"What $s_{{t-1}}$ was matters {_in_words(matters)}.")
+        work.say(f"The distribution of $s_{{t+1}}$ depends on $s_{{t-1}}$ {_in_words(matters)}.")
         work.answer(verdict[1])
 
 
@@ -87,26 +106,27 @@ def _verdict(given: Given, matters: tuple[str, ...]) -> tuple[Any, ...]:
 
 
 def _in_words(matters: tuple[str, ...]) -> str:
-    return f"in {joined(list(matters))}" if matters else "in no state"
+    return f"for $s_t$ = {joined(list(matters))}" if matters else "for no $s_t$"
 
 
 def _compare(given: Given, work: Work, now: str, chances: Chances, *, differs: bool) -> None:
     """Say which two probabilities differ, or that none do."""
     if not differs:
-        work.say(f"In {now}, what comes next has the same probabilities after every history.")
+        work.say(f"For $s_t$ = {now} the probabilities of $s_{{t+1}}$ are the same after every history.")
         return
     for after in given.outcomes:
         values = [(h[0], chances[(*h, after)]) for h in given.histories if h[1] == now and (*h, after) in chances]
         for before, value in values[1:]:
             if sign(value - values[0][1]):
                 work.say(
-                    f"In {now}, the next state is {after} with probability ${values[0][1]}$ if {values[0][0]} came "
-                    f"before, but with ${value}$ if {before} did: the history matters, so this is not Markov."
+                    f"For $s_t$ = {now} the next state is {after} with probability ${values[0][1]}$ if "
+                    f"$s_{{t-1}}$ = {values[0][0]}, but with ${value}$ if $s_{{t-1}}$ = {before}: not Markov."
                 )
                 return
 
 
 def _hidden(given: Given) -> bool:
+    given = _completed(given, Work())
     return _matters(given, _chances(given, Work())) != _matters(given, _asked(given, Work()))
 
 
@@ -116,7 +136,8 @@ def _totals(given: Given) -> Chances:
 
 
 def _uneven(given: Given) -> bool:
-    right, totals = (_matters(given, chances) for chances in (_chances(given, Work()), _totals(given)))
+    whole = _completed(given, Work())
+    right, totals = (_matters(whole, chances) for chances in (_chances(whole, Work()), _totals(whole)))
     return _verdict(given, totals) != _verdict(given, right)
 
 
@@ -127,7 +148,8 @@ def _uneven(given: Given) -> bool:
 )
 def one_next_state(given: Given, work: Work) -> None:
     """Only the next state that was asked for is compared."""
-    _conclude(given, work, _matters(given, _asked(given, work)))
+    whole = _completed(given, work)
+    _conclude(given, work, _matters(whole, _asked(whole, work)))
 
 
 @slip(
@@ -137,8 +159,9 @@ def one_next_state(given: Given, work: Work) -> None:
 )
 def totals_compared(given: Given, work: Work) -> None:
     """How often each history occurs is compared."""
-    _asked(given, work)
-    _conclude(given, work, _matters(given, _totals(given)))
+    whole = _completed(given, work)
+    _asked(whole, work)
+    _conclude(given, work, _matters(whole, _totals(whole)))
 
 
 MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, one_next_state, totals_compared)
@@ -146,6 +169,8 @@ MISCONCEPTIONS = (JOINT_FOR_CONDITIONAL, HISTORY_LEFT_OUT, one_next_state, total
 
 def oracle(given: Given) -> Answers:
     """An array of the counts; it is Markov in a state where the histories' rows are proportional: of rank one."""
+    if given.missing is not None:
+        return _proportional(given, given.missing)
     befores, nexts = tuple(dict.fromkeys(b for b, _ in given.histories)), given.outcomes
     counts = np.zeros((len(befores), len(given.present), len(nexts)))
     for row in given.table:
@@ -163,3 +188,17 @@ def oracle(given: Given) -> Answers:
         place = -2 if not broken else -1 if len(broken) > 1 else given.present.index(broken[0])
         answers.append(options[place][0])
     return answers
+
+
+def _proportional(given: Given, hidden: Seen) -> Answers:
+    """The missing count by the rule of three, and the answers for the table with it."""
+    rows = {row[:3]: row.weight for row in given.table if row != hidden}
+    other = next(h for h in given.histories if h[1] == hidden.now and h[0] != hidden.before)
+    rest, its_rest = (
+        sum(at(weight) for key, weight in rows.items() if key[:2] == history and key[2] != hidden.next)
+        for history in (hidden[:2], other)
+    )
+    count = at(rows.get((*other, hidden.next), Fraction(0))) * rest / its_rest
+    number = Fraction(count).limit_denominator(10**6)
+    table = tuple(row._replace(weight=number) if row == hidden else row for row in given.table)
+    return [count, *oracle(given.model_copy(update={"table": table}))[:2]]

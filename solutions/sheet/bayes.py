@@ -125,7 +125,8 @@ def _on_a_line(given: Any) -> bool:
 
 
 def _is_noisy(given: Any) -> bool:
-    return any(any(line) for line in given.process)
+    """Whether the motion has a noise, and no noise is to be found."""
+    return given.variance is None and any(any(line) for line in given.process)
 
 
 def _may_stay(given: Any) -> bool:

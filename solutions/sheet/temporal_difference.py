@@ -1,5 +1,8 @@
 """Section 4 of the sheet: temporal difference learning."""
 
+from collections.abc import Callable
+from typing import Any
+
 from sympy import Pow, evaluate
 
 from rldrill.problems.mathematics import Fence, Script, variable
@@ -39,6 +42,12 @@ N = quantity("count", called("n"))
 Visits = quantity("visits", called("T"))
 Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
+
+
+def _given(letter: str) -> Callable[[Any], bool]:
+    """Whether a letter is not what is asked for: who forgets it has an equation that says nothing of it."""
+    return lambda given: getattr(given, "known", None) is None or given.letter != letter
+
 
 with evaluate(False):
     FORGOT_ALPHA = Misconception(
@@ -102,11 +111,14 @@ with evaluate(False):
     _REWARDS = SumOver(gamma**i * r(t + 1 + i), i, Counting(0, n - 1))
 
     BOOTSTRAP_UNDISCOUNTED = Misconception(
-        "bootstrap-not-discounted", "The value at the end of the n steps is discounted too, by γⁿ."
+        "bootstrap-not-discounted",
+        "The value at the end of the n steps is discounted too, by γⁿ.",
+        when=_given("gamma"),
     )
     BOOTSTRAP_ONE_SHORT = Misconception(
         "bootstrap-one-power-short",
         "The last reward has the factor γⁿ⁻¹; the value after it is one step later, so it has γⁿ.",
+        when=_given("gamma"),
     )
     ONE_REWARD_TOO_MANY = Misconception(
         "one-reward-too-many", "n steps earn n rewards; the next reward is already inside the value."
@@ -142,8 +154,12 @@ with evaluate(False):
     _DECAYED = gamma * lam * e(s)
     _VISIT = Indicator(s, S(t))
 
-    DECAY_WITHOUT_GAMMA = Misconception("decay-without-gamma", "Traces decay by γλ, not by λ alone.")
-    DECAY_WITHOUT_LAMBDA = Misconception("decay-without-lambda", "Traces decay by γλ, not by γ alone.")
+    DECAY_WITHOUT_GAMMA = Misconception(
+        "decay-without-gamma", "Traces decay by γλ, not by λ alone.", when=_given("gamma")
+    )
+    DECAY_WITHOUT_LAMBDA = Misconception(
+        "decay-without-lambda", "Traces decay by γλ, not by γ alone.", when=_given("lambda")
+    )
     REPLACING = Misconception(
         "replacing-trace",
         "Accumulating traces add 1 to what is left of the trace; only replacing traces are set to 1.",

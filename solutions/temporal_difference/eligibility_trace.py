@@ -1,10 +1,15 @@
 """Eligibility traces along a run: every trace at every time."""
 
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
 import numpy as np
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.eligibility_trace import Given
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.temporal_difference import (
     ACCUMULATING,
     DECAY_WITHOUT_GAMMA,
@@ -20,20 +25,37 @@ MISCONCEPTIONS = (DECAY_WITHOUT_GAMMA, DECAY_WITHOUT_LAMBDA, REPLACING, INCREMEN
 
 
 def solve(given: Given, work: Work) -> None:
+    """Step by step; where a trace is known, first what was left open, then the traces with it."""
+    read: Callable[[Scalar], Value] = exact
+    asked: Sequence[int] = given.asked
+    if given.known is not None:
+        first, *asked = given.asked
+        letter = find(given, work, _traces(given, work, exact, range(first + 1), {})[given.states[0]])
+        read = reading(letter)
+    traces, start = dict.fromkeys(given.visited, ZERO), 0
+    for time in asked:
+        traces = work.answer(_traces(given, work, read, range(start, time + 1), traces))
+        start = time + 1
+
+
+def _traces(
+    given: Given, work: Work, read: Callable[[Scalar], Value], times: range, traces: dict[str, Value]
+) -> dict[str, Value]:
     """One step for every time and every state that was visited by then; the other traces are still 0."""
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
-    known = {"S": dict(enumerate(given.states)), "gamma": exact(given.gamma), "lam": exact(given.lam)}
-    traces = dict.fromkeys(given.visited, ZERO)
-    for time in range(given.asked[-1] + 1):
-        work.say(f"At $t = {time}$:")
-        reached = dict.fromkeys(given.states[: time + 1])
-        traces = traces | {s: work.step(formula, s=s, t=time, e=traces, **known) for s in reached}
-        if time in given.asked:
-            traces = work.answer(traces)
+    known = {"S": dict(enumerate(given.states)), "gamma": read(given.gamma), "lam": read(given.lam)}
+    for time in times:
+        reached = dict.fromkeys(given.states[: time + 1], ZERO)
+        before = reached | traces
+        traces = before | {s: work.step(formula, s=s, t=time, e=before, **known) for s in reached}
+    return traces
 
 
 def oracle(given: Given) -> Answers:
     """Every visit on its own: what is left of its 1 after as many steps, summed; or of the last visit alone."""
+    if given.known is not None:
+        letter = tried(given, lambda trial: float(oracle(trial)[0][0]))
+        return (letter, *oracle(with_letter(given, Fraction(letter).limit_denominator(10**6)))[1:])
     decay = at(given.gamma) * at(given.lam)
     answers = []
     for time in given.asked:

@@ -11,6 +11,7 @@ from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     CLOSING_LIKE_OTHERS,
@@ -31,7 +32,11 @@ def solve(given: Given, work: Work) -> None:
     returns = averaged(work, known, given.time)
     if given.in_parts:
         returns = work.answer(returns)
-    work.answer(average(work, known, given.time, returns))
+    value = average(work, known, given.time, returns)
+    if given.known is None:
+        work.answer(value)
+    else:
+        find(given, work, value)
 
 
 def known_episode(given: Any, read: Callable[[Scalar], Value] = exact) -> dict[str, Any]:
@@ -87,6 +92,8 @@ def backwards(given: Any) -> Array:
 
 def oracle(given: Given) -> Answers:
     """The n-step returns from a table of discounted rewards; the λ-return backwards in time."""
+    if given.known is not None:
+        return (tried(given, lambda trial: float(backwards(trial)[trial.time])),)
     run = given.trajectory
     left = np.cumprod([1.0, *map(at, per_step(given.gamma, len(run.rewards))[given.time :])])
     earned = np.cumsum(left[:-1] * [at(reward) for reward in run.rewards[given.time :]])

@@ -1,13 +1,16 @@
 """The n-step returns asked for, each from its formula."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.runs import per_step
 from rldrill.problems.temporal_difference.n_step_return import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value
+from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (
     BOOTSTRAP_ONE_SHORT,
@@ -22,18 +25,30 @@ MISCONCEPTIONS = (BOOTSTRAP_UNDISCOUNTED, BOOTSTRAP_ONE_SHORT, ONE_REWARD_TOO_MA
 
 
 def solve(given: Given, work: Work) -> None:
-    """One application for every part."""
-    run = given.trajectory
-    known = knowns.trajectory(run) | knowns.discounts(given.gamma)
-    known["V"] = knowns.state_values(given.values, run.terminal)
+    """One application for every part; where the first return is known, what was left open comes before the others."""
+    read: Callable[[Scalar], Value] = exact
+    asked = given.asked
+    if given.known is not None:
+        letter = find(given, work, n_step(work, _known(given, exact), *asked[0]))
+        read, asked = reading(letter), asked[1:]
+    known = _known(given, read)
+    end = len(given.trajectory.rewards)
+    for time, steps in asked:
+        if time + steps > end:
+            work.say(f"The episode ends at $t = {end}$. All later rewards are $0$, so this is the whole return:")
+        work.answer(n_step(work, known, time, steps))
+
+
+def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
+    run, gamma = given.trajectory, given.gamma
+    discounts = knowns.discounts(gamma) if isinstance(gamma, tuple) else {"gamma": read(gamma)}
+    known = knowns.trajectory(run) | discounts
+    known["V"] = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     end = len(run.rewards)
     beyond = range(end + 1, max(end, *(time + steps for time, steps in given.asked)) + 2)
     known["r"] |= dict.fromkeys(beyond, ZERO)  # nothing comes after the run
     known["S"] |= dict.fromkeys(beyond, run.states[-1])
-    for time, steps in given.asked:
-        if time + steps > end:
-            work.say(f"The episode ends at $t = {end}$; after that all rewards are $0$, so this is the whole return:")
-        work.answer(n_step(work, known, time, steps))
+    return known
 
 
 def n_step(work: Work, known: Mapping[str, Any], time: int, steps: int) -> Value:
@@ -50,6 +65,9 @@ def n_step(work: Work, known: Mapping[str, Any], time: int, steps: int) -> Value
 
 def oracle(given: Given) -> Answers:
     """Backwards from the bootstrap: worth = reward + γ · worth."""
+    if given.known is not None:
+        letter = tried(given, lambda trial: float(oracle(trial)[0]))
+        return (letter, *oracle(with_letter(given, Fraction(letter).limit_denominator(10**6)))[1:])
     run = given.trajectory
     gammas = per_step(given.gamma, len(run.rewards))
     answers = []

@@ -6,6 +6,7 @@ from rldrill.problems.temporal_difference.sample_average import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.temporal_difference import (
     CONSTANT_STEP_SIZE,
     COUNTED_TWICE,
@@ -39,21 +40,32 @@ def _averaged(given: Given, work: Work) -> None:
     for visit, state in S.items():
         counts = counts | {state: work.step(VISIT_COUNT, t=visit, S=S, count=counts)}
         values = values | {state: work.step(SAMPLE_AVERAGE, t=visit, S=S, count=counts, G=G, V=values)}
-    work.answer({state: values[state] for state in given.visited})
+    if given.known is None:
+        work.answer({state: values[state] for state in given.visited})
+    else:
+        find(given, work, values[given.visited[0]])
 
 
 def _weighted(given: Given, work: Work) -> None:
     count, alpha = len(given.visits), exact(given.alpha or 0)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
-    carried = work.answer(weights[0] if count == 1 else weights)
-    w = dict(enumerate((carried,) if count == 1 else carried, start=1))
+    if given.known is None:
+        carried = work.answer(weights[0] if count == 1 else weights)
+        weights = (carried,) if count == 1 else carried
+    w = dict(enumerate(weights, start=1))
     G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
     start = exact(given.values[given.visited[0]])
-    work.answer(work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start}))
+    value = work.step(CONSTANT_STEP_SIZE, n=count, alpha=alpha, w=w, G=G, Vn={0: start})
+    if given.known is None:
+        work.answer(value)
+    else:
+        find(given, work, value)
 
 
 def oracle(given: Given) -> Answers:
     """The plain mean of old and new returns; with a constant step size the updates one by one, on unit vectors too."""
+    if given.known is not None:
+        return (tried(given, _first),)
     if given.alpha is None:
         means = []
         for state in given.visited:
@@ -70,3 +82,9 @@ def _updated(value: float, returns: Array, alpha: float) -> float:
     for observed in returns:
         value = (1 - alpha) * value + alpha * observed
     return value
+
+
+def _first(given: Given) -> float:
+    """The value of the first visited state after all visits."""
+    last = oracle(given)[-1]
+    return float(last if given.alpha is not None else last[0])

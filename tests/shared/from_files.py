@@ -13,6 +13,8 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                                               ["b", "x", "a", 1, 3]]}, "average": True}),
     ("value-iteration", {"mdp": {"transitions": [["a", "x", "end", 1, 1]], "terminal": ["end"]}, "gamma": 1,
                          "sweeps": 1, "action_values": True}),
+    ("value-iteration", {"mdp": {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 2],
+                                                 ["b", "x", "end", 1, 4]]}, "gamma": "gamma", "sweeps": 1, "tie": "a"}),
     ("td-lambda-backward", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
                             "alpha": 1, "gamma": 1, "lam": 1, "replacing": True}),
     ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
