@@ -47,7 +47,7 @@ class Given(Reversible):
 def draw(level: int, rng: Draws) -> Given:
     """One reward and then a constant; then rounds of two or three; then a letter left open or asked for."""
     if level == 1:
-        gamma = rng.fraction("1/2", "1/3", "2/3", "3/4")
+        gamma = rng.fraction("1/2", "1/3", "2/3")
         return Given(first=(rng.nonzero(-4, 9),), repeated=(rng.nonzero(-4, 9),), gamma=gamma)
     gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
     if level == 2:
