@@ -20,7 +20,8 @@ REVISION = 2
 class Given(Reversible):
     """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount.
 
-    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for.
+    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for, and then
+    the return from where the rewards begin to repeat.
     """
 
     first: tuple[Open, ...] = Field(
@@ -62,7 +63,7 @@ def draw(level: int, rng: Draws) -> Given:
         opening, always = rng.distinct(2, 1, 9)
         known = opening + gamma * always / (1 - gamma)
         return Given(first=(opening,), repeated=(always,), gamma=Parameter("gamma"), known=known)
-    first, (one, other) = _first(rng, rng.below(2)), _round(rng, 2, gamma)
+    first, (one, other) = _first(rng, 1 + rng.below(2)), _round(rng, 2, gamma)
     known = _from_start((*first, one, other), len(first), gamma)
     hidden = (Parameter("x"), other) if rng.chance(Fraction(1, 2)) else (one, Parameter("x"))
     return Given(first=first, repeated=hidden, gamma=gamma, known=known)
@@ -107,7 +108,8 @@ def question(given: Given) -> Question:
     more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."
-        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given),))
+        tail = [Part(f"What is the return $R_{{{k}}}$?", Number())] if k else []
+        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given), *tail))
     parts = [Part(f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
     if k:
         parts.append(Part(f"What is the return $R_{{0}}${in_open(given)}?", Number()))

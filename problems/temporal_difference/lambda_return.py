@@ -72,13 +72,14 @@ def draw(level: int, rng: Draws) -> Given:
     longer = rng.choice(((a, b, c, end), (a, b, c, d), (a, b, a, end), (a, b, b, end)))
     if level == 2:
         return _matters(rng, longer, end, gamma, lam)
-    kind = rng.below(3)
-    given = _matters(rng, longer if kind == 0 else rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
-    if kind == 0:
-        return given.model_copy(update={"lam": Parameter("lambda")})
-    if kind == 1:
+    kind = rng.below(4)
+    if kind == 3:
+        given = _matters(rng, rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
         return given.model_copy(update={"lam": Parameter("lambda"), "known": _average(given)})
-    return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+    given = _matters(rng, longer, end, gamma, lam)
+    if kind == 2:
+        return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+    return given.model_copy(update={"lam": Parameter("lambda")})
 
 
 def _matters(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, lam: Fraction) -> Given:

@@ -36,8 +36,8 @@ def test_lambda_from_the_lambda_return() -> None:
 
 
 def test_a_discount_from_a_return_without_an_end() -> None:
-    # 3 + γ·2/(1 − γ) = 5 where 2γ = 2(1 − γ): γ = 1/2.
-    assert solved("return-infinite", first=[3], repeated=[2], gamma="gamma", known=5) == {"a": fmpq(1, 2)}
+    # 3 + γ·2/(1 − γ) = 5 where 2γ = 2(1 − γ): γ = 1/2; then R₁ = 2/(1 − 1/2) = 4.
+    assert solved("return-infinite", first=[3], repeated=[2], gamma="gamma", known=5) == {"a": fmpq(1, 2), "b": 4}
 
 
 def test_two_episodes_are_equally_good_at_one_discount() -> None:
