@@ -115,7 +115,10 @@ def question(given: Given) -> Question:
         returns = Part(f"What is the λ-return ${entries[0]}${tail}?", Number())
         asked = f'$V("{given.updated[0]}")$'
     else:
-        returns = Part(f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Numbers(entries))
+        returns = Part(
+            f"What are the λ-returns ${', '.join(entries)}$, in this order{in_open(given, several=True)}?",
+            Numbers(entries),
+        )
         asked = f"the values of the states visited at times {joined([f'${time}$' for time in given.asked])}"
     verb = "is" if len(entries) == 1 else "are"
     values = Part(f"What {verb} {asked} after the update{tail}?", Values("V", given.updated))
