@@ -1,6 +1,7 @@
 """Planar arms as problems give them."""
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -8,7 +9,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, text
 from rldrill.problems.document import Beside, Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Open, Parameter, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.pictures import Arm
 
@@ -20,7 +21,7 @@ _DIAGONAL = tuple(map(read_angle, ("pi/4", "pi/2", "3*pi/4", "-pi/4", "-pi/2")))
 class PlanarArm(Givens):
     """The lengths of an arm's links, and its joint angles, each relative to the link before."""
 
-    lengths: tuple[Exact, ...] = Field(
+    lengths: tuple[Open, ...] = Field(
         min_length=1, max_length=6, description="The lengths of the links, from the base outwards."
     )
     angles: tuple[AngleField, ...] = Field(
@@ -31,16 +32,22 @@ class PlanarArm(Givens):
     def _fits(self) -> Self:
         if len(self.angles) != len(self.lengths):
             raise ValueError(f"angles holds {len(self.angles)}, but there are {len(self.lengths)} links")
-        if min(self.lengths) <= 0:
-            raise ValueError(f"lengths: {min(self.lengths)} is not above 0")
+        known = [length for length in self.lengths if isinstance(length, Fraction)]
+        if known and min(known) <= 0:
+            raise ValueError(f"lengths: {min(known)} is not above 0")
         return self
 
+    @property
+    def drawn(self) -> tuple[float, ...]:
+        """The lengths of the picture, in which one that is left open is as good as any other."""
+        return tuple(2.0 if isinstance(length, Parameter) else float(length) for length in self.lengths)
 
-def draw_angles(rng: Draws, level: int, count: int) -> tuple[Angle, ...]:
-    """Right angles; then multiples of 30°, or of 45°, so that all sums have short sines."""
+
+def draw_angles(rng: Draws, level: int, count: int, *, diagonal: bool = True) -> tuple[Angle, ...]:
+    """Right angles; then multiples of 30°, or of 45° (``diagonal``), so that all sums have short sines."""
     if level == 1:
         return (rng.choice(_RIGHT), *(rng.choice((_RIGHT[1], _RIGHT[3])) for _ in range(count - 1)))
-    angles: Sequence[Angle] = rng.choice((_SLANTED, _SLANTED, _DIAGONAL))
+    angles: Sequence[Angle] = rng.choice((_SLANTED, _SLANTED, _DIAGONAL if diagonal else _SLANTED))
     return tuple(rng.choice(angles) for _ in range(count))
 
 
@@ -65,7 +72,7 @@ def situation(given: PlanarArm, base: str = "its base is at the origin", axis: s
         Beside(
             (
                 Table(("link $i$", "$l_i$", "$θ_i$"), rows),
-                Arm(tuple(map(float, given.lengths)), tuple(map(degrees, given.angles))),
+                Arm(given.drawn, tuple(map(degrees, given.angles))),
             )
         ),
     )

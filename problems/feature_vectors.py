@@ -35,15 +35,15 @@ def check_lengths(vectors: Mapping[str, Sequence[object]], what: str) -> None:
 
 
 def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) -> dict[str, tuple[Fraction, ...]]:
-    """Whole numbers from 0 on; all states differ, none has only zeros, and no feature is a multiple of another."""
+    """Whole numbers from 0 on; no state's features are a multiple of another's, and no feature is one of another."""
     while True:
         columns = [tuple(rng.whole(0, most) for _ in states) for _ in range(count)]
         rows = list(zip(*columns, strict=True))
-        if len(set(rows)) == len(rows) and all(map(any, rows)) and _independent(columns):
+        if all(len(set(column)) > 1 for column in columns) and _apart(rows) and _apart(columns):
             return dict(zip(states, rows, strict=True))
 
 
-def _independent(columns: Sequence[tuple[Fraction, ...]]) -> bool:
-    """Whether every feature tells some states apart, and no two are the same up to a factor."""
-    shapes = [tuple(value / sum(column) for value in column) for column in columns if len(set(column)) > 1]
-    return len(shapes) == len(set(shapes)) == len(columns)
+def _apart(vectors: Sequence[tuple[Fraction, ...]]) -> bool:
+    """Whether none is a multiple of another, and none 0."""
+    shapes = [tuple(value / sum(vector) for value in vector) for vector in vectors if any(vector)]
+    return len(set(shapes)) == len(vectors)

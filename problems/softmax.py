@@ -1,13 +1,15 @@
 """Softmax policies that are linear in features, and runs of agents that follow them."""
 
+from collections.abc import Sequence
 from fractions import Fraction
+from math import prod
 from typing import Any, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Logarithm, Weight, WeightField
+from rldrill.problems.exact import Discount, Logarithm, Parameter, Weight, WeightField
 from rldrill.problems.family import Givens
 from rldrill.problems.features import (
     ActionFeatures,
@@ -105,18 +107,32 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
 
 
 def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
-    """Trajectory, weights and features of a run.
+    """Trajectory, weights, features and discount of a run.
 
-    Two steps and even chances; then three steps in two states; then also three actions.
+    Two steps and even chances; then three steps in two states; then also three actions, and γ left open.
     """
     setting = draw_setting(rng)
     first, second = rng.shuffled(setting.states)[:2]
     states = {1: (first, first), 2: (first, second, first), 3: (first, second, second)}[level]
     actions = setting.actions[: 3 if level == 3 else 2]
     policy = draw_even_policy if level == 1 else draw_log_policy
-    theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
-    run = draw_run(rng, (*states, setting.terminal), actions, setting.terminal)
-    return {"trajectory": run, "theta": theta, "features": features}
+    while True:
+        theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
+        if level == 1 or prod(_below(theta, rows) for rows in features.values()) <= _MOST_BELOW[level]:
+            break
+    gamma = Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1")
+    run = draw_run(rng, (*states, setting.terminal), actions, setting.terminal, doubled=gamma == Fraction(1, 2))
+    return {"trajectory": run, "theta": theta, "features": features, "gamma": gamma}
+
+
+#: The largest product of what stands below the line in the probabilities of two states, by level.
+_MOST_BELOW = {2: 20, 3: 50}
+
+
+def _below(theta: tuple[Weight, ...], rows: dict[str, FeatureVector]) -> int:
+    """The sum of all e^h in a state, for weights that are logarithms of whole numbers."""
+    bases = [int(str(weight).removeprefix("ln ")) for weight in theta]
+    return sum(prod(base ** int(x) for base, x in zip(bases, row, strict=True)) for row in rows.values())
 
 
 def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:
@@ -127,12 +143,26 @@ def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:
     return tuple(later[:0:-1])
 
 
-def draw_run(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], terminal: str) -> Trajectory:
-    """A run through these states, its actions and rewards drawn."""
+def every_step_counts(run: Trajectory, weights: Sequence[Fraction]) -> bool:
+    """Whether the scores of no state and action that were taken cancel each other."""
+    total: dict[tuple[str, str], Fraction] = {}
+    for state, action, weight in zip(run.states, run.actions, weights, strict=False):
+        total[state, action] = total.get((state, action), Fraction(0)) + weight
+    return 0 not in weights and 0 not in total.values()
+
+
+def draw_run(
+    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], terminal: str, *, doubled: bool = False
+) -> Trajectory:
+    """A run through these states, its actions and rewards drawn.
+
+    With ``doubled`` every reward is a multiple of twice what the one before is: then halved returns are whole.
+    """
+    units = [2**time if doubled else 1 for time in range(len(states) - 1)]
     return Trajectory(
         states=states,
-        actions=tuple(rng.choice(actions) for _ in states[1:]),
-        rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
+        actions=tuple(rng.choice(actions) for _ in units),
+        rewards=tuple(unit * rng.nonzero(-(4 // unit), 8 // unit) for unit in units),
         terminal=(terminal,) if terminal in states else (),
     )
 

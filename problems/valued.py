@@ -4,11 +4,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import dot
+from rldrill.problems.exact import Scalar, dot
 from rldrill.problems.models import Dynamics, Model, Policy, Transition, never_left, policy_table, values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
@@ -33,12 +33,18 @@ class Mixed(NamedTuple):
     """A model, the probabilities with which a policy chooses in it, and the policy's values."""
 
     mdp: Model
-    policy: dict[str, dict[str, Fraction]]
+    policy: dict[str, dict[str, Scalar]]
     values: dict[str, Fraction]
 
 
 def draw_valued(
-    rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, others: tuple[int, int], *, forked: bool = True
+    rng: Draws,
+    setting: Setting,
+    shape: Shape,
+    gamma: Fraction,
+    others: tuple[int, int],
+    *,
+    forked: Literal["all", "own", "others"] = "all",
 ) -> Valued:
     """Draw a model in which a policy has whole values.
 
@@ -50,7 +56,7 @@ def draw_valued(
         shape: how large the model is; its ``reward`` is not used.
         gamma: one of ``UNITS``.
         others: by how much the actions that the policy does not take are better, at least and at most (never 0).
-        forked: whether those may have several outcomes, too.
+        forked: which actions may have several outcomes: all, the policy's own, or only the others.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     surplus = [number for number in range(others[0], others[1] + 1) if number]
@@ -60,7 +66,8 @@ def draw_valued(
         better = iter(rng.shuffled(surplus))
         for action in setting.actions[: shape.actions]:
             worths[state, action] = value + (0 if action == policy[state] else next(better))
-    sure = () if forked else tuple(pair for pair in worths if policy[pair[0]] != pair[1])
+    own = [(policy[state] == action) for state, action in worths]
+    sure = [pair for pair, mine in zip(worths, own, strict=True) if forked == ("others" if mine else "own")]
     return Valued(draw_worth(rng, setting, shape, gamma, values, worths, sure), policy, values)
 
 
@@ -75,7 +82,8 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
         denominators: of the policy's probabilities; each action has one above 0.
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
-    policy, worths = {}, {}
+    policy: dict[str, dict[str, Scalar]] = {}
+    worths = {}
     for state, value in values.items():
         actions = setting.actions[: shape.actions]
         chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
@@ -151,7 +159,10 @@ def draw_paying(
         if rewards is None or max(map(abs, rewards)) > _LARGEST_REWARD:
             continue
         if len({reward + after for reward, after in zip(rewards, ahead, strict=True)}) == len(targets):
-            return [Transition(*pair, *row) for row in zip(targets, chances, rewards, strict=True)]
+            return [
+                Transition(*pair, target, chance, reward)
+                for target, chance, reward in zip(targets, chances, rewards, strict=True)
+            ]
     target = next(place for place in setting.reached(places, *pair) if place != barred)
     return [Transition(*pair, target, Fraction(1), worth - gamma * values.get(target, Fraction(0)))]
 

@@ -1,8 +1,7 @@
 """Beliefs of workings: pictures before and after a step, and probabilities that are found."""
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
-from typing import Any, TypeVar
 
 from flint import fmpq
 
@@ -10,9 +9,6 @@ from rldrill.problems.bars import belief_bars
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.pictures import Bars
 from rldrill.solutions.exact import Value, is_rational
-from rldrill.solutions.rational import RationalFunction
-
-Key = TypeVar("Key", bound=Hashable)
 
 
 def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) -> tuple[Bars, ...]:
@@ -20,15 +16,6 @@ def before_and_after(before: Mapping[str, Value], after: Mapping[str, Value]) ->
     if not all(is_rational(chance) and 0 <= chance <= 1 for chance in (*before.values(), *after.values())):
         return ()
     return (belief_bars(before=_fractions(before), after=_fractions(after)),)
-
-
-def put_in(values: dict[Key, Any], found: Value) -> dict[Key, Any]:
-    """Probabilities, with what was found put in for the letter left open."""
-    filled = {
-        key: chance.top[0] + chance.top[1] * found if isinstance(chance, RationalFunction) else chance
-        for key, chance in values.items()
-    }
-    return type(values)(filled)
 
 
 def number(chance: Scalar, q: float) -> float:

@@ -16,7 +16,7 @@ from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
 from rldrill.solutions.closed_forms import exponent, folded, fraction, rational
 from rldrill.solutions.rational import RationalFunction, generator, lifted
-from rldrill.solutions.value import Value
+from rldrill.solutions.value import NoSolution, Value
 
 #: The greatest number of products of terms that one multiplication may take.
 _EFFORT = 20_000
@@ -99,7 +99,7 @@ def _quotient(expression: sympy.Expr) -> _Quotient:
     exponents = _exponents(expression)
     if len({letter for raised in exponents for letter in raised.free_symbols}) > 1:
         raise _UndecidedError
-    monomials, size = _monomials([rational_function(raised) for raised in exponents])
+    monomials, size = _monomials([_rational(raised) for raised in exponents])
     names = tuple(sorted(symbol.name for symbol in expression.free_symbols))
     context = fmpq_mpoly_ctx.get((*(f"x{n}" for n in range(len(names))), *(f"e{n}" for n in range(size))), Ordering.lex)
     letters = dict(zip(names, context.gens(), strict=False))
@@ -135,8 +135,18 @@ def _exponents(expression: sympy.Expr) -> Sequence[sympy.Expr]:
 
 
 def rational_function(expression: sympy.Expr) -> RationalFunction:
-    """An expression in one parameter, without exponentials, as a rational function of it."""
+    """An expression in one parameter as a rational function of it.
 
+    Raises:
+        NoSolution: it is none, such as a root of the parameter.
+    """
+    try:
+        return _rational(expression)
+    except _UndecidedError:
+        raise NoSolution(f"{expression} has powers that are not whole") from None
+
+
+def _rational(expression: sympy.Expr) -> RationalFunction:
     def leaf(part: sympy.Expr) -> Value:
         if part.is_Symbol:
             return generator(part.name)

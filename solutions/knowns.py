@@ -8,6 +8,7 @@ from rldrill.problems.exact import Scalar
 from rldrill.problems.models import Dynamics, Model, Policy
 from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, StateMove, Trajectory, ValueMoves, ValueRun
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.rational import RationalFunction
 
 Key = TypeVar("Key")
 
@@ -138,3 +139,12 @@ def pays_at_the_end(given: Model) -> bool:
 def last_rewards(given: Model) -> dict[str, Value]:
     """What reaching each terminal state earns: what somebody takes for its value who gives it one."""
     return {row.next: exact(row.reward) for row in given.transitions if row.next in given.terminal}
+
+
+def settled(values: dict[Key, Any], found: Value) -> dict[Key, Any]:
+    """Values, with what was found put in for the letter left open, which stands in them alone or as 1 minus it."""
+    filled = {
+        key: value.top[0] + value.top[1] * found if isinstance(value, RationalFunction) else value
+        for key, value in values.items()
+    }
+    return type(values)(filled)

@@ -479,7 +479,7 @@ def test_students_are_told_apart(folder: Path) -> None:
 
 
 def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
-    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 2"\n')
+    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 7.3"\n')
     code, out, _ = run(path, "--json")
     data = json.loads(out)
     assert code == data["exit_code"] == 1
@@ -492,17 +492,28 @@ def test_json_is_versioned_and_keeps_the_key_to_itself(folder: Path) -> None:
         "problem": "sweep.toml",
         "part": "a",
         "line": 2,
-        "typed": "4, 2",
-        "read": "rim: 4, slope: 2",
+        "typed": "4, 7.3",
+        "read": "rim: 4, slope: 7.3",
         "verdict": "wrong",
         "accepted": False,
         "reason": "Not right at slope; the rest is right.",
         "points": {"exact": "1/2", "decimal": "0.5", "of": 1},
+        "diagnosis": None,
     }
     assert (second["verdict"], second["line"]) == ("missing", None)
     assert json.loads(run(path, "--json", "--show-key")[1])["files"][0]["students"][0]["answers"][0]["key"] == (
         "rim: 4, slope: 3/2"
     )
+
+
+def test_json_says_what_a_wrong_answer_comes_from(folder: Path) -> None:
+    # The key is rim: 4, slope: 3/2.
+    path = write(folder, "a.csv", HEAD + 'Ann,sweep.toml,a,"4, 7.3"\nBen,sweep.toml,a,"3/2, 4"\n')
+    students = json.loads(run(path, "--json")[1])["files"][0]["students"]
+    assert students[0]["answers"][0]["diagnosis"] is None
+    diagnosis = students[1]["answers"][0]["diagnosis"]
+    assert diagnosis["kind"] == "exchanged-cells"
+    assert diagnosis["sentence"] == "It looks as if the answers for rim and slope are exchanged."
 
 
 def test_sentences_go_to_stderr_and_data_to_stdout(folder: Path) -> None:

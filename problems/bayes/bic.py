@@ -159,10 +159,10 @@ def _drawn(level: int, rng: Draws) -> Given:
         return _fitted_models(rng, names, numbers, likelihoods, border=rng.choice(("more", "fewer")))
     if kind == "AIC":
         logs = sorted(rng.distinct(len(names), 20, 32), reverse=True)
-        models = {
+        fitted = {
             name: Fitted(log_likelihood=-log, k=int(k)) for name, log, k in zip(names, logs, numbers, strict=True)
         }
-        return Given(criterion="AIC", fitted={name: models[name] for name in rng.shuffled(names)})
+        return Given(criterion="AIC", fitted={name: fitted[name] for name in rng.shuffled(names)})
     powers = sorted(rng.distinct(len(names), 2, 9), reverse=True)
     n = rng.choice((4, 8, 16, 32))
     return _fitted_models(rng, names, numbers, [Fraction(1, 2 ** int(power)) for power in powers], n=n)

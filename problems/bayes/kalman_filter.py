@@ -1,5 +1,6 @@
 """The Gaussian belief of a robot on a line after moving and measuring; with its velocity at level 3."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from typing import Self
@@ -8,15 +9,23 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import shown
+from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatrixField, Rows, check_shape, check_weights, diagonal, tabular
-from rldrill.problems.parts import LETTERS, Matrix, Numbers, Part
+from rldrill.problems.matrices import (
+    MatrixField,
+    OpenMatrixField,
+    Rows,
+    check_shape,
+    check_weights,
+    diagonal,
+    tabular,
+)
+from rldrill.problems.parts import LETTERS, Matrix, Number, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
-REVISION = 2
+REVISION = 3
 
 _ONE = ((Fraction(1),),)
 #: From so many steps on they stand below each other.
@@ -36,19 +45,44 @@ class Given(Givens):
     """The first belief, the models A, B, C, the noises of motion and sensor (their covariances), and the steps.
 
     Vectors are matrices of one column; a plain number is a 1×1 matrix, and A, B and C are 1 unless given. Where no step
-    has a command, there is no B, and the state moves by A and the noise alone.
+    has a command, there is no B, and the state moves by A and the noise alone. With ``variance``, that after the only
+    measurement on a line, the variance of one noise is left open and found from it.
     """
 
     mean: MatrixField = Field(description="The mean of the first belief, a column.")
     covariance: MatrixField = Field(description="The covariance of the first belief.")
     A: MatrixField = Field(default=_ONE, validate_default=True, description="How the state moves by itself.")
-    B: MatrixField = Field(default=_ONE, validate_default=True, description="How the command moves the state.")
+    B: MatrixField = Field(
+        default=_ONE,
+        validate_default=True,
+        exclude_if=lambda B: B == _ONE,
+        description="How the command moves the state.",
+    )
     C: MatrixField = Field(default=_ONE, validate_default=True, description="What the sensor sees of the state.")
-    process: MatrixField = Field(description="The covariance of the noise of the motion.")
-    sensor: MatrixField = Field(description="The covariance of the noise of the sensor.")
+    process: OpenMatrixField = Field(description="The covariance of the noise of the motion.")
+    sensor: OpenMatrixField = Field(description="The covariance of the noise of the sensor.")
     steps: tuple[Event, ...] = Field(
         min_length=1, max_length=_EFFORT, description="The steps, each a motion and, if there is one, a measurement."
     )
+
+    variance: Exact | None = Field(
+        default=None,
+        description="The variance after the measurement, from which the variance w of a noise is found.",
+        examples=["3/2"],
+    )
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, for a variance left open is found."""
+        return ()
+
+    @model_validator(mode="after")
+    def _found(self) -> Self:
+        if (self.variance is None) == bool(super().parameters()):
+            raise ValueError("variance: it goes with the variance of one noise that is left open, such as w")
+        one = self.on_a_line and len(self.steps) == 1 and self.steps[0].z is not None
+        if self.variance is not None and not one:
+            raise ValueError("variance: it goes with a single step on a line, with a measurement")
+        return self
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -100,33 +134,71 @@ class Given(Givens):
         return len(self.mean) == 1 and self.A == self.B == self.C == _ONE
 
 
+_BOTH, _MOVE = True, False
+#: The greatest numerator or denominator of a mean or variance, by level.
+_MOST = {1: 60, 2: 90, 3: 60}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One step on a line; two steps; one step with a velocity that is not measured."""
-    if level == 3:
-        return Given(
-            mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
-            covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
-            A=((1, 1), (0, 1)),
-            B=((0,), (1,)),
-            C=((1, 0),),
-            process=diagonal(rng.whole(0, 2), rng.whole(1, 2)),
-            sensor=((rng.whole(1, 4),),),
-            steps=(Event(u=((rng.nonzero(-2, 2),),), z=((rng.whole(2, 12),),)),),
-        )
-    mean, steps = rng.whole(0, 9), []
-    variance, process, sensor = rng.choice(_handy())
-    place = mean
-    for _ in range(level):
-        u = rng.nonzero(-3, 6)
-        place += u
-        steps.append(Event(u=((u,),), z=((place + rng.nonzero(-4, 4),),)))
+    """One step on a line; two, perhaps without a measurement or commands; a velocity, or the variance of a noise."""
+    if level == 3 and rng.chance(Fraction(1, 2)):
+        return _with_velocity(rng)
+    shapes = {1: ((_BOTH,),), 2: ((_BOTH, _BOTH), (_MOVE, _BOTH), (_BOTH, _MOVE)), 3: ((_BOTH,),)}
+    driven = level != 2 or rng.chance(Fraction(3, 4))
+    while True:
+        mean = rng.whole(0, 9)
+        variance, process, sensor = rng.choice(_handy())
+        place, steps = mean, []
+        for measured in rng.choice(shapes[level]):
+            u = rng.nonzero(-3, 6) if driven else Fraction(0)
+            place += u
+            z = place + rng.nonzero(-4, 4)
+            steps.append(Event(u=((u,),) if driven else None, z=((z,),) if measured else None))
+        beliefs = _beliefs((mean, Fraction(variance)), process, sensor, steps)
+        numbers = [number for belief in beliefs for number in belief]
+        if max(max(abs(number.numerator), number.denominator) for number in numbers) <= _MOST[level]:
+            break
+    open_ = rng.choice(("process", "sensor")) if level == 3 else ""
     return Given(
         mean=((mean,),),
         covariance=((variance,),),
-        process=((process,),),
-        sensor=((sensor,),),
+        process=((Parameter("w") if open_ == "process" else process,),),
+        sensor=((Parameter("w") if open_ == "sensor" else sensor,),),
         steps=tuple(steps),
+        variance=beliefs[-1][1] if open_ else None,
     )
+
+
+def _with_velocity(rng: Draws) -> Given:
+    """A position and a velocity, of which the first is measured; with a command, or without."""
+    driven = rng.chance(Fraction(1, 2))
+    u = ((rng.nonzero(-2, 2),),) if driven else None
+    return Given(
+        mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
+        covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
+        A=((1, 1), (0, 1)),
+        **({"B": ((0,), (1,))} if driven else {}),
+        C=((1, 0),),
+        process=diagonal(rng.whole(1, 2), rng.whole(1, 2)),
+        sensor=((rng.whole(1, 4),),),
+        steps=(Event(u=u, z=((rng.whole(2, 12),),)),),
+    )
+
+
+Belief = tuple[Fraction, Fraction]
+
+
+def _beliefs(belief: Belief, process: int, sensor: int, steps: Sequence[Event]) -> list[Belief]:
+    """Means and variances on a line, after every motion and measurement."""
+    (mean, variance), beliefs = belief, []
+    for event in steps:
+        mean, variance = mean + (event.u[0][0] if event.u else 0), variance + process
+        beliefs.append((mean, variance))
+        if event.z is not None:
+            gain = Fraction(variance) / (variance + sensor)
+            mean, variance = mean + gain * (event.z[0][0] - mean), (1 - gain) * variance
+            beliefs.append((mean, variance))
+    return beliefs
 
 
 @cache
@@ -146,10 +218,15 @@ def _handy() -> tuple[tuple[int, int, int], ...]:
 def question(given: Given) -> Question:
     """The models and the steps; the belief after every motion and every measurement."""
     blocks = _line(given) if given.on_a_line else _models(given)
+    if given.variance is not None:
+        noise = "motion" if isinstance(given.process[0][0], Parameter) else "sensor"
+        ask = f"The variance after the measurement is $Σ_1 = {shown(given.variance)}$. What is the variance $w$ of the "
+        mean = Part("What is the mean $μ_1$ after the measurement?", Number(), zero=True)
+        return Question((*blocks, _steps(given)), (Part(f"{ask}{noise}'s noise?", Number()), mean))
     parts: list[Part] = []
     for time in given.asked:
-        for ask, kind, points in _wanted(given, time, given.steps[time - 1]):
-            parts.append(Part(ask, kind, points, zero=True))
+        for ask, kind in _wanted(given, time, given.steps[time - 1]):
+            parts.append(Part(ask, kind, zero=True))
     left_out = given.asked[0] - 1
     told = f"What comes out is asked for from step ${left_out + 1}$ on."
     return Question((*blocks, _steps(given), *([Paragraph(told)] if left_out else [])), tuple(parts))
@@ -177,7 +254,7 @@ def _line(given: Given) -> tuple[Block, ...]:
     moves = "it first moves by $u_t$ plus" if given.driven else "its position first changes by"
     return (
         Paragraph(
-            f"A robot believes that its position on a line is normal with mean $μ_0 = {mean}$ and variance "
+            f"A robot's belief about its position on a line is normal with mean $μ_0 = {mean}$ and variance "
             f"$Σ_0 = {variance}$. In every step {moves} normal noise of variance "
             f"$R = {process}$; then it measures its position as $z_t$, with normal noise of variance $Q = {sensor}$. "
             "All noises are independent, with mean $0$."
@@ -206,25 +283,25 @@ def _models(given: Given) -> tuple[Block, ...]:
     )
 
 
-def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Numbers | Matrix, int]]:
+def _wanted(given: Given, time: int, event: Event) -> list[tuple[str, Numbers | Matrix]]:
     after = f"after the motion of step ${time}$, before the measurement"
     if given.on_a_line:
-        wanted: list[tuple[str, Numbers | Matrix, int]] = [
-            (f"What are mean and variance {after}?", Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")), 1)
+        wanted: list[tuple[str, Numbers | Matrix]] = [
+            (f"What are the mean and the variance {after}?", Numbers((f"μ\u0304_{{{time}}}", f"Σ\u0304_{{{time}}}")))
         ]
         if event.z is not None:
             entries = Numbers((f"μ_{{{time}}}", f"Σ_{{{time}}}"))
-            wanted.append((f"What are mean and variance after the measurement $z_{{{time}}}$?", entries, 2))
+            wanted.append((f"What are the mean and the variance after the measurement $z_{{{time}}}$?", entries))
         return wanted
     n = len(given.mean)
     wanted = [
-        (f"What is the mean $μ\u0304_{{{time}}}$ {after}?", Matrix(n, 1), 1),
-        (f"What is the covariance $Σ\u0304_{{{time}}}$ {after}?", Matrix(n, n), 2),
+        (f"What is the mean $μ\u0304_{{{time}}}$ {after}?", Matrix(n, 1)),
+        (f"What is the covariance $Σ\u0304_{{{time}}}$ {after}?", Matrix(n, n)),
     ]
     if event.z is not None:
         wanted += [
-            (f"What is the Kalman gain $K_{{{time}}}$?", Matrix(n, len(given.C)), 2),
-            (f"What is the mean $μ_{{{time}}}$ after the measurement?", Matrix(n, 1), 1),
-            (f"What is the covariance $Σ_{{{time}}}$ after the measurement?", Matrix(n, n), 2),
+            (f"What is the Kalman gain $K_{{{time}}}$?", Matrix(n, len(given.C))),
+            (f"What is the mean $μ_{{{time}}}$ after the measurement?", Matrix(n, 1)),
+            (f"What is the covariance $Σ_{{{time}}}$ after the measurement?", Matrix(n, n)),
         ]
     return wanted

@@ -64,7 +64,7 @@ def draw(level: int, rng: Draws) -> Given:
     shape = Shape(states=3 if level == 3 else 2, actions=min(level, 2), branches=2, denominators=(2,))
     policy: PolicyField | None = None
     if optimal:
-        mdp, _, values = draw_valued(rng, setting, shape, gamma, (-4, -1), forked=False)
+        mdp, _, values = draw_valued(rng, setting, shape, gamma, (-4, -1), forked="own")
     elif level == 2:
         mdp, policy, values = draw_mixed(rng, setting, shape, gamma, (2, 4))
     else:

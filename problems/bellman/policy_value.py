@@ -13,6 +13,7 @@ from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
+    PolicyField,
     Process,
     Transition,
     model_blocks,
@@ -113,23 +114,23 @@ def _left_open(rng: Draws, setting: Setting) -> Given:
     """Two states; left open is the discount, a probability of the process, or one of the policy."""
     first, second = setting.states[:2]
     letter = rng.choice(("gamma", "process", "policy"))
+    policy: PolicyField = {}
     p = (Parameter("p"), Parameter("1-p"))
     half = rng.fraction("1/2", "1/4", "3/4")
     rewards = rng.distinct(4, -3, 6)
     after = rng.choice(((first, setting.terminal), (second, setting.terminal), (first, second)))
     even = Fraction(1, 2)
     if letter == "policy":
-        actions, policy = setting.actions[:2], {first: dict(zip(setting.actions, p, strict=False))}
-        onward, back = actions
+        onward, back = setting.actions[:2]
+        policy = {first: {onward: p[0], back: p[1]}, second: {onward: Fraction(1)}}
         rows = [
             Transition(first, onward, second, Fraction(1), rewards[0]),
             Transition(first, back, first, Fraction(1), rewards[1]),
         ]
-        policy[second] = {onward: Fraction(1)}
         name = onward
     else:
         stay, leave = (half, 1 - half) if letter == "gamma" else p
-        name, policy = ALONE, {}
+        name = ALONE
         rows = [Transition(first, name, first, stay, rewards[0]), Transition(first, name, second, leave, rewards[1])]
     rows += [Transition(second, name, target, even, rewards[2 + i]) for i, target in enumerate(after)]
     return Given(

@@ -1,12 +1,13 @@
 """The value of states from given action values: under a policy, and the optimal one."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Open, Parameter, shown
+from rldrill.problems.exact import Exact, Open, Parameter, Scalar, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, values_table
 from rldrill.problems.parts import Number, Part, Values
@@ -84,14 +85,9 @@ def _to_find(rng: Draws, setting: Setting) -> Given:
     kind = rng.choice(("share", "missing", "equal"))
     actions = setting.actions[: 3 if kind == "missing" else 2]
     values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
-    p = (Parameter("p"), Parameter("1-p"))
+    p: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p"))
     if kind == "missing":
-        count = 1 + rng.below(2)
-        policy = {s: dict(zip(actions, rng.split(3, (4, 5, 10)), strict=True)) for s in states[:count]}
-        first = states[0]
-        mean = sum(policy[first][action] * values[first][action] for action in actions)
-        open_ = {first: values[first] | {rng.choice(actions): Parameter("x")}}
-        return Given(values={s: values[s] for s in states[:count]} | open_, policy=policy, known={first: mean})
+        return _without_one(rng, {s: values[s] for s in states[: 1 + rng.below(2)]})
     chance = rng.fraction("1/4", "3/4", "1/3", "2/3", "2/5", "3/5")
     ways = [p, rng.choice((p, p[::-1])) if kind == "share" else p[::-1]]
     policy = {state: dict(zip(actions, way, strict=True)) for state, way in zip(states, ways, strict=True)}
@@ -102,6 +98,15 @@ def _to_find(rng: Draws, setting: Setting) -> Given:
         second[onward] = (mean - chance * second[back]) / (1 - chance)
         return Given(values=values, policy=policy, equal=True)
     return Given(values=values, policy=policy, known={states[0]: mean})
+
+
+def _without_one(rng: Draws, values: dict[str, dict[str, Fraction]]) -> Given:
+    """The value of the first state is known, but not that of one of its actions."""
+    policy = {s: dict(zip(row, rng.split(len(row), (4, 5, 10)), strict=True)) for s, row in values.items()}
+    state, row = next(iter(values.items()))
+    mean = dot(policy[state].values(), row.values())
+    shown_row: dict[str, Scalar] = {**row, rng.choice(tuple(row)): Parameter("x")}
+    return Given(values={**values, state: shown_row}, policy=policy, known={state: mean})
 
 
 def question(given: Given) -> Question:

@@ -1,20 +1,21 @@
 """The end point and the orientation of a planar arm."""
 
 from fractions import Fraction
+from typing import Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from rldrill.problems.angles import AngleField, read_angle, text
+from rldrill.problems.angles import Angle, AngleField, read_angle, text
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, shown
+from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
 SOURCE = "Siciliano et al. 2009, section 2.9.1"
-REVISION = 1
+REVISION = 2
 
 
 class Base(Givens):
@@ -28,7 +29,10 @@ class Base(Givens):
 
 
 class Given(PlanarArm):
-    """An arm; what is asked for is where its end is, and how it points; with ``frames`` those of every link."""
+    """An arm; what is asked for is where its end is, and how it points; with ``frames`` those of every link.
+
+    With ``x``, that of the end point, the length of a link is left open and found from it; then y is asked for.
+    """
 
     base: Base | None = Field(
         default=None,
@@ -41,6 +45,22 @@ class Given(PlanarArm):
         description="Whether the pose of every link's end is asked for, not of the last one alone.",
     )
 
+    x: Exact | None = Field(
+        default=None, description="The x of the end point, from which a length that is left open as w is found."
+    )
+
+    @model_validator(mode="after")
+    def _found(self) -> Self:
+        if (self.x is None) == bool(super().parameters()):
+            raise ValueError("x: it goes with a length that is left open, such as w")
+        if self.x is not None and (self.frames or self.base is not None):
+            raise ValueError("x: a length is found for an arm at the origin, without frames")
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, for a length left open is found."""
+        return ()
+
     @property
     def asked(self) -> range:
         """The links whose ends are asked for."""
@@ -49,10 +69,36 @@ class Given(PlanarArm):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two links at right angles; then at angles with short sines; then three links."""
-    count = 3 if level == 3 else 2
-    lengths = tuple(rng.whole(1, 4) if level < 3 else rng.fraction("1", "2", "3", "4", "1/2") for _ in range(count))
-    return Given(lengths=lengths, angles=draw_angles(rng, level, count))
+    """Two links at right angles; then at others, every link's end, three links or a base; then a length to be found."""
+    if level == 3 and rng.chance(Fraction(3, 4)):
+        return _to_find(rng)
+    kind = rng.choice({1: ("plain",), 2: ("plain", "frames", "three", "base"), 3: ("base",)}[level])
+    count = 3 if level == 3 or kind == "three" else 2
+    lengths = tuple(rng.whole(1, 4) for _ in range(count))
+    base = None
+    if kind == "base":
+        base = Base(x=rng.nonzero(-2, 3), y=rng.nonzero(-2, 3), phi=read_angle(rng.choice(("pi/6", "pi/3", "-pi/6"))))
+    angles = draw_angles(rng, level, count, diagonal=base is None)
+    return Given(lengths=lengths, angles=angles, base=base, frames=kind == "frames")
+
+
+def _to_find(rng: Draws) -> Given:
+    """An arm all of whose angles are multiples of 60°, so that x is rational, with the length of a link left open."""
+    count = 2 + rng.below(2)
+    lengths = [rng.whole(1, 5) for _ in range(count)]
+    turns = [rng.nonzero(-2, 3)] + [rng.nonzero(-2, 2) for _ in range(count - 1)]
+    x, turned = Fraction(0), Fraction(0)
+    for length, turn in zip(lengths, turns, strict=True):
+        turned += turn
+        x += length * _COSINES[int(turned) % 6]
+    angles = tuple(Angle(turn / 3, of_pi=True) for turn in turns)
+    place = rng.below(count)
+    open_ = tuple(Parameter("w") if index == place else length for index, length in enumerate(lengths))
+    return Given(lengths=open_, angles=angles, x=x)
+
+
+#: Of the multiples of 60°.
+_COSINES = tuple(map(Fraction, ("1", "1/2", "-1/2", "-1", "-1/2", "1/2")))
 
 
 def question(given: Given) -> Question:
@@ -63,6 +109,9 @@ def question(given: Given) -> Question:
         which = [
             (f"$φ_{i}$ of link ${i}$", f"$(x_{i}, y_{i})$ of link ${i}$", (f"x_{i}", f"y_{i}")) for i in given.asked
         ]
+    if given.x is not None:
+        ask = f"One length is unknown, $w$. The end point of the last link has $x = {shown(given.x)}$. What is $w$?"
+        return Question(_situation(given), (Part(ask, Number()), Part("What is $y$ of this end point?", Number())))
     parts = []
     for angle, end, entries in which:
         parts += [

@@ -5,7 +5,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import read_angle
+from rldrill.problems.angles import Angle, read_angle
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
@@ -15,23 +15,37 @@ from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
-REVISION = 2
+REVISION = 3
 
 _STRAIGHT = (read_angle("0"), read_angle("pi"))
 
 
 class Given(PlanarArm):
-    """An arm and its joint velocities; with ``orientation`` the last link's angle is the third row of J."""
+    """An arm and its joint velocities; with ``orientation`` the last link's angle is the third row of J.
 
-    rates: tuple[Exact, ...] = Field(description="The angular velocity of every joint, in radians a second.")
+    With ``velocity`` in place of ``rates`` the joint velocities are asked for that move the end like this.
+    """
+
+    rates: tuple[Exact, ...] | None = Field(
+        default=None, description="The angular velocity of every joint, in radians a second.", examples=[[1, -2]]
+    )
+    velocity: tuple[Exact, ...] | None = Field(
+        default=None, description="The velocity of the end point, from which the rates are found.", examples=[[1, 0]]
+    )
     orientation: bool = Field(
         default=False, description="Whether the angle of the last link is the third row of the Jacobian."
     )
 
     @model_validator(mode="after")
     def _rates_fit(self) -> Self:
-        if len(self.rates) != len(self.lengths):
+        if self.parameters():
+            raise ValueError("lengths: give a number for every link here")
+        if (self.rates is None) == (self.velocity is None):
+            raise ValueError("give either rates, the joints' velocities, or velocity, that of the end point")
+        if self.rates is not None and len(self.rates) != len(self.lengths):
             raise ValueError(f"rates holds {len(self.rates)}, but there are {len(self.lengths)} joints")
+        if self.velocity is not None and not len(self.velocity) == len(self.rows) == len(self.lengths):
+            raise ValueError("velocity: it needs as many entries as the Jacobian has rows, and as many joints")
         return self
 
     @property
@@ -46,37 +60,67 @@ class Given(PlanarArm):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two links at right angles; then at others, sometimes stretched out; then three links with the orientation."""
-    count = 3 if level == 3 else 2
-    first, second, *rest = draw_angles(rng, level, count)
-    if level > 1 and rng.chance(Fraction(1, 3)):
-        second = rng.choice(_STRAIGHT)
+    """Two links, perhaps in a line; then at other angles, or three; then with the orientation, or the joints' rates."""
+    singular = rng.chance(Fraction(1, 2))
+    count = 3 if level > 1 and rng.chance(Fraction(level - 1, 4)) else 2
     lengths = tuple(rng.whole(1, 3) for _ in range(count))
     rates = tuple(rng.nonzero(-2, 3) for _ in range(count))
+    if level == 3 and count == 2:
+        first, second = rng.choice(_RIGHT), rng.choice((_RIGHT[1], _RIGHT[3]))
+        return Given(lengths=lengths, angles=(first, second), velocity=_moved(lengths, (first, second), rates))
+    first, second, *rest = draw_angles(rng, max(level, 2), count)
+    if level == 1:
+        first, second = rng.choice(_SLANTED), rng.choice((_RIGHT[1], _RIGHT[3]))
+    if singular:
+        second = rng.choice(_STRAIGHT)
+        lengths = (lengths[0], lengths[0] % 3 + 1, *lengths[2:])  # folded back, the end is not at the base
     return Given(lengths=lengths, angles=(first, second, *rest), rates=rates, orientation=level == 3)
+
+
+_RIGHT = tuple(map(read_angle, ("0", "pi/2", "pi", "-pi/2")))
+_SLANTED = tuple(map(read_angle, ("pi/6", "pi/3", "2*pi/3", "5*pi/6", "-pi/6", "-pi/3")))
+
+
+def _moved(
+    lengths: tuple[Fraction, ...], angles: tuple[Angle, ...], rates: tuple[Fraction, ...]
+) -> tuple[Fraction, Fraction]:
+    """The velocity of the end of an arm whose links stand at right angles: each turns with all joints before it."""
+    quarters, turning, velocity = 0, Fraction(0), (Fraction(0), Fraction(0))
+    for length, angle, rate in zip(lengths, angles, rates, strict=True):
+        quarters = (quarters + int(angle.number * 2)) % 4
+        turning += rate
+        cosine, sine = (1, 0, -1, 0)[quarters], (0, 1, 0, -1)[quarters]
+        velocity = (velocity[0] - length * sine * turning, velocity[1] + length * cosine * turning)
+    return velocity
 
 
 def question(given: Given) -> Question:
     """J, then the velocity, then the singularity where J is square."""
     m, n = len(given.rows), len(given.lengths)
-    rates = ", ".join(f"ω_{index} = {shown(rate)}" for index, rate in enumerate(given.rates, 1))
+    rates = ", ".join(f"ω_{index} = {shown(rate)}" for index, rate in enumerate(given.rates or (), 1))
     moves = "the end point $(x, y)$ and the angle $φ$ of the last link against the $x$ axis" if given.orientation else (
         "the end point $(x, y)$ of the last link"
     )  # fmt: skip
     velocity = tuple(f"v_{row}" for row in given.rows)
-    parts = [
-        Part("What is $J$ at this configuration?", Matrix(m, n)),
-        Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True),
-    ]
-    if given.square:
+    turned = f" The joints turn with the angular velocities ${rates}$." if rates else ""
+    parts = [Part("What is $J$ at this configuration?", Matrix(m, n))]
+    if given.velocity is not None:
+        wanted = ", ".join(map(shown, given.velocity))
+        ask = (
+            f"The velocity of the end is to be $({', '.join(velocity)}) = ({wanted})$. What angular velocities of the "
+        )
+        entries = tuple(f"ω_{index}" for index in range(1, n + 1))
+        parts.append(Part(f"{ask}joints do this?", Numbers(entries), zero=True))
+    else:
+        parts.append(Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True))
+    if given.square and given.velocity is None:
         parts.append(Part("Is the configuration singular, that is, is $det J = 0$?", YesNo()))
     return Question(
         (
             *situation(given),
             Paragraph(
                 f"The Jacobian $J$ has the derivatives of {moves} by the joint angles: one row for each of "
-                f"${', '.join(given.rows)}$, one column for each joint. The joints turn with the angular velocities "
-                f"${rates}$."
+                f"${', '.join(given.rows)}$, one column for each joint.{turned}"
             ),
         ),
         tuple(parts),

@@ -73,8 +73,8 @@ def draw(level: int, rng: Draws) -> Given:
 
 def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:
     """No two tasks alike, and none that is learnt in one step, so that it would not count."""
-    theta, *optima = rng.distinct(count + 1, -4, 6)
-    alpha = rng.fraction("1/2", "1/4")
+    theta, *optima = rng.distinct(count + 1, -3, 5)
+    alpha = rng.fraction("1/2", "1/4" if count < 3 else "1/2")
     curvatures = [Fraction(curve) for curve in (1, 2, 3) if curve * alpha != 1]
     return theta, tuple(Task(rng.choice(curvatures), optimum) for optimum in optima), alpha
 

@@ -64,7 +64,7 @@ def draw(level: int, rng: Draws) -> Given:
     trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, last=False, same=level == 3)
     rows = draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), unit)
     first = rng.choice((1, 2))
-    return Given(
+    given = Given(
         trajectory=trajectory,
         values=rows,
         second={state: _other_row(rng, row, unit) for state, row in rows.items()},
@@ -72,6 +72,18 @@ def draw(level: int, rng: Draws) -> Given:
         alpha=alpha,
         gamma=gamma,
     )
+    return given if _moves(given) else draw(level, rng)
+
+
+def _moves(given: Given) -> bool:
+    """Whether the first transition, at least, changes a value."""
+    mine, other = (given.values, given.second) if given.updates[0] == 1 else (given.second, given.values)
+    state, after = given.trajectory.states[:2]
+    ahead = Fraction(0)
+    if after not in given.terminal:
+        ahead = other[after][max(mine[after], key=mine[after].__getitem__)]
+    target = given.trajectory.rewards[0] + Fraction(str(given.gamma)) * ahead
+    return target != mine[state][given.trajectory.actions[0]]
 
 
 def _back(rng: Draws) -> Given:

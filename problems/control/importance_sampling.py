@@ -130,8 +130,15 @@ def _telling(given: Given) -> bool:
             )
         )
     weighed = [ratio * earned for ratio, earned in zip(ratios, returns, strict=True)]
+    later = [ratio * episode.rewards[1] for ratio, episode in zip(ratios, given.episodes, strict=True)
+             if len(episode.rewards) > 1]  # fmt: skip
     total = sum(weighed, Fraction(0))
-    different = len(set(ratios)) == len(set(returns)) == len(ratios) and 1 not in ratios and 0 not in returns
+    different = (
+        len(set(ratios)) == len(set(returns)) == len(ratios)
+        and 1 not in ratios
+        and 0 not in returns
+        and sum(later) != 0
+    )
     return different and all(
         abs(number.numerator) <= 200 and number.denominator <= 60
         for number in (total / len(weighed), total / sum(ratios))

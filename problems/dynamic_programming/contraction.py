@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 1
+REVISION = 2
 
 
 def _positive(value: Fraction) -> Fraction:
@@ -59,17 +59,19 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """V* is known, one bound; then also the sweeps for an accuracy; then only the first sweep is known."""
-    states = draw_setting(rng).states[: level + 1]
+    """V* is known, one bound; then V* or the first sweep; then mostly the first sweep, and a discount nearer to 1."""
+    known = level == 1 or rng.chance(Fraction(1, level))
+    states = draw_setting(rng).states[: 2 if level == 1 else 2 + rng.below(level)]
     start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
     other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}
+    discounts = {1: ("1/2", "1/3", "1/4", "1/5"), 2: ("1/2", "1/3", "1/4"), 3: ("2/3", "3/4", "4/5", "9/10")}[level]
     return Given(
         start=start,
-        optimum=other if level < 3 else None,
-        first=other if level == 3 else None,
-        gamma=rng.fraction(*(("1/2", "1/3", "1/4", "1/5") if level < 3 else ("1/2", "2/3", "4/5", "9/10"))),
-        sweeps=1 + rng.below(3) + (level > 1),
-        accuracy=rng.fraction("1/2", "1/10", "1/20", "1/100") if level > 1 else None,
+        optimum=other if known else None,
+        first=None if known else other,
+        gamma=rng.fraction(*discounts),
+        sweeps=2 + rng.below(2) * (level == 2),
+        accuracy=rng.fraction("1", "1/2", "1/10", "1/20") if level > 1 else None,
     )
 
 
@@ -79,9 +81,9 @@ def question(given: Given) -> Question:
     mark = "V^*" if known else "V_1"
     blocks: tuple[Block, ...] = (
         Paragraph(
-            "Value iteration starts from $V_0$; the optimal values $V^*$ are known."
+            "Value iteration starts from $V_0$. The optimal values $V^*$ are known."
             if known
-            else "Value iteration starts from $V_0$; one synchronous sweep gives $V_1$. "
+            else "Value iteration starts from $V_0$. One synchronous sweep gives $V_1$. "
             "The optimal values $V^*$ are not known."
         ),
         Table(
@@ -95,10 +97,11 @@ def question(given: Given) -> Question:
     )
     parts = [Part(f"What is $‖{'V_0 − V^*' if known else 'V_1 − V_0'}‖_∞$?", Number())]
     if not known:
-        parts.append(Part("How large can $‖V_0 − V^*‖_∞$ be at most, by what the first sweep changed?", Number()))
-    ask = f"How large can $‖V_{{{given.sweeps}}} − V^*‖_∞$ be at most, after {counted(given.sweeps)}?"
+        parts.append(Part("Give an upper bound on $‖V_0 − V^*‖_∞$ from this change of the first sweep.", Number()))
+    ask = f"What upper bound on $‖V_{{{given.sweeps}}} − V^*‖_∞$, after {counted(given.sweeps)}, follows?"
     parts.append(Part(ask, Number()))
     if given.accuracy is not None:
-        ask = f"What is the smallest $k$ for which this bound guarantees $‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$?"
+        limit = f"$‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$"
+        ask = f"What is the smallest number of sweeps $k$ for which this bound guarantees {limit}?"
         parts.append(Part(ask, Number()))
     return Question(blocks, tuple(parts))

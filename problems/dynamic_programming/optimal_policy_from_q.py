@@ -1,5 +1,6 @@
 """The optimal policy for given optimal action values, some of which may have to be found first."""
 
+from fractions import Fraction
 from functools import cached_property
 from typing import Self
 
@@ -7,20 +8,24 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Probability, shown
+from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Dynamics, Name, transitions_table
-from rldrill.problems.parts import Part, Policy, Values
-from rldrill.problems.phrases import discount, terminal_note
+from rldrill.problems.models import Dynamics, Name, Transition, transitions_table
+from rldrill.problems.parts import Number, Part, Policy, Values
+from rldrill.problems.phrases import discount, terminal_note, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
+from rldrill.problems.valued import UNITS, tells_apart
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
-    """The optimal action values, what the actions do whose values are missing, the discount, and where it ends."""
+    """The optimal action values, what the actions do whose values are missing, the discount, and where it ends.
+
+    Where a missing value's reward is left open, it is asked from which reward on the action is best.
+    """
 
     values: dict[Name, dict[Name, Exact]] = Field(
         min_length=1, description="For every state the optimal values of its actions."
@@ -36,6 +41,11 @@ class Given(Givens):
             return self
         if self.gamma is None:
             raise ValueError("gamma: the discount is needed to find the missing values")
+        open_rows = [row[:2] for row in self.missing.transitions if isinstance(row.reward, Parameter)]
+        if super().parameters() and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
+            raise ValueError("missing: only one reward of the last action there can be left open")
+        if super().parameters() and len(self.values[open_rows[0][0]]) == 0:
+            raise ValueError("values: another action of the state is needed, to compare what is left open with")
         for state, action in self.missing.pairs:
             if state not in self.values:
                 raise ValueError(f"values: {state!r} does not occur; give it there, if need be as an empty table")
@@ -58,6 +68,15 @@ class Given(Givens):
             if state in self.terminal:
                 raise ValueError(f"values: {state!r} is terminal, so no action can be taken there")
 
+    @property
+    def tied(self) -> tuple[str, str] | None:
+        """The state and action whose reward is left open."""
+        return self.gaps[-1] if super().parameters() else None
+
+    def parameters(self) -> tuple[str, ...]:
+        """What answers are expressions in: nothing, because what is left open is asked for."""
+        return ()
+
     @cached_property
     def actions(self) -> dict[str, tuple[str, ...]]:
         """The actions of every state, those with a missing value among them, in the order of the table."""
@@ -76,42 +95,74 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """All values are known; then two of one state are missing; then three of two states."""
+    """All values are known; then some are missing; then a reward decides which action is best."""
     setting = draw_setting(rng)
-    states = setting.states[: 4 if level == 3 else 3]
-    values = {state: dict(zip(setting.actions, rng.distinct(3, -3, 12), strict=True)) for state in states}
+    gamma = rng.fraction("1/2", "2/3", "4/5")
+    states = setting.states[: 2 + rng.below(2) + (level > 1)]
+    values = {state: dict(zip(setting.actions, _row(rng, gamma), strict=True)) for state in states}
+    while level == 1 and len({max(row, key=lambda action: row[action]) for row in values.values()}) == 1:
+        values = {state: dict(zip(setting.actions, _row(rng, gamma), strict=True)) for state in states}
     if level == 1:
         return Given(values=values)
-    holed = rng.sample(states, level - 1)
-    gaps = [(state, action) for state in holed for action in rng.sample(setting.actions, 2)][: 2 * level - 2]
-    reached = [state for state in states if state not in holed] + [setting.terminal]
-    shape = Shape(states=0, actions=0, branches=2, reward=8, denominators=(2, 4))
-    rows = [row for gap in gaps for row in draw_outcomes(rng, *gap, rng.sample(reached, 2), shape)]
+    holed = rng.sample(states, 1 if len(states) == 3 else 2)
+    counts = (1,) * len(holed) if level == 3 else (2,) if len(holed) == 1 else (1, 1 + rng.below(2))
+    gaps = [(s, a) for s, count in zip(holed, counts, strict=True) for a in rng.sample(setting.actions, count)]
+    places = (*setting.states, setting.terminal)[: len(states) + 1]
+    places = (*states, setting.terminal) if setting.terminal in places or rng.chance(Fraction(1, 2)) else states
+    worth = {s: max(row.values()) for s, row in values.items()}
+    rows: list[Transition] = []
+    for gap in gaps:
+        reached = [place for place in setting.reached(places, *gap) if place not in holed]
+        targets = tuple(reached) or tuple(place for place in places if place not in holed)[-1:]
+        shape = Shape(states=0, actions=0, branches=2, reward=8, denominators=(2, 4))
+        found = draw_outcomes(rng, *gap, targets[:2], shape)
+        while not tells_apart(found, worth, gamma):
+            found = draw_outcomes(rng, *gap, targets[:2], shape)
+        rows += found
+    if level == 3:
+        last = [index for index, row in enumerate(rows) if (row.state, row.action) == gaps[-1]]
+        rows[last[0]] = rows[last[0]]._replace(reward=Parameter("x"))
     return Given(
         values={state: {a: q for a, q in row.items() if (state, a) not in gaps} for state, row in values.items()},
         missing=Dynamics(transitions=tuple(rows)),
-        gamma=rng.fraction("1/2", "4/5", "9/10"),
-        terminal=(setting.terminal,),
+        gamma=gamma,
+        terminal=(setting.terminal,) if any(row.next == setting.terminal for row in rows) else (),
     )
+
+
+def _row(rng: Draws, gamma: Fraction) -> tuple[Fraction, ...]:
+    """Different action values; the greatest is whole when it is discounted, too."""
+    best = UNITS[gamma] * rng.whole(1, 12 // UNITS[gamma])
+    below = rng.distinct(2, int(best) - 7, int(best) - 1)
+    return rng.shuffled((best, *below))
 
 
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
-    best = Part("Which action does an optimal policy take in every state?", Policy(given.actions))
+    best = Part("Which action is optimal in every state?", Policy(given.actions))
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
         return Question(tuple(known), (best,))
+    tied = f" {unknown('x')}" if given.tied else ""
     blocks = (
         *known,
-        Paragraph("Where a question mark stands, the action does this:"),
+        Paragraph("Where a question mark stands, the action has these outcomes:"),
         transitions_table(given.missing),
         *terminal_note(given.terminal),
-        Paragraph(discount(given.gamma)),
+        Paragraph(f"{discount(given.gamma)}{tied}"),
     )
-    ask = (
-        "What are the missing values $Q^*(s, a)$?" if len(given.gaps) > 1 else "What is the missing value $Q^*(s, a)$?"
-    )
-    return Question(blocks, (Part(ask, Values("Q^*", given.gaps)), best))
+    parts = []
+    if asked := given.gaps[: -1 if given.tied else None]:
+        value = "values" if len(asked) > 1 else "value"
+        which = f'$Q^*("{asked[0][0]}", "{asked[0][1]}")$' if len(asked) == 1 else f"the missing {value} $Q^*(s, a)$"
+        parts.append(Part(f"What {'is' if len(asked) == 1 else 'are'} {which}?", Values("Q^*", asked)))
+    if given.tied:
+        state, action = given.tied
+        parts.append(Part(f"From which $x$ on is {action} optimal in {state}?", Number()))
+        if others := {s: actions for s, actions in given.actions.items() if s != state}:
+            parts.append(Part("Which action is optimal in every other state?", Policy(others)))
+        return Question(blocks, tuple(parts))
+    return Question(blocks, (*parts, best))
 
 
 def _table(given: Given) -> Table:

@@ -1,6 +1,7 @@
 """The optimal policy of a model whose optimal state values are known."""
 
-from typing import Self
+from fractions import Fraction
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -9,14 +10,14 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Name, check_state_values, model_blocks, values_table
-from rldrill.problems.parts import Part, Policy
+from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -25,29 +26,54 @@ class Given(Givens):
     mdp: Model = Field(description="The Markov decision process.")
     values: dict[Name, Exact] = Field(description="The optimal value of every state; it may be rounded.")
     gamma: Probability = Field(description="The discount.")
+    action_values: bool = Field(
+        default=False,
+        exclude_if=lambda action_values: not action_values,
+        description="Whether the values of all actions are asked for first.",
+    )
+    missing: Name | None = Field(default=None, description="A state whose value is left out, and asked for first.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        check_state_values(self.values, self.mdp)
-        if not self.parameters():
+        if self.missing is not None and (self.missing not in self.mdp.states or self.missing in self.values):
+            raise ValueError(f"missing: {self.missing!r} must be a state of the model without a value in values")
+        if self.missing is not None and self.gamma == 1:
+            raise ValueError("missing: with a discount of 1 one equation need not give a value; choose a smaller one")
+        known = self.values if self.missing is None else {**self.values, self.missing: Fraction(0)}
+        check_state_values(known, self.mdp)
+        if not self.parameters() and self.missing is None:
             check_optimal_values(self.values, self.mdp, self.gamma)
         return self
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two states whose moves are certain; then three whose moves are not; then four."""
-    gamma = rng.choice(tuple(UNITS)[: level + 1])
-    shape = Shape(states=level + 1, actions=3, branches=min(level, 2), denominators=(2,))
-    mdp, _, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1))
-    return Given(mdp=mdp, values=values, gamma=gamma)
+    """Two states whose moves are certain; then moves that are not, or three states; then a value is missing."""
+    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    states = 2 if level == 1 else 2 + rng.below(2)
+    actions = 3 if states == 2 else 2
+    shape = Shape(states=states, actions=actions, branches=min(level, 2), denominators=(2,))
+    forked: Literal["all", "others"] = "others" if level == 2 else "all"
+    mdp, _, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1), forked=forked)
+    missing = None
+    if level == 3:
+        missing = rng.choice(mdp.states)
+        del values[missing]
+    return Given(mdp=mdp, values=values, gamma=gamma, action_values=True, missing=missing)
 
 
 def question(given: Given) -> Question:
     """The model and its optimal values; an action is asked for in every state."""
+    told = "The optimal values are known."
+    if given.missing is not None:
+        told = f"The optimal values are known, but for that of {given.missing}."
     blocks = (
         *model_blocks(given.mdp),
-        Paragraph(f"The optimal values are known. {discount(given.gamma)}"),
+        Paragraph(f"{told} {discount(given.gamma)}"),
         values_table(given.values, "V^*"),
     )
-    ask = "Which action does an optimal policy take in every state?"
-    return Question(blocks, (Part(ask, Policy(given.mdp.actions)),))
+    parts = []
+    if given.missing is not None:
+        parts.append(Part(f'What is $V^*("{given.missing}")$?', Number()))
+    if given.action_values:
+        parts.append(Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)))
+    return Question(blocks, (*parts, Part("Which action is optimal in every state?", Policy(given.mdp.actions))))

@@ -1,20 +1,32 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
+from fractions import Fraction
+
 from pydantic import Field
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import ModelAndPolicy, Process, model_blocks, policy_table
+from rldrill.problems.model_forms import ALONE
+from rldrill.problems.models import (
+    Model,
+    ModelAndPolicy,
+    PolicyField,
+    Process,
+    Transition,
+    model_blocks,
+    policy_table,
+)
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
+from rldrill.problems.valued import draw_values, tells_apart
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 1
+REVISION = 2
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -30,29 +42,66 @@ class Given(ModelAndPolicy, Sweeps):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sweep from given values; then two from zero; then three, or two over three states with γ left open."""
+    """One sweep from given values; then two from zero, or one with more; then γ or the policy left open.
+
+    Rewards are even, and values to start from multiples of what the discount makes whole: so the numbers stay small.
+    """
     setting = draw_setting(rng)
-    left_open = level == 3 and rng.chance(rng.fraction("1/2"))
-    shape = Shape(
-        states=3 if left_open else 2,
-        actions=2,
-        branches=1 if level == 1 else 2,
-        denominators=(2,),
-        reward=4 + 2 * level,
-    )
-    mdp = draw_model(rng, setting, shape)
-    denominators = (2, 4) if level < 3 else (2,)
-    policy = {
-        state: dict(zip(actions, rng.split(2, denominators), strict=True)) for state, actions in mdp.actions.items()
-    }
+    started = level == 1 or (level == 2 and rng.chance(Fraction(1, 2)))
+    states = 2 if level == 1 else 2 + rng.below(2)
+    alone = level > 1 and rng.chance(Fraction(1, 3))
+    gamma = rng.fraction("1/2", "4/5") if started else Fraction(1, 2)
+    in_place = rng.chance(Fraction(1, 2)) and (started or states == 2)
+    sure = level == 1 or (not alone and (states == 3 or (in_place and not started)))
+    shape = Shape(states=states, actions=2, branches=1 if sure else 2, denominators=(2,))
+    start = draw_values(rng, setting.states[:states], gamma)
+    places = (*setting.states[:states], setting.terminal)
+    actions = (ALONE,) if alone else setting.actions[:2]
+    rows: list[Transition] = []
+    while not rows or (started and not _used(rows, setting.states[:states], in_place=in_place)):
+        rows = []
+        for state in setting.states[:states]:
+            found = _even(rng, setting, places, state, actions, shape)
+            while not tells_apart(found, start, gamma):
+                found = _even(rng, setting, places, state, actions, shape)
+            rows += found
+    mdp = Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,))
+    open_gamma = level == 3 and (alone or rng.chance(Fraction(1, 2)))
+    policy: PolicyField | None = None
+    if not alone:
+        policy = {
+            state: dict(zip(actions, rng.split(2, (2, 4) if started else (2,)), strict=True))
+            for state, actions in mdp.actions.items()
+        }
+        if level == 3 and not open_gamma:
+            chosen = rng.choice(mdp.states)
+            policy[chosen] = dict(zip(policy[chosen], (Parameter("p"), Parameter("1-p")), strict=True))
     return Given(
         mdp=mdp,
         policy=policy,
-        gamma=Parameter("gamma") if left_open else rng.fraction("1/2") if level == 3 else rng.fraction("1/2", "4/5"),
-        sweeps=2 if left_open else level,
-        start={state: rng.nonzero(-4, 9) for state in mdp.states} if level == 1 else None,
-        in_place=rng.chance(rng.fraction("1/2")),
+        gamma=Parameter("gamma") if open_gamma else gamma,
+        sweeps=1 if started else 2,
+        start=start if started else None,
+        in_place=in_place,
     )
+
+
+def _used(rows: list[Transition], states: tuple[str, ...], *, in_place: bool) -> bool:
+    """Whether each value to start from is used in the first sweep; in place, by a state that is not updated later."""
+    return all(
+        any(row.next == state and (not in_place or row.state in states[: index + 1]) for row in rows)
+        for index, state in enumerate(states)
+    )
+
+
+def _even(
+    rng: Draws, setting: Setting, places: tuple[str, ...], state: str, actions: tuple[str, ...], shape: Shape
+) -> list[Transition]:
+    return [
+        row._replace(reward=2 * Fraction(row.reward))
+        for action in actions
+        for row in draw_outcomes(rng, state, action, draw_targets(rng, setting, places, (state, action), shape), shape)
+    ]
 
 
 def question(given: Given) -> Question:
@@ -60,7 +109,7 @@ def question(given: Given) -> Question:
     k = given.sweeps
     blocks: tuple[Block, ...] = (
         *model_blocks(given.mdp),
-        *((Paragraph("The policy is:"), policy_table(given.chances)) if given.mdp.chooses else ()),
+        *((Paragraph("The policy $π$ is:"), policy_table(given.chances)) if given.mdp.chooses else ()),
         *begin(given, "Policy evaluation"),
         Paragraph(f"{discount(given.gamma)} {in_place(given.mdp.states) if given.in_place else SYNCHRONOUS}"),
     )

@@ -1,6 +1,7 @@
 """The greedy policy for the values of a policy, and whether that policy was optimal already."""
 
-from typing import Self
+from fractions import Fraction
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -9,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Model, Name, PolicyField, check_policy, check_state_values, model_blocks
-from rldrill.problems.parts import Part, Policy, YesNo
+from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
@@ -19,11 +20,12 @@ from rldrill.problems.valued import (
     draw_valued,
     known_or_asked,
     policy_blocks,
+    worth,
 )
 
 TITLE = "Policy improvement"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -35,6 +37,11 @@ class Given(Givens):
         default=None, description="The policy's values; without them they are asked for first."
     )
     gamma: Probability = Field(description="The discount.")
+    action_values: bool = Field(
+        default=False,
+        exclude_if=lambda action_values: not action_values,
+        description="Whether the values of all actions are asked for, too.",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -47,16 +54,27 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two states whose moves are certain; then three whose moves are not; then the values are asked for, too."""
-    gamma = rng.choice(tuple(UNITS)[: level + 1])
-    shape = {
-        1: Shape(states=2, actions=3, branches=1),
-        2: Shape(states=3, actions=3, branches=2, denominators=(2,)),
-        3: Shape(states=3, actions=3, branches=2, denominators=(2,)),
-    }[level]
-    others = (-4, -1) if rng.chance(rng.fraction("1/3")) else (-4, 4)
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others)
-    return Given(mdp=mdp, policy=deterministic(policy), values=None if level == 3 else values, gamma=gamma)
+    """Two states whose moves are certain; then moves that are not; then the values are asked for, too."""
+    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    states = 2 if level == 1 else 2 + rng.below(2)
+    shape = Shape(states=states, actions=3 if states == 2 else 2, branches=min(level, 2), denominators=(2,))
+    others = (-4, -1) if rng.chance(Fraction(1, 2)) else (-4, 4)
+    forked: Literal["own", "others"] = "own" if level == 3 else "others"
+    setting = draw_setting(rng)
+    mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
+    while level == 1 and len({_greedy(mdp, state, values, gamma) for state in mdp.states}) == 1:
+        mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
+    return Given(
+        mdp=mdp,
+        policy=deterministic(policy),
+        values=None if level == 3 else values,
+        gamma=gamma,
+        action_values=level == 2,
+    )
+
+
+def _greedy(mdp: Model, state: str, values: dict[str, Fraction], gamma: Fraction) -> str:
+    return max(mdp.actions[state], key=lambda action: worth(mdp, (state, action), values, gamma))
 
 
 def question(given: Given) -> Question:
@@ -64,6 +82,8 @@ def question(given: Given) -> Question:
     states = given.mdp.states
     known, asked = known_or_asked(given.values, states)
     blocks = (*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma)), *known)
+    if given.action_values:
+        asked = [*asked, Part("What is $Q^π(s, a)$ for every state and action?", Values("Q^π", given.mdp.pairs))]
     parts = (
         *asked,
         Part("Which action is greedy for $V^π$ in every state?", Policy(given.mdp.actions)),

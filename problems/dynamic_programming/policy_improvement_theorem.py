@@ -1,6 +1,7 @@
 """The worth of one step of another policy, and whether the policy improvement theorem applies to it."""
 
-from typing import Self
+from fractions import Fraction
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -8,7 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, check_policy, check_state_values, model_blocks
+from rldrill.problems.models import Model, Name, Transition, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -24,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement theorem"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -55,17 +56,33 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two states whose moves are certain; then three whose moves are not; then the values are asked for, too."""
-    gamma = rng.choice(tuple(UNITS)[: level + 1])
-    shape = Shape(states=2 if level == 1 else 3, actions=2, branches=1 if level == 1 else 2, denominators=(2, 4))
-    others = (1, 4) if rng.chance(rng.fraction("1/2")) else (-4, 4)
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others)
-    kept = rng.choice(mdp.states) if level > 1 else None
+    """Two states whose moves are certain; then moves that are not; then the values are asked for, too.
+
+    A state in which both policies do the same has no other action.
+    """
+    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    states = 2 if level == 1 else 2 + rng.below(2)
+    shape = Shape(states=states, actions=2, branches=min(level, 2), denominators=(2, 4) if level < 3 else (2,))
+    others = (1, 4) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 4)) else (-4, 4)
+    forked: Literal["all", "others"] = "all" if level == 3 else "others"
+    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked=forked)
+    kept = rng.choice(mdp.states) if level > 1 and rng.chance(Fraction(1, 2)) else None
     other = {
         state: policy[state] if state == kept else next(action for action in actions if action != policy[state])
         for state, actions in mdp.actions.items()
     }
-    return Given(mdp=mdp, policy=policy, other=other, values=None if level == 3 else values, gamma=gamma)
+    rows = tuple(row for row in mdp.transitions if row.action in (policy[row.state], other[row.state]))
+    return Given(
+        mdp=Model(story=mdp.story, transitions=rows, terminal=tuple(e for e in mdp.terminal if _reached(rows, e))),
+        policy=policy,
+        other=other,
+        values=None if level == 3 else values,
+        gamma=gamma,
+    )
+
+
+def _reached(rows: tuple[Transition, ...], state: str) -> bool:
+    return any(row.next == state for row in rows)
 
 
 def question(given: Given) -> Question:
@@ -75,7 +92,7 @@ def question(given: Given) -> Question:
     blocks = (
         *model_blocks(given.mdp),
         *policy_blocks(deterministic(given.policy)),
-        Paragraph("Another policy is:"),
+        Paragraph("Another policy $π'$ is:"),
         choices_table(given.other, "π'"),
         Paragraph(discount(given.gamma)),
         *known,

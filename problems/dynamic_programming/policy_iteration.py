@@ -1,5 +1,6 @@
 """Values and policies of some rounds of policy iteration, and whether it has ended."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -16,7 +17,7 @@ from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_va
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Givens):
@@ -35,14 +36,14 @@ class Given(Givens):
 
 def draw(level: int, rng: Draws) -> Given:
     """One round over two states whose moves are certain; then two rounds; then two over three states."""
-    gamma = rng.choice(tuple(UNITS)[: 2 if level < 3 else 3])
+    gamma = rng.choice(tuple(UNITS)[:2])
     shape = {
         1: Shape(states=2, actions=3, branches=1),
-        2: Shape(states=2, actions=3, branches=2, denominators=(2,)),
+        2: Shape(states=2, actions=2 + rng.below(2), branches=2, denominators=(2,)),
         3: Shape(states=3, actions=2, branches=2, denominators=(2,)),
     }[level]
-    optimal = level == 1 and rng.chance(rng.fraction("1/4"))
-    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1) if optimal else (-3, 5))
+    others = (-4, -1) if rng.chance(Fraction(1, 2 if level == 1 else 5)) else (-3, 5)
+    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
     return Given(mdp=mdp, start=policy, gamma=gamma, rounds=min(level, 2))
 
 

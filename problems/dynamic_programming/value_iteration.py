@@ -1,28 +1,34 @@
 """Values after some sweeps of value iteration, and the greedy policy for them."""
 
+from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability
+from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import model_blocks
-from rldrill.problems.parts import Part, Policy, Values
+from rldrill.problems.models import Model, Name, model_blocks
+from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
-from rldrill.problems.settings import Shape, draw_model, draw_setting
+from rldrill.problems.settings import Setting, Shape, draw_model, draw_setting
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
+from rldrill.problems.valued import draw_values
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 1
+REVISION = 2
 
 
 class Given(Sweeps):
-    """A model, the discount, how many sweeps, and the values to start from (0 where none are given)."""
+    """A model, the discount, how many sweeps, and the values to start from (0 where none are given).
 
-    gamma: Probability = Field(description="The discount.")
+    With a state for a tie the discount is left open: it is asked for which one two actions there are both greedy.
+    """
+
+    gamma: Discount
+    tie: Name | None = Field(default=None, description="A state whose two actions are to be greedy both; leave γ open.")
     in_place: bool = Field(
         default=False,
         exclude_if=lambda in_place: not in_place,
@@ -33,6 +39,21 @@ class Given(Sweeps):
         exclude_if=lambda action_values: not action_values,
         description="Whether the sweeps go over action values: then Q_k is asked for instead of V_k.",
     )
+
+    @model_validator(mode="after")
+    def _tied(self) -> Self:
+        open_ = super().parameters()
+        if self.tie is None and open_:
+            raise ValueError(f"{open_[0]} is left open, so no action can be called greedy; give numbers, or a tie")
+        if self.tie is not None and (open_ != ("gamma",) or self.sweeps != 1 or self.start or self.action_values):
+            raise ValueError("tie: leave gamma open, and nothing else; it takes one sweep over states, from 0")
+        if self.tie is not None and len(self.mdp.actions.get(self.tie, ())) != 2:
+            raise ValueError(f"tie: {self.tie!r} must be a state with two actions")
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """What answers are expressions in: nothing, because the discount is asked for where it is left open."""
+        return ()
 
     @model_validator(mode="after")
     def _from_zero(self) -> Self:
@@ -46,34 +67,58 @@ class Given(Sweeps):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sweep from given values; then two from zero; then three over three states."""
+    """One sweep from given values; then two from zero, over states or actions; then three, or a discount to be found.
+
+    Only action values depend on all probabilities: where values of states are asked for, moves are certain. Rewards
+    are even, so that the numbers stay small.
+    """
     setting = draw_setting(rng)
-    shape = Shape(states=3 if level == 3 else 2, actions=2, branches=1 if level == 1 else 2, denominators=(2,))
+    if level == 3 and rng.chance(Fraction(1, 2)):
+        return _to_tie(rng, setting)
+    over_actions = level == 2 and rng.chance(Fraction(1, 2))
+    states = 2 if over_actions else 3 if level != 2 else 2 + rng.below(2)
+    shape = Shape(states=states, actions=2, branches=2 if over_actions else 1, denominators=(2,))
+    gamma = rng.fraction("1/2", "2/3", "4/5") if level == 1 else Fraction(1, 2)
     mdp = draw_model(rng, setting, shape)
-    start = {state: rng.nonzero(-4, 9) for state in mdp.states} if level == 1 else None
-    return Given(mdp=mdp, gamma=rng.fraction("1/2", "4/5", "9/10"), sweeps=level, start=start)
+    scale = 1 if level == 1 else 2
+    rows = tuple(
+        row._replace(reward=rng.whole(4, 9) if row.next == setting.terminal else scale * Fraction(row.reward))
+        for row in mdp.transitions
+    )
+    mdp = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
+    return Given(
+        mdp=mdp,
+        gamma=gamma,
+        sweeps=level,
+        start=draw_values(rng, mdp.states, gamma) if level == 1 else None,
+        in_place=not over_actions and rng.chance(Fraction(1, 2)),
+        action_values=over_actions,
+    )
+
+
+def _to_tie(rng: Draws, setting: Setting) -> Given:
+    """Two actions in one state that are both greedy for the values of the first sweep, with the right discount."""
+    mdp = draw_model(rng, setting, Shape(states=2 + rng.below(2), actions=2, branches=1, reward=8))
+    return Given(mdp=mdp, gamma=Parameter("gamma"), sweeps=1, tie=rng.choice(mdp.states))
 
 
 def question(given: Given) -> Question:
-    """The model; values after the sweeps, then the policy that is greedy for them."""
+    """The model; values after the sweeps, then the policy that is greedy for them, or what makes a tie."""
     if given.action_values:
         return _of_actions(given)
     sweeps = in_place(given.mdp.states) if given.in_place else SYNCHRONOUS
-    blocks = (
-        *model_blocks(given.mdp),
-        *begin(given, "Value iteration"),
-        Paragraph(f"{discount(given.gamma)} {sweeps}"),
-    )
+    rate = "The discount $γ$ is not known." if given.tie else discount(given.gamma)
+    blocks = (*model_blocks(given.mdp), *begin(given, "Value iteration"), Paragraph(f"{rate} {sweeps}"))
     k = given.sweeps
+    values = Part(
+        f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}?", Values(f"V_{{{k}}}", given.mdp.states)
+    )
+    if given.tie:
+        both = " and ".join(given.mdp.actions[given.tie])
+        ask = f"For which $γ$ are {both} both greedy for $V_{{{k}}}$ in {given.tie}?"
+        return Question(blocks, (values, Part(ask, Number())))
     return Question(
-        blocks,
-        (
-            Part(
-                f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}?",
-                Values(f"V_{{{k}}}", given.mdp.states),
-            ),
-            Part(f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)),
-        ),
+        blocks, (values, Part(f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)))
     )
 
 

@@ -69,6 +69,8 @@ class Given(Givens):
                 raise ValueError(f"trajectory: {action!r} is taken but has no block of weights")
 
 
+#: Weights at level 2: half an estimate is whole.
+_EVEN = (Fraction(-4), Fraction(-2), Fraction(2), Fraction(4))
 #: The states of a run at level 2, by their numbers, the last one terminal if it is None; the features of each; and
 #: whether it is Sarsa.
 _RUNS: tuple[tuple[tuple[int | None, ...], int, bool], ...] = (
@@ -93,10 +95,12 @@ def draw(level: int, rng: Draws) -> Given:
             terminal=tuple(state for state in states if state == setting.terminal),
         ),
         features={state: tuple(rng.whole(0, 2) for _ in range(size)) for state in named},
-        theta=tuple(rng.nonzero(-3, 4) for _ in range(size * max(1, len(choices)))),
+        theta=tuple(
+            rng.choice(_EVEN) if level == 2 else rng.nonzero(-3, 4) for _ in range(size * max(1, len(choices)))
+        ),
         actions=choices,
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/5" if len(states) == 2 else "1/2"),
-        gamma=rng.fraction("1/2", "1/2", "1") if level != 2 else rng.fraction("1/2", "1/2", "3/4"),
+        gamma=rng.fraction("1/2", "1/2", "1"),
     )
     return given if all(map(any, given.features.values())) and all(_matters(given)) else draw(level, rng)
 
@@ -154,7 +158,7 @@ def question(given: Given) -> Question:
         Paragraph(model),
         features_table(given.features, what="s", of="φ", about="s"),
         Paragraph(
-            f"At first the weights are ${weights(given.theta)}$. {method} updates them {when}. "
+            f"Initially the weights are ${weights(given.theta)}$. {method} updates them {when}. "
             f"{step_size(given.alpha)} {discount(given.gamma)}"
         ),
     )

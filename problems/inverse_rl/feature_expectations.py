@@ -1,5 +1,6 @@
 """The feature expectations of a policy, estimated from trajectories that were recorded."""
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Self
 
@@ -7,7 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter, shown
+from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
@@ -30,7 +31,9 @@ class Given(Givens):
     )
     gamma: Discount
     estimate: Exact | None = Field(
-        default=None, description="The estimate for the first feature, from which gamma follows, which is left open."
+        default=None,
+        description="The estimate for the first feature, from which gamma follows, which is left open.",
+        examples=["5/4"],
     )
 
     @model_validator(mode="after")
@@ -65,13 +68,27 @@ def draw(level: int, rng: Draws) -> Given:
         return _back(rng, states)
     while True:
         runs = _distinct_runs(rng, states, count, length)
-        if {state for run in runs for state in run} == set(states):
+        features = draw_features(rng, states, 2, 4)
+        if {state for run in runs for state in run} == set(states) and _different(runs, features):
             break
     return Given(
-        features=draw_features(rng, states, 2, 4),
+        features=features,
         trajectories=tuple(runs),
         gamma=Parameter("gamma") if level == 3 else Fraction(1, 2),
     )
+
+
+def _different(runs: list[tuple[str, ...]], features: Mapping[str, tuple[Fraction, ...]]) -> bool:
+    """Whether no trajectory has the mean of all, with γ = 1/2: then it would not matter."""
+    sums = [
+        tuple(
+            dot([Fraction(1, 2**time) for time in range(len(run))], column)
+            for column in zip(*(features[s] for s in run), strict=True)
+        )
+        for run in runs
+    ]
+    mean = tuple(sum(column) / len(runs) for column in zip(*sums, strict=True))
+    return mean not in sums
 
 
 def _back(rng: Draws, states: tuple[str, ...]) -> Given:

@@ -1,5 +1,6 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Self
 
@@ -8,17 +9,16 @@ from pydantic import Field, model_validator
 from rldrill.problems.beliefs import MotionField, check_distribution, check_motion, motion_table
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Scalar, shown
+from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
+from rldrill.problems.feature_vectors import FeaturesField, check_features
 from rldrill.problems.models import DistributionField, Name, PolicyField, check_chances, check_keys, policy_table
-from rldrill.problems.parts import Numbers, Part, Values
+from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import Shape, draw_model, draw_setting
 
 TITLE = "Feature expectations of a policy"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -33,11 +33,23 @@ class Given(Givens):
     terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount
     story: str = Field(
-        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+        default="",
+        max_length=200,
+        pattern=r"^[^$\\]*$",
+        description="A sentence that is printed first.",
+        examples=["A robot cleans a corridor."],
+    )
+
+    matched: Exact | None = Field(
+        default=None,
+        description="The expert's feature expectation, which the policy has for one value of what is left open in it; "
+        "that value is asked for.",
     )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.matched is not None and (len(super().parameters()) != 1 or self.size > 1):
+            raise ValueError("matched: leave one number open, which is asked for, and give a single feature")
         for state in self.terminal:
             if state in self.features:
                 raise ValueError(f"features: {state!r} is terminal, so no features count there")
@@ -49,6 +61,15 @@ class Given(Givens):
         check_keys(self.start, self.states, "the start probability", needed=())
         check_distribution(self.start, "start")
         return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters that answers are expressions in: none, where what is left open is asked for."""
+        return () if self.matched is not None else super().parameters()
+
+    @property
+    def asked_for(self) -> str:
+        """The parameter that is asked for."""
+        return "".join(super().parameters())
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -66,34 +87,83 @@ class Given(Givens):
         return {state: self.start.get(state, Fraction(0)) for state in self.states}
 
 
+#: The probability of every next state from every state, whatever is done.
+Chain = Mapping[str, Mapping[str, Fraction]]
+
+_STATES, _END, _ACTIONS = ("A", "B", "C"), "end", ("left", "right")
+
+#: How many states, actions and features there are.
+_SIZES = {1: ((2, 1, 1),), 2: ((2, 2, 1), (2, 2, 2), (3, 1, 1), (2, 1, 2)), 3: ((2, 2, 1),)}
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One feature and one action; two features and a policy that chooses; the same over three states."""
-    setting = draw_setting(rng)
-    count = 3 if level == 3 else 2
-    shape = Shape(states=count, actions=min(level, 2), branches=2, denominators=(2,))
-    model = draw_model(rng, setting, shape)
-    motion: dict[str, dict[str, dict[str, Scalar]]] = {}
-    for row in model.transitions:
-        motion.setdefault(row.action, {}).setdefault(row.state, {})[row.next] = row.probability
-    actions = tuple(motion)
-    features = draw_features(rng, model.states, min(level, 2), 3)
-    return Given(
-        motion=motion,
-        policy={state: dict(zip(actions, _choices(rng, len(actions)), strict=True)) for state in model.states},
-        features=features,
-        start=dict(zip(model.states, rng.split(count, (3, 4) if count == 2 else (4, 5)), strict=True)),
-        terminal=model.terminal,
-        gamma=rng.fraction("1/2", "2/3", "4/5") if level < 3 else rng.fraction("1/2"),
-        story=setting.story,
-    )
+    """One feature and one action; more of them, or of states; a policy with an open probability, or one to be found."""
+    count, choices, size = rng.choice(_SIZES[level])
+    states, actions = _STATES[:count], _ACTIONS[:choices]
+    found = None
+    while found is None:
+        motion = {action: {state: _outcomes(rng, states) for state in states} for action in actions}
+        policy = {state: dict(zip(actions, _chances(rng, choices), strict=True)) for state in states}
+        gamma = rng.fraction("1/2", "2/3", "3/4")
+        chain = {
+            state: {
+                target: dot(policy[state].values(), [motion[a][state].get(target, Fraction(0)) for a in actions])
+                for target in states
+            }
+            for state in states
+        }
+        found = _expected(rng, chain, gamma, size) if _connected(chain) else None
+        if found and choices > 1 and any(_alike([rows[state] for rows in motion.values()], found) for state in states):
+            found = None
+    features = {
+        state: tuple(mu[state] - gamma * dot(chain[state].values(), mu.values()) for mu in found) for state in states
+    }
+    start = dict(zip(states, rng.split(count, (3, 4) if count == 2 else (4, 5)), strict=True))
+    given = Given(motion=motion, policy=policy, features=features, start=start, terminal=(_END,), gamma=gamma)
+    if level < 3:
+        return given
+    opened = {**policy, rng.choice(states): {"left": Parameter("q"), "right": Parameter("1-q")}}
+    matched = dot(start.values(), found[0].values()) if rng.chance(Fraction(2, 3)) else None
+    return given.model_copy(update={"policy": opened, "matched": matched})
 
 
-def _choices(rng: Draws, count: int) -> tuple[Fraction, ...]:
-    return rng.split(count, (2,)) if count > 1 and rng.chance(Fraction(1, 2)) else _surely(rng.below(count), count)
+def _chances(rng: Draws, choices: int) -> tuple[Fraction, ...]:
+    chance = Fraction(1) if choices == 1 else rng.fraction("1/2", "1/4", "3/4", "1/3", "2/3")
+    return (chance, 1 - chance)[:choices]
 
 
-def _surely(chosen: int, count: int) -> tuple[Fraction, ...]:
-    return tuple(Fraction(index == chosen) for index in range(count))
+def _outcomes(rng: Draws, states: tuple[str, ...]) -> dict[str, Fraction]:
+    targets = rng.sample((*states, _END), 1 + rng.below(2))
+    return dict(zip(targets, rng.split(len(targets), (len(targets), 4)[: len(targets)]), strict=True))
+
+
+def _connected(chain: Chain) -> bool:
+    """Whether every state leads to one, is not left for itself alone, and the end is reached from somewhere."""
+    leads = all(any(row.values()) and sum(row.values()) - row[state] < 1 for state, row in chain.items())
+    return leads and any(sum(row.values()) < 1 for row in chain.values())
+
+
+def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[str, Fraction]]) -> bool:
+    """Whether it makes no difference which of some actions is taken."""
+    worth = [
+        [sum((chance * mu.get(state, 0) for state, chance in row.items()), Fraction(0)) for mu in expected]
+        for row in rows
+    ]
+    return worth[0] == worth[1]
+
+
+def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict[str, Fraction]] | None:
+    """Different whole feature expectations whose features are small whole numbers; None where some tries find none."""
+    found: list[dict[str, Fraction]] = []
+    for _ in range(20):
+        mu = dict(zip(chain, rng.distinct(len(chain), 2, 16), strict=True))
+        phi = [mu[state] - gamma * dot(row.values(), mu.values()) for state, row in chain.items()]
+        whole = all(value.denominator == 1 and 0 < value <= 9 for value in phi)
+        if whole and len(set(phi)) > 1 and mu not in found:
+            found.append(mu)
+        if len(found) == size:
+            return found
+    return None
 
 
 def question(given: Given) -> Question:
@@ -101,10 +171,10 @@ def question(given: Given) -> Question:
     numbers = range(1, given.size + 1)
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
-        Paragraph("An action $a$ in state $s$ leads to the state $s'$ with the probability $P_{s s'}^a$:"),
+        Paragraph("Action $a$ in state $s$ leads to state $s'$ with probability $P_{s s'}^a$:"),
         motion_table(given.motion, given.states, given.terminal),
         *((Paragraph("The policy is:"), _policy(given)) if len(given.motion) > 1 else ()),
-        Paragraph("The features of the states, and the probabilities $p(s)$ with which an episode starts in them:"),
+        Paragraph("These are the features of the states, and the probability $p(s)$ that an episode starts in each:"),
         Table(
             header=("$s$", *(f"$φ_{{{number}}}(s)$" for number in numbers), "$p(s)$"),
             rows=tuple(
@@ -112,14 +182,22 @@ def question(given: Given) -> Question:
                 for state in given.states
             ),
         ),
+        *(
+            [Paragraph(f"The probability ${shown(Parameter(given.asked_for))}$ is left open.")]
+            if given.asked_for and given.asked_for != "gamma"
+            else []
+        ),
         Paragraph(f"{_ending(given)}{discount(given.gamma)}"),
     )
+    if given.matched is not None:
+        letter = shown(Parameter(given.asked_for))
+        expert = f"The expert's feature expectation from the start distribution is $μ(π_E) = {shown(given.matched)}$."
+        return Question(blocks, (Part(f"{expert} For which ${letter}$ does this policy match it?", Number()),))
     parts = [
         Part(
-            f"With $μ_{{{number}}}(s)$ the expected discounted sum of the feature $φ_{{{number}}}$ of the states from "
-            f"$s_0 = s$ on, $s_0$ included: what is $μ_{{{number}}}(s)$ for every state{in_open(given)}?",
+            f"$μ_{number}(s)$ is the expected discounted sum of the feature $φ_{number}$ from $s_0 = s$ on, $s_0$ "
+            f"included. What is $μ_{number}(s)$ for each state{in_open(given)}?",
             Values(f"μ_{{{number}}}", given.states),
-            2,
         )
         for number in numbers
     ]

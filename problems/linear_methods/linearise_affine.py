@@ -39,7 +39,8 @@ def draw(level: int, rng: Draws) -> Given:
     system = values_of(rng, robot)
     if level == 1:
         return Given(**system, step=step)
-    entries = Entries(**robot.varying) if rng.chance(Fraction(1, 2)) else Entries(A=robot.varying["A"])
+    A = robot.varying["A"]
+    entries = Entries(A=A) if len(A) > 1 and rng.chance(Fraction(1, 2)) else Entries(**robot.varying)
     return Given(**system, step=step, entries=entries)
 
 

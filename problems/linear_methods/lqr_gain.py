@@ -9,12 +9,12 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
-from rldrill.problems.linear_quadratic import Conventional, quadratic
+from rldrill.problems.linear_quadratic import Conventional, quadratic, single_gain
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatrixField,
+    NumberRows,
     OpenMatrixField,
-    Rows,
     check_shape,
     check_symmetric,
     is_positive,
@@ -80,11 +80,12 @@ class Given(Conventional):
         if self.left_open:
             return self
         check_symmetric("R", self.R)
+        prices = [[entry for entry in line if isinstance(entry, Fraction)] for line in self.R]
         inputs = tuple(zip(*self.B, strict=True))
         factor = self.gamma if self.notation.costs else -self.gamma
         curved = tuple(
             tuple(
-                self.R[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
+                prices[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
                 for j, then in enumerate(inputs)
             )
             for i, first in enumerate(inputs)
@@ -114,16 +115,18 @@ def draw(level: int, rng: Draws) -> Given:
     discounted = kind in ("discount", "both") or (kind in ("open", "found") and rng.chance(Fraction(1, 3)))
     gamma = rng.fraction("1/2", "1/3", "2/3") if discounted else Fraction(1)
     start = tuple(rng.nonzero(-2, 3) for _ in range(2)) if kind in ("start", "both", "found") else None
+    if inputs == 1 and not all(single_gain(A, B, Fraction(1), P)):
+        return draw(level, rng)  # an entry of the start would play no part
     if kind == "found" and start is not None:
-        (price,), *_ = R
-        action = -dot(_gain(A, B, price / gamma, P), start)
+        price = rng.whole(1, 3)
+        action = -dot(single_gain(A, B, price / gamma, P), start)
         return Given(A=A, B=B, R=((_OPEN,),), P=P, gamma=gamma, start=start, action=action)
     return Given(A=A, B=B, R=((_OPEN,),) if kind == "open" else R, P=P, gamma=gamma, start=start)
 
 
 _OPEN = Parameter("rho")
 #: Systems and inputs in which every entry of the value's matrix counts.
-_SYSTEMS: tuple[Rows, ...] = tuple(
+_SYSTEMS: tuple[NumberRows, ...] = tuple(
     tuple(tuple(map(Fraction, line)) for line in rows)
     for rows in (
         ((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)), ((0, 1), (-1, 2)),
@@ -131,13 +134,6 @@ _SYSTEMS: tuple[Rows, ...] = tuple(
     )
 )  # fmt: skip
 _INPUTS = ((1, 1), (2, 1), (1, 2), (1, -1))
-
-
-def _gain(A: Rows, B: Rows, price: Fraction, P: Rows) -> tuple[Fraction, ...]:
-    """The gain where there is one action, without a discount; with one, the price is γ times less."""
-    inputs = [line[0] for line in B]
-    ahead = [dot(inputs, column) for column in zip(*P, strict=True)]
-    return tuple(dot(ahead, column) / (dot(ahead, inputs) - price) for column in zip(*A, strict=True))
 
 
 def _open(given: Given) -> str:

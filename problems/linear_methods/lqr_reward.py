@@ -7,36 +7,44 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, dot
+from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
-from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, costs, draw_system, situation
+from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, by_time, costs, draw_system, situation
 from rldrill.problems.mathematics import mathematics
-from rldrill.problems.matrices import MatricesField, check_shape, tabular
+from rldrill.problems.matrices import MatricesField, check_shape, diagonal, tabular
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 2
+REVISION = 3
 
 Line = tuple[Fraction, ...]
-Rows = tuple[Line, ...]
-#: States stay this close to 0.
-_FAR = 6
 
 
 class Given(LinearQuadratic):
     """A system, and the gain L (or one for every time 0 to horizon) of the actions a = −L s.
 
-    With a discount, a cross term or a final cost of its own there is no action at the horizon any more.
+    With a discount, a cross term or a final cost of its own there is no action at the horizon any more. With ``total``,
+    the sum of all rewards, the price of the action is left open in R and found from it.
     """
 
     L: MatricesField = Field(
         description="The gain of the actions a = −L s, the same at all times or one for each from 0 to the horizon."
     )
 
+    total: Exact | None = Field(
+        default=None, description="The sum of all rewards, from which the price rho that R leaves open is found."
+    )
+
+    def parameters(self) -> tuple[str, ...]:
+        """What an answer may contain: nothing, where the price is found."""
+        return super().parameters() if self.total is None else ()
+
     @model_validator(mode="after")
     def _gains_fit(self) -> Self:
+        if self.total is not None and not super().parameters():
+            raise ValueError("total: it goes with a price that R leaves open, such as rho")
         count = self.horizon + self.plain
         if len(self.L) not in (1, count):
             raise ValueError(f"L holds {len(self.L)} matrices; give one, or {count} for the times from 0")
@@ -46,26 +54,53 @@ class Given(LinearQuadratic):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Numbers and two times; then two states; then three times, perhaps with the price of the action open."""
+    """Numbers and two times; then two states, a discount, a final cost or two gains; then the price open, or found."""
+    kind = rng.choice({1: ("plain",), 2: ("plain", "gains", "discount", "end"), 3: ("open", "found", "found")}[level])
     states = 1 if level == 1 else 2
-    price = Parameter("rho") if level == 3 and rng.chance(rng.fraction("1/2")) else rng.whole(1, 3)
-    system = draw_system(rng, states, price)
-    gain = (tuple(rng.whole(0, 2) if states > 1 else rng.fraction("1/2", "1", "2") for _ in range(states)),)
-    start = tuple(rng.nonzero(-2, 3) for _ in range(states))
-    horizon = 1 if level < 3 else 2
-    if _farthest(system["A"], system["B"], gain[0], start, horizon) > _FAR:
-        return draw(level, rng)
-    return Given(**system, L=gain, start=start, horizon=horizon)
+    horizon = 1 + rng.below(2) if level == 3 else 1
+    gamma = rng.fraction("1/2", "1/3", "2/3") if kind == "discount" else Fraction(1)
+    while True:
+        price = rng.whole(1, 3) if level < 3 else rng.whole(2, 7)
+        system = draw_system(rng, states, price)
+        if kind == "end":
+            system["Q_T"] = diagonal(rng.whole(3, 5), rng.whole(2, 4))
+        gains = tuple((_gain(rng, states),) for _ in range(horizon + 1 if kind == "gains" else 1))
+        start = tuple(rng.nonzero(-2, 3) for _ in range(states))
+        given = Given(**system, gamma=gamma, L=gains, start=start, horizon=horizon)
+        rewards = _rewards(given)
+        if rewards and -sum(rewards) <= _MOST[level] and max(map(_size, rewards)) <= _MOST[level]:
+            break
+    if level < 3:
+        return given
+    left_open = {"R": (((Parameter("rho"),),),)}
+    return given.model_copy(update=left_open | ({"total": sum(rewards)} if kind == "found" else {}))
 
 
-def _farthest(A: Rows, B: Rows, gain: Line, state: Line, horizon: int) -> Fraction:
-    """The greatest entry of a state on the way, with one action."""
-    greatest = max(map(abs, state))
-    for _ in range(horizon):
-        action = -dot(gain, state)
+#: The largest reward of a level.
+_MOST = {1: 30, 2: 60, 3: 200}
+
+
+def _gain(rng: Draws, states: int) -> Line:
+    return tuple(rng.nonzero(-1, 2) if states > 1 else rng.fraction("1/2", "1", "2", "3/2") for _ in range(states))
+
+
+def _size(number: Fraction) -> int:
+    return max(abs(number.numerator), number.denominator)
+
+
+def _rewards(given: Given) -> list[Fraction]:
+    """The rewards of all times, discounted; none, if a state or action on the way is zero."""
+    rewards, state, (A,), (B,) = [], given.start, given.A, given.B
+    for time in range(given.horizon + 1):
+        ended = time == given.horizon and not given.plain
+        action = -dot(by_time(given.L, 0 if ended else time)[0], state) * (not ended)
+        if not all(state) or not (action or ended):
+            return []
+        Q = by_time(given.state_costs, time)
+        cost = dot(state, (dot(line, state) for line in Q)) + action**2 * given.price
+        rewards.append(-cost * given.gamma**time)
         state = tuple(dot(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
-        greatest = max(greatest, *map(abs, state))
-    return greatest
+    return rewards
 
 
 def question(given: Given) -> Question:
@@ -84,6 +119,10 @@ def question(given: Given) -> Question:
     if not given.plain:
         blocks = (*costs(given, NOTATIONS["value"]), Paragraph(f"{told} before $T$:"))
         total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
+    if given.total is not None:
+        found = f"The total reward is $J = {sum_} = {shown(given.total)}$. What is the price $ρ$ of the action?"
+        first = Part("What is then the first reward $r(s_0, a_0)$?", Number())
+        return Question((*blocks, *gains), (Part(found, Number()), first))
     return Question(
         (*blocks, *gains),
         (

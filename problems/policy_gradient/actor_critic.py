@@ -55,10 +55,13 @@ def draw(level: int, rng: Draws) -> Given:
         trajectory=draw_run(rng, states, actions, setting.terminal),
         theta=theta,
         features=features,
-        values={state: rng.nonzero(-3, 8) for state in _in_order(setting, states)},
+        values={
+            state: 2 * rng.nonzero(-2, 4) if level == 2 and state == second else rng.nonzero(-3, 8)
+            for state in _in_order(setting, states)
+        },
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/5", "1/10"),
-        beta=rng.fraction("1/2", "1/4", "1/3") if level > 1 else rng.fraction("1", "1/4"),
-        gamma=rng.fraction("1/2", "1/2", "4/5") if level > 1 else rng.fraction("1/2", "1"),
+        beta=rng.fraction("1/2", "1/4", "1/3" if level == 3 else "1/2") if level > 1 else rng.fraction("1", "1/4"),
+        gamma=rng.fraction("1/2", "1/2", "4/5") if level == 3 else rng.fraction("1/2", "1"),
     )
 
 
@@ -102,7 +105,7 @@ def question(given: Given) -> Question:
         ),
         trajectory_table(run),
         *terminal_note(run.terminal),
-        Paragraph("Before it the critic's values are:"),
+        Paragraph("The critic's initial values are:"),
         values_table(given.values),
         *policy_blocks(given.features, given.theta),
         Paragraph(

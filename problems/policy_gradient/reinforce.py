@@ -7,7 +7,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts, returns
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
@@ -23,14 +23,11 @@ class Given(Episode):
 def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
     episode = draw_episode(level, rng)
-    gamma = rng.fraction("1/2", "1/2", "1")
-    if level < 3 and 0 in returns(episode["trajectory"], gamma):  # then a step would not count
+    gamma = episode["gamma"]
+    run = episode["trajectory"]
+    if not isinstance(gamma, Parameter) and not every_step_counts(run, returns(run, gamma)):
         return draw(level, rng)
-    return Given(
-        **episode,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else gamma,
-    )
+    return Given(**episode, alpha=rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5"))
 
 
 def question(given: Given) -> Question:

@@ -11,7 +11,7 @@ from rldrill.problems.exact import Exact, Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.models import Name, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, gradient_parts, returns
+from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
@@ -34,18 +34,14 @@ class Given(Episode):
 def draw(level: int, rng: Draws) -> Given:
     """Two steps and even chances; then three steps in two states; then three actions and γ left open."""
     episode = draw_episode(level, rng)
-    visited = tuple(dict.fromkeys(episode["trajectory"].states[:-1]))
-    gamma = Fraction(0) if level == 3 else rng.fraction("1/2", "1/2", "1")
-    baseline = {state: rng.nonzero(-2, 5) for state in visited}
-    run = episode["trajectory"]
-    if any(baseline[state] == G for state, G in zip(run.states, returns(run, gamma), strict=False)):
-        return draw(level, rng)  # a step would not count
-    return Given(
-        **episode,
-        baseline=baseline,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
-        gamma=Parameter("gamma") if level == 3 else gamma,
-    )
+    run, gamma = episode["trajectory"], episode["gamma"]
+    baseline = {state: rng.nonzero(-2, 5) for state in dict.fromkeys(run.states[:-1])}
+    known = Fraction(0) if isinstance(gamma, Parameter) else gamma
+    differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
+    if not every_step_counts(run, differences):
+        return draw(level, rng)
+    alpha = rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5")
+    return Given(**episode, baseline=baseline, alpha=alpha)
 
 
 def question(given: Given) -> Question:

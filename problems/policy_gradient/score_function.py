@@ -111,7 +111,7 @@ def _sought(rng: Draws, actions: tuple[str, ...]) -> Given:
     """First p, then the component that follows from it."""
     first, second = actions
     size = rng.choice((2, 3))
-    lead = [rng.nonzero(-4, 4) for _ in range(size)]
+    lead = rng.shuffled((-4, -3, -2, -1, 1, 2, 3, 4))[:size]
     base = tuple(rng.whole(-1, 3) for _ in range(size))
     features = {first: tuple(low + more for low, more in zip(base, lead, strict=True)), second: base}
     p = rng.fraction("1/3", "2/3", "1/4", "3/4", "1/5", "2/5", "3/5", "4/5", "3/8", "5/8", "3/10", "7/10")

@@ -44,7 +44,7 @@ def plan(
         raise UsageError(f"The title has {len(title)} characters; give one of at most {_LONGEST_TITLE}.")
     slots = [(family, wanted) for family, wanted, _ in islice(sequence(names, level, seed), count)]
     used: set[str] = set()
-    result = []
+    result: list[Version] = []
     for index in range(versions):
         seeds = (drawn for _, _, drawn in sequence(names, level, seed, index))
         first = result[0].exercises if result else (None,) * len(slots)

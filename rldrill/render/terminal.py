@@ -251,9 +251,10 @@ def asked(part: Part, *, only: bool = False) -> RenderableType:
 
 def _asked(part: Part, spelling: Spelling, width: int, *, only: bool) -> Text:
     letter = "" if only else f"({part.label}) "
-    text = _wrapped(letter + spelling.inline(part.ask, glued=True), width)
+    points = f"[{part.points}{GLUE}{'point' if part.points == 1 else 'points'}]"
+    text = _wrapped(f"{letter}{spelling.inline(part.ask, glued=True)} {points}", width)
     text.stylize("bold", 0, len(letter))
-    text.append(f"  [{part.points} {'point' if part.points == 1 else 'points'}]", style="dim")
+    text.stylize("dim", len(text) - len(points))
     if isinstance(part.kind, Choice):
         for letter, option in part.kind.options.items():
             text.append(f"\n    ({letter}) {spelling.inline(option)}")

@@ -1,13 +1,14 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
@@ -27,7 +28,7 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
     """Make these moves in every step; ``afresh`` begins each step with the first belief again."""
     states = tuple(given.belief)
     start = knowns.values(given.belief)
-    known = {
+    known: dict[str, Any] = {
         "motion": knowns.motion(given.motion),
         "likelihood": knowns.likelihood(given.likelihood),
         "states": states,
@@ -39,8 +40,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         belief = _moves(given.run[0], work, moves, start, {**known, "weighed": weighed})
         value = work.answer(work.equate(given.left_open[0], belief[state], share))
         work.say(f"With this ${given.left_open[0]}$ the first step is:")
-        start = put_in(start, value)
-        known |= {name: put_in(known[name], value) for name in ("motion", "likelihood")}
+        start = knowns.settled(start, value)
+        known |= {name: knowns.settled(known[name], value) for name in ("motion", "likelihood")}
     belief = start
     for step, event in enumerate(given.run, 1):
         before = belief = start if afresh else belief
@@ -123,7 +124,9 @@ def _joint(given: Given, run: Sequence[Event], q: float) -> list[Any]:
     for event in run:
         if event.action is not None:
             rows = given.motion[event.action]
-            joint = joint[..., None] * np.array([[number(rows[s].get(t, 0), q) for t in states] for s in states])
+            joint = joint[..., None] * np.array(
+                [[number(rows[s].get(t, Fraction(0)), q) for t in states] for s in states]
+            )
         if event.measurement is not None:
             joint = joint * np.array([number(given.likelihood[event.measurement][state], q) for state in states])
         last = joint.reshape(-1, len(states)).sum(axis=0)

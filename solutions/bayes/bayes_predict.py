@@ -4,7 +4,7 @@ from typing import Any
 
 from rldrill.problems.bayes.bayes_predict import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import OPEN, Answers, at
 from rldrill.solutions.sheet.bayes import MOTION_AS_LIKELIHOOD, MOTION_TRANSPOSED, PREDICT
@@ -23,7 +23,7 @@ def solve(given: Given, work: Work) -> None:
         state, letter = given.outcome.state, given.left_open[0]
         moved = work.step(PREDICT, s1=state, a=actions[0], p=belief, motion=motion, states=states)
         found = work.answer(work.equate(letter, moved, exact(given.outcome.probability)))
-        belief, motion = put_in(belief, found), put_in(motion, found)
+        belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
         if len(actions) > 1:
             work.say(f"With this ${letter}$ the first action gives:")
             belief = {

@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.beliefs import before_and_after, number, put_in, root
+from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.nodes.sets import LONG
 from rldrill.solutions.oracle import OPEN, Answers, Array, at
@@ -38,7 +38,7 @@ def solve(given: Given, work: Work) -> None:
         known: dict[str, Any] = {"z": readings[0], "hypotheses": hypotheses}
         after = work.step(BAYES, h=state, p=belief, likelihood=likelihood, **known)
         found = work.answer(work.equate(letter, after, exact(given.outcome.probability)))
-        belief, likelihood = put_in(belief, found), put_in(likelihood, found)
+        belief, likelihood = knowns.settled(belief, found), knowns.settled(likelihood, found)
         if len(readings) > 1:
             work.say(f"With this ${letter}$ the first measurement gives:")
             belief = _posterior(work, {**known, "p": belief, "likelihood": likelihood})

@@ -1,13 +1,16 @@
 """The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.bayes.kalman_filter import Given
+from rldrill.problems.exact import Parameter
+from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.matrices import AnyMatrix, identity, matrix
 from rldrill.solutions.matrices import given as given_matrix
-from rldrill.solutions.matrices import identity, matrix
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.bayes import (
     GAIN_ON_PREDICTION,
@@ -33,6 +36,9 @@ def solve(given: Given, work: Work) -> None:
         "Rt": given_matrix(given.process), "Qt": given_matrix(given.sensor),
     }  # fmt: skip
     one = identity(len(given.mean))
+    if given.variance is not None:
+        _noise(given, work, models, exact(given.variance))
+        return
     for time, event in enumerate(given.steps, 1):
         answer = work.answer if time in given.asked else _unasked
         known: dict[str, Any] = {name: {time: model} for name, model in models.items()} | {"t": time, "identity": one}
@@ -53,6 +59,28 @@ def solve(given: Given, work: Work) -> None:
             known |= {"mean_bar": {time: mean}, "covariance_bar": {time: covariance}}
             known["read"] = {time: given_matrix(event.z)}
             mean, covariance = _measured(given, work, answer, known)
+
+
+def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) -> None:
+    """The variance of a noise from that after the measurement, then the mean."""
+    known: dict[str, Any] = {name: {1: model} for name, model in models.items()} | {"t": 1, "identity": identity(1)}
+    known |= {"mean": {0: given_matrix(given.mean)}, "covariance": {0: given_matrix(given.covariance)}}
+    (event,) = given.steps
+    known |= {"moved": {1: given_matrix(given.command(event))}, "read": {1: given_matrix(event.z or ())}}
+
+    def widened() -> AnyMatrix:
+        moved: AnyMatrix = work.step(KALMAN_MOVE_COVARIANCE, **known)
+        return moved
+
+    known["covariance_bar"] = {1: widened()}
+    known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
+    after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
+    found = matrix([[work.answer(work.equate("w", after, variance))]])
+    known["Rt" if isinstance(given.process[0][0], Parameter) else "Qt"] = {1: found}
+    known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
+    known["covariance_bar"] = {1: widened()}
+    known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
+    work.answer(work.step(KALMAN_MEAN, **known)[0, 0])
 
 
 #: What to go on with after an answer.
@@ -83,6 +111,14 @@ def _answered(answer: Answering, mean: Any, covariance: Any) -> tuple[Any, Any]:
 
 def oracle(given: Given) -> Answers:
     """All states and readings as one Gaussian in the first state and all noises; then conditioned at once."""
+    if given.variance is not None:
+        # 1/Σ₁ = 1/(Σ₀ + R) + 1/Q
+        start, after = at(given.covariance[0][0]), at(given.variance)
+        if isinstance(given.sensor[0][0], Parameter):
+            w = 1 / (1 / after - 1 / (start + at(given.process[0][0])))
+            return [w, oracle(_filled(given, "sensor", w))[1][0]]
+        w = 1 / (1 / after - 1 / at(given.sensor[0][0])) - start
+        return [w, oracle(_filled(given, "process", w))[1][0]]
     answers: list[Any] = []
     A, B, C, R, Q = (_array(rows) for rows in (given.A, given.B, given.C, given.process, given.sensor))
     if not given.driven:
@@ -115,6 +151,10 @@ def oracle(given: Given) -> Answers:
             answers.append(np.stack([s.posterior(state, mean, spread)[0] - here for s in shifted], axis=1))
         answers += _asked(given, *seen.posterior(state, mean, spread))
     return answers
+
+
+def _filled(given: Given, noise: str, w: float) -> Given:
+    return given.model_copy(update={noise: ((Fraction(w),),), "variance": None})
 
 
 class _Readings:

@@ -93,7 +93,8 @@ def oracle(given: Given) -> Answers:
         others = [mean(other, found) for other in given.values if other != state]
         return (found, others) if others else (found,)
     if given.equal:
-        return (root(lambda left_open: np.subtract(*(mean(state, left_open) for state in given.values))),)
+        first, second = given.values
+        return (root(lambda left_open: mean(first, left_open) - mean(second, left_open)),)
     means = [mean(state, float(OPEN)) for state in given.values]
     if given.parameters():
         return (means,)

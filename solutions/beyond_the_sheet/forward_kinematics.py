@@ -1,5 +1,6 @@
 """The angle of every link, then the links added as vectors."""
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from rldrill.solutions import arms
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.knowns import settled
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y, LINK_ANGLE, poses
 from rldrill.solutions.slips import right_answers
@@ -18,6 +20,12 @@ from rldrill.solutions.work import Work
 def solve(given: Given, work: Work) -> None:
     """A link's angle is its orientation; the sums go on from all of them."""
     arm = arms.known(given)
+    if given.x is not None:
+        arm["phi"] = arms.link_angles(work, arm)
+        length = work.answer(work.equate("w", work.step(FORWARD_X, **arm), exact(given.x)))
+        arm["length"] = settled(arm["length"], length)
+        work.answer(work.step(FORWARD_Y, **arm))
+        return
     base = given.base
     if base is not None:
         arm |= {"phi": {0: angle(base.phi)}, "x0": exact(base.x), "y0": exact(base.y)}
@@ -30,7 +38,11 @@ def solve(given: Given, work: Work) -> None:
         work.answer((work.step(forms[1], **known), work.step(forms[2], **known)))
 
 
-@slip("sine-for-cosine", "With angles from the x axis, the cosines give x and the sines give y: they were exchanged.")
+@slip(
+    "sine-for-cosine",
+    "With angles from the x axis, the cosines give x and the sines give y: they were exchanged.",
+    when=lambda given: given.x is None,
+)
 def exchanged(given: Given, work: Work) -> None:
     """y for x, and x for y."""
     answers = iter(right_answers(solve, given, work))
@@ -45,6 +57,17 @@ MISCONCEPTIONS = (ABSOLUTE_ANGLES, exchanged)
 def oracle(given: Given) -> Answers:
     """Rotations of the complex plane, from the last link inwards."""
     base, angles = given.base, arms.joint_angles(given)
+    if given.x is not None:
+        # Without the link of the unknown length, and with 1 in its place: in between x and y are linear in it.
+        short, long = (
+            arms.end_point(
+                given.model_copy(update={"lengths": tuple(w if length == "w" else length for length in given.lengths)}),
+                angles,
+            )
+            for w in (Fraction(0), Fraction(1))
+        )
+        length = (at(given.x) - short[0]) / (long[0] - short[0])
+        return [length, short[1] + length * (long[1] - short[1])]
     origin = complex(at(base.x), at(base.y)) if base else 0j
     turned = radians(base.phi) if base else 0.0
     answers: list[Any] = []

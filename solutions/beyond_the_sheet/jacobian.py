@@ -6,7 +6,7 @@ import numpy as np
 
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
-from rldrill.solutions.exact import ONE, exact, is_zero
+from rldrill.solutions.exact import ONE, NoSolution, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, at
@@ -15,6 +15,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     END_POINT_VELOCITY,
     JACOBIAN_X,
     JACOBIAN_Y,
+    JOINT_RATES,
     SINGULAR,
 )
 from rldrill.solutions.slips import right_answers
@@ -30,20 +31,32 @@ def solve(given: Given, work: Work) -> None:
     if given.orientation:
         work.say("Every joint turns the last link by its own angle, so the row of $φ$ holds ones.")
         rows.append([ONE for _ in joints])
-    _velocity(given, work, work.answer(matrices.matrix(rows)))
+    J = work.answer(matrices.matrix(rows))
+    if given.velocity is not None:
+        wanted = matrices.column(map(exact, given.velocity))
+        try:
+            found = work.step(JOINT_RATES, Jac=J, velocity=wanted)
+        except NoSolution:
+            raise NoSolution("the configuration is singular, so that no or many angular velocities do this") from None
+        work.answer(tuple(found.entries()))
+        return
+    _velocity(given, work, J)
     if given.square:
-        work.answer(is_zero(work.step(SINGULAR, **arm)))
+        det = work.step(SINGULAR, **arm)
+        singular = is_zero(det)
+        work.say(f"$det J {'=' if singular else '≠'} 0$: the configuration is {'' if singular else 'not '}singular.")
+        work.answer(singular)
 
 
 def _velocity(given: Given, work: Work, J: AnyMatrix) -> None:
-    velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates)))
+    velocity = work.step(END_POINT_VELOCITY, Jac=J, rates=matrices.column(map(exact, given.rates or ())))
     work.answer(tuple(velocity.entries()))
 
 
 @slip(
     "transposed-jacobian",
     "J has a row for every coordinate of the end and a column for every joint; its transpose maps forces to torques.",
-    when=lambda given: given.square,
+    when=lambda given: given.square and given.velocity is None,
 )
 def transposed(given: Given, work: Work) -> None:
     """Rows for columns."""
@@ -65,7 +78,9 @@ def oracle(given: Given) -> Answers:
         return (45 * (there[1] - there[-1]) - 9 * (there[2] - there[-2]) + there[3] - there[-3]) / (60 * h)
 
     J = np.array([slope(turn) for turn in unit]).T[: len(given.rows)]
-    answers: list[Any] = [J, J @ np.array([at(rate) for rate in given.rates])]
+    if given.velocity is not None:
+        return [J, np.linalg.solve(J, [at(entry) for entry in given.velocity])]
+    answers: list[Any] = [J, J @ np.array([at(rate) for rate in given.rates or ()])]
     if given.square:
         answers.append(bool(np.linalg.svd(J, compute_uv=False)[-1] < 1e-9))
     return answers

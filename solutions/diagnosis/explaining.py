@@ -3,22 +3,30 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Any
 
 from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.replay import Change
 from rldrill.solutions.diagnosis.search import Candidate, Cause, Clock, Search, Typed, approximate
 from rldrill.solutions.diagnosis.weights import ALIKE
 from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
-CHANCE = 10
+CHANCE = 0.85
+#: The same for causes of less weight than this.
+UNLIKELY, CHANCE_OF_UNLIKELY = 1.5, 0.5
 #: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
-NEAR = (0.4, 0.65)
+NEAR = (0.2, 0.4, 0.65)
 #: More causes than this explain nothing.
 MOST = 2
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
+#: Of so few answers one proves nothing: yes or no, a choice, an action or two.
+_FEW = 4
+#: A decimal has no more places than this.
+_PLACES = 8
 #: A decimal tells no more numbers apart than this, where it is a rounded one.
 _ROUNDED = 900
 
@@ -36,6 +44,8 @@ class Explained:
 def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     """What a wrong answer comes from; nothing, where that could be anything."""
     room = _room(typed, exact=True)
+    if room < _FEW:
+        return Explained((), 0.0)
     found = [*_single(search, typed, clock)]
     if not found and room >= ROOM_FOR_TWO:
         found = [*_apart(search, typed, clock)] or [
@@ -43,16 +53,35 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
         ]
     if not found:
         return Explained((), 0.0)
+    found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
     room = _room(typed, exact=_exactly(typed, best))
     chance = _as_likely(search, typed, best.cause) / room
     near = _near(found)
     every = tuple(_distinct([each.cause for each in found]))
-    if chance > CHANCE:
+    if chance > (CHANCE if best.cause.weight >= UNLIKELY else CHANCE_OF_UNLIKELY):
         return Explained((), 0.0, chance, every)
     share = best.cause.weight / sum(cause.weight for cause in near)
     return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)
+
+
+def _weighed(typed: Typed, candidate: Candidate) -> Candidate:
+    """A candidate, less likely where it agrees with what was typed in three digits only, and more were typed."""
+    cells = typed.cells_of(candidate.answers) or {}
+    wrong = ((typed.cells[name], cells[name]) for name in typed.wrong)
+    if all(_to_the_last_digit(cell, value) for cell, value in wrong if isinstance(cell, Reading)):
+        return candidate
+    cause = replace(candidate.cause, weight=candidate.cause.weight * weights.LOOSE)
+    return replace(candidate, cause=cause)
+
+
+def _to_the_last_digit(cell: Reading, value: Any) -> bool:
+    """Whether a typed number is a value, rounded where its own digits end."""
+    if not is_rational(cell.value):
+        return True
+    places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), _PLACES)
+    return abs(approximate(cell.value) - approximate(value)) <= 0.51 * 10.0**-places
 
 
 def _near(found: Sequence[Candidate]) -> list[Cause]:

@@ -1,6 +1,6 @@
 """The search: everything that is changed in a working, and what comes out of it, once for every problem."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -54,7 +54,9 @@ _ALIKE = 4
 #: Two slips are each of at least this weight, and the first is one of so many.
 _LIKELY, _FIRST = 1.5, 12
 #: So many pairs of places are tried.
-_TRIES = 300
+_TRIES = 100
+#: So many other values of one application are gone on from, for one answer.
+_REPLAYS = 30
 _NOT_COMPUTED = float("nan")
 
 
@@ -156,7 +158,7 @@ def approximate(value: Any) -> float:
             return _NOT_COMPUTED
     try:
         return float(enclosure(value, _POINT).mid())
-    except (*UNDONE, NotImplementedError):
+    except UNDONE:
         return _NOT_COMPUTED
 
 
@@ -235,10 +237,13 @@ class Search:
             uses[application.right].append(application)
         alike: dict[Any, list[tuple[Expr, Edit]]] = defaultdict(list)
         for right in uses:
+            seen: Counter[Any] = Counter()
             for edit in edits(right):
                 if edit.kind in IN_ONE_TERM:
                     continue
-                alike[edit.kind, edit.part, edit.instead].append((right, edit))
+                key = edit.kind, edit.part, edit.instead
+                alike[key, seen[key]].append((right, edit))
+                seen[key] += 1
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
         for group in groups:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
@@ -470,6 +475,8 @@ class Search:
             for cause in self.alternatives(application):
                 if clock.over:
                     return
+                if len(done) >= _REPLAYS:
+                    break
                 if predict is not None and not all(
                     near(size, typed.sizes[name]) for name, size in predict(cause.became).items()
                 ):
@@ -656,7 +663,7 @@ class Search:
             return False
         try:
             return matches(typed.part, typed.cells, answers)
-        except (*UNDONE, NotImplementedError):
+        except UNDONE:
             return False
 
 

@@ -122,5 +122,7 @@ ANSWERS = {
     "percent": 2.0,
 }
 
+#: How much less likely it is that a number that is typed with more digits than needed has wrong ones behind the third.
+LOOSE = 0.1
 #: A mistake that somebody thought of when the family was written.
 LISTED = 20.0

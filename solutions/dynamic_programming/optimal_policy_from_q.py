@@ -1,8 +1,13 @@
 """The action with the greatest value; a missing value is a reward and the best value after it."""
 
+from dataclasses import replace
+from typing import Any
+
 from rldrill.problems.dynamic_programming.optimal_policy_from_q import Given
+from rldrill.problems.models import Dynamics
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.answers.kinds import text_of
+from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
@@ -16,7 +21,12 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (SMALLEST_Q, OPTIMAL_Q_BY_VALUE, OPTIMAL_Q_BY_REWARD, OPTIMAL_Q_MEAN_FOR_MAX)
+MISCONCEPTIONS = (
+    SMALLEST_Q,
+    replace(OPTIMAL_Q_BY_VALUE, when=lambda given: given.tied is None),
+    OPTIMAL_Q_BY_REWARD,
+    OPTIMAL_Q_MEAN_FOR_MAX,
+)
 
 
 def solve(given: Given, work: Work) -> None:
@@ -24,12 +34,31 @@ def solve(given: Given, work: Work) -> None:
     actions = given.actions | dict.fromkeys(given.terminal, (knowns.NO_ACTION,))
     Q = {(state, action): exact(value) for state, row in given.values.items() for action, value in row.items()}
     Q |= {(state, knowns.NO_ACTION): ZERO for state in given.terminal}
+    found: dict[tuple[str, str], Value] = {}
     if given.missing and given.gamma is not None:
         known = knowns.model(given.missing) | {"actions": actions, "gamma": exact(given.gamma), "Q": Q}
-        found = {(state, a): work.step(BELLMAN_OPTIMALITY_Q, s=state, a=a, **known) for state, a in given.gaps}
-        Q = Q | work.answer(found)
-    best = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in given.values}
-    work.answer(best)
+        asked = given.gaps[: -1 if given.tied else None]
+        if asked:
+            found = work.answer({(s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, **known) for s, a in asked})
+    Q = Q | found
+    if given.tied:
+        _tie(given, given.tied, work, known | {"Q": Q})
+    others = [state for state in given.values if not given.tied or state != given.tied[0]]
+    if others:
+        work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in others})
+
+
+def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any]) -> None:
+    """The reward with which an action is worth as much as the best of the others."""
+    state, action = tied
+    value = work.step(BELLMAN_OPTIMALITY_Q, s=state, a=action, **known)
+    rivals = tuple(name for name in given.actions[state] if name != action)
+    best = largest([known["Q"][state, name] for name in rivals])
+    work.say(
+        f"The best of the other actions in {state} is worth ${text_of(best)}$. From where both are equal, {action} is "
+        "optimal:"
+    )
+    work.answer(work.equate("x", value, best))
 
 
 def oracle(given: Given) -> Answers:
@@ -38,12 +67,24 @@ def oracle(given: Given) -> Answers:
     worth = {state: max(row.values()) for state, row in table.items() if row} | dict.fromkeys(given.terminal, 0.0)
     answers: list[object] = []
     if given.missing and given.gamma is not None:
-        found = dict.fromkeys(given.gaps, 0.0)
-        for row in given.missing.transitions:
-            gain = at(row.reward) + at(given.gamma) * worth[row.next]
-            found[row.state, row.action] += at(row.probability) * gain
-        for (state, action), value in found.items():
-            table[state][action] = value
-        answers.append(list(found.values()))
-    answers.append({s: {a for a, q in row.items() if q > max(row.values()) - 1e-9} for s, row in table.items()})
+        found = _missing(given.missing, at(given.gamma), worth, 0.0)
+        asked = given.gaps[: -1 if given.tied else None]
+        for state, action in asked:
+            table[state][action] = found[state, action]
+        if asked:
+            answers.append([found[pair] for pair in asked])
+        if given.tied:
+            one = _missing(given.missing, at(given.gamma), worth, 1.0)[given.tied]
+            rival = max(table[given.tied[0]].values())
+            answers.append((rival - found[given.tied]) / (one - found[given.tied]))
+            del table[given.tied[0]]
+    if table:
+        answers.append({s: {a for a, q in row.items() if q > max(row.values()) - 1e-9} for s, row in table.items()})
     return answers
+
+
+def _missing(missing: Dynamics, gamma: float, worth: dict[str, float], x: float) -> dict[tuple[str, str], float]:
+    found = dict.fromkeys(missing.pairs, 0.0)
+    for row in missing.transitions:
+        found[row.state, row.action] += at(row.probability, x) * (at(row.reward, x) + gamma * worth[row.next])
+    return found

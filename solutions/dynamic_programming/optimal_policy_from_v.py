@@ -1,22 +1,39 @@
 """One look ahead with every action, from the optimal values."""
 
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
+from rldrill.solutions.answers.kinds import text_of
+from rldrill.solutions.exact import Value, exact, largest, parameters
+from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.optimality import optimum
-from rldrill.solutions.oracle import Answers, at, best_actions, tensors, without_loss
+from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
+from rldrill.solutions.rational import generator
+from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V
 from rldrill.solutions.sheet.dynamic_programming import GREEDY_BY_REWARD, GREEDY_BY_VALUE, GREEDY_FROM_V
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (GREEDY_BY_VALUE, GREEDY_BY_REWARD)
+MISCONCEPTIONS = (
+    GREEDY_BY_VALUE,
+    GREEDY_BY_REWARD,
+    replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.missing is None),
+    replace(OWN_VALUE, when=lambda given: given.missing is None),
+)
 
 
 def solve(given: Given, work: Work) -> None:
-    """The best action of every state."""
-    known = knowns.model(given.mdp) | {
-        "gamma": exact(given.gamma),
-        "V": knowns.state_values(given.values, given.mdp.terminal),
-    }
+    """The value that is missing, the values of the actions, the best action of every state."""
+    V = knowns.state_values(given.values, given.mdp.terminal)
+    known = knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
+    if given.missing is not None:
+        V[given.missing] = work.answer(_missing(given, given.missing, work, known | {"V": V}))
+    known |= {"V": V}
+    if given.action_values:
+        work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
     greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
     if given.gamma != 1:
         work.answer(greedy)
@@ -26,11 +43,49 @@ def solve(given: Given, work: Work) -> None:
     work.answer(best.among(greedy))
 
 
+def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Value:
+    """The value of a state from those of the others: that of its best action, taken each time.
+
+    An action that may lead back to the state gives an equation for the value.
+    """
+    x = generator("x")
+    values = []
+    for action in given.mdp.actions[state]:
+        worth = work.step(Q_STAR_FROM_V, s=state, a=action, **{**known, "V": {**known["V"], state: x}})
+        if parameters(worth):
+            work.say(f'If {action} is optimal in {state}, this is $x = V^*("{state}")$ itself:')
+            worth = work.equate("x", worth, x)
+        values.append(worth)
+    best = largest(values)
+    (action, *_) = arg_max(given.mdp.actions[state], values)
+    work.say(f'The greatest of these is ${text_of(best)}$, with {action}: $V^*("{state}") = {text_of(best)}$.')
+    return best
+
+
+def possible(given: Given) -> bool:
+    """Whether the values that are given are optimal, with the missing one put in."""
+    states, n = (*given.mdp.states, *given.mdp.terminal), len(given.mdp.states)
+    P, R = tensors(given.mdp, states)
+    V = optimal_values(P, R, at(given.gamma), n)
+    return all(abs(V[states.index(state)] - at(value)) < 0.02 * max(1, abs(at(value)))
+               for state, value in given.values.items())  # fmt: skip
+
+
 def oracle(given: Given) -> Answers:
-    """Every action's mean reward and mean next value, as two arrays; the best by trying all."""
+    """Every action's mean reward and mean next value, as two arrays; what is missing by sweeps, the best by trying."""
     states = (*given.mdp.states, *given.mdp.terminal)
     P, R = tensors(given.mdp, states)
-    ahead = P @ [at(given.values.get(state, 0)) for state in states]
-    worth = (P * R.clip(min=-1e300)).sum(axis=2) + at(given.gamma) * ahead
+    V = np.array([at(given.values.get(state, 0)) for state in states])
+    pay = (P * R.clip(min=-1e300)).sum(axis=2)
+    answers: list[Any] = []
+    if given.missing is not None:
+        place = states.index(given.missing)
+        for _ in range(2000):
+            V[place] = (pay + at(given.gamma) * P @ V)[place].max()
+        answers.append(V[place])
+    worth = pay + at(given.gamma) * P @ V
+    if given.action_values:
+        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        answers.append([worth[states.index(s), names.index(a)] for s, a in given.mdp.pairs])
     best = best_actions(given.mdp, worth[: len(given.mdp.states)])
-    return (without_loss(given.mdp, best) if given.gamma == 1 else best,)
+    return [*answers, without_loss(given.mdp, best) if given.gamma == 1 else best]

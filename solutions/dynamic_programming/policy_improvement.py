@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
@@ -16,7 +17,7 @@ from rldrill.solutions.oracle import (
     tensors,
 )
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
-from rldrill.solutions.sheet.bellman import BELLMAN_V
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
@@ -34,22 +35,25 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         values |= work.answer(of_states(mdp, values))
     else:
         values = knowns.state_values(given.values, mdp.terminal)
+    if given.action_values:
+        work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
     greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, **known) for s in mdp.states})
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
-    stable = all(set(taken[state]) <= set(greedy[state]) for state in mdp.states)
+    better = [state for state in mdp.states if not set(taken[state]) <= set(greedy[state])]
+    stable = not better
     optimal = stable and is_optimal(mdp, given.gamma, values)
     if stable and not optimal:
         work.say(ONLY_GREEDY)
     else:
         work.say(
-            "The greedy policy takes no other action than $π$, so no action is better in any state: $π$ is optimal."
+            "In every state the action of $π$ is greedy, so no action is better: $π$ is optimal."
             if optimal
-            else "The greedy policy is better than $π$ where it takes another action, so $π$ is not optimal."
+            else f"In {joined(better)} another action than that of $π$ is better, so $π$ is not optimal."
         )
     work.answer(optimal)
 
 
-MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, one_sweep(solve))
+MISCONCEPTIONS = (IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, one_sweep(solve), Q_FORGOT_GAMMA)
 
 
 def oracle(given: Given) -> Answers:
@@ -60,6 +64,9 @@ def oracle(given: Given) -> Answers:
     V = policy_values(P, R, chances(given.policy, given.mdp, states), at(given.gamma))
     worth = lookahead(P, R, V, at(given.gamma))[:n]
     answers: list[Any] = [V[:n]] if given.values is None else []
+    if given.action_values:
+        names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
+        answers.append([worth[states.index(s), names.index(a)] for s, a in given.mdp.pairs])
     best = optimal_values(P, R, 1.0, n)[:n] if given.gamma == 1 else worth.max(axis=1)
     answers += [best_actions(given.mdp, worth), bool((best < V[:n] + 1e-9).all())]
     return answers

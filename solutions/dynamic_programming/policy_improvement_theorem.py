@@ -29,9 +29,9 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
             "never earns what $V^π$ counts on, so the theorem says nothing about $π'$."
         )
     elif applies:
-        work.say("This holds in every state, so $π'$ is at least as good as $π$.")
+        work.say("The inequality holds in every state, so the theorem applies: $π'$ is at least as good as $π$.")
     else:
-        work.say("This does not hold in every state, so the theorem says nothing about $π'$.")
+        work.say("The inequality fails in some state, so the theorem does not apply: it says nothing about $π'$.")
     work.answer(applies)
 
 

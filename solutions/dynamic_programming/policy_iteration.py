@@ -50,7 +50,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         changed = policy != before
     optimal = not changed and is_optimal(mdp, given.gamma, values)
     if changed:
-        work.say("The last improvement still changed the policy, so it is not known whether another round would.")
+        work.say("The last improvement changed the policy, so another round could change it again: this is no proof.")
     elif optimal:
         work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
     else:

@@ -1,6 +1,7 @@
 """Sweeps of value iteration, over states or over actions, then the greedy actions."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered, pi
@@ -22,6 +23,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_FROM_Q,
     GREEDY_FROM_V,
     MEAN_FOR_MAX,
+    Q_OF_VALUES,
     VALUE_ITERATION,
 )
 from rldrill.solutions.work import Work
@@ -46,7 +48,20 @@ def solve(
             V_k = values if given.in_place else before
             values = values | {state: work.step(VALUE_ITERATION, s=state, V=V_k, into=numbered(V, sweep), **known)}
     values |= work.answer({state: values[state] for state in mdp.states})
+    if given.tie:
+        _tie(given.tie, work, known | {"V": values})
+        return
     work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
+
+
+def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
+    """The discount with which both actions of a state are worth the same."""
+    worth = [work.step(Q_OF_VALUES, s=state, a=action, **known) for action in known["actions"][state]]
+    work.say("Both are greedy where these are equal:")
+    gamma = work.equate("gamma", *worth)
+    if sign(gamma) < 0 or sign(ONE - gamma) < 0:
+        raise NoSolution(f"with no discount from 0 to 1 are both actions in {state!r} greedy; change a reward")
+    work.answer(gamma)
 
 
 def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping[str, Value]) -> None:
@@ -67,7 +82,7 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
 @slip(
     "in-place",
     "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
-    when=lambda given: not given.in_place and not given.action_values,
+    when=lambda given: not given.in_place and not given.action_values and given.tie is None,
 )
 def newest(given: Given, work: Work) -> None:
     """Every value is used as soon as it is there."""
@@ -87,7 +102,7 @@ def old_values(given: Given, work: Work) -> None:
 @slip(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
-    when=lambda given: knowns.pays_at_the_end(given.mdp),
+    when=lambda given: given.tie is None and knowns.pays_at_the_end(given.mdp),
 )
 def paid_twice(given: Given, work: Work) -> None:
     """An end is worth what the way there earned."""
@@ -95,7 +110,8 @@ def paid_twice(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
-    newest, old_values, paid_twice, MEAN_FOR_MAX, FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
+    newest, old_values, paid_twice, MEAN_FOR_MAX,
+    replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.tie is None), OPTIMAL_Q_BY_REWARD
 )  # fmt: skip
 
 
@@ -115,4 +131,8 @@ def oracle(given: Given) -> Answers:
         names = tuple(dict.fromkeys(action for _, action in given.mdp.outcomes))
         values = [worth[states.index(state), names.index(action)] for state, action in given.mdp.pairs]
         return (values, best_actions(given.mdp, worth))
+    if given.tie:
+        line, gains = states.index(given.tie), [lookahead(P, R, V, gamma) for gamma in (0.0, 1.0)]
+        first, last = ((gain[line] * [1, -1]).sum() for gain in gains)
+        return (V[:n], first / (first - last))
     return (V[:n], best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n]))

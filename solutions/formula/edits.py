@@ -326,7 +326,7 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
         letters = {symbol.name for symbol in argument.free_symbols}
         if letters and letters <= COUNTING and not isinstance(argument, Node):
             for step in (1, -1):
-                index = argument + step
+                index = _counted(argument, step)
                 other = part.func(*part.args[:place], index, *part.args[place + 1 :])
                 yield "index", other, part, other
         if argument.is_Symbol and argument.name in TWINS:
@@ -337,6 +337,13 @@ def _of_quantity(part: Quantity) -> Iterator[Change]:
             for kind, inner, _, _ in _of_quantity(argument):
                 other = part.func(*part.args[:place], inner, *part.args[place + 1 :])
                 yield kind, other, part, other
+
+
+def _counted(index: Expr, step: int) -> Expr:
+    """An index one further or one back, its letters in their order: t + 2, n − 1."""
+    letters = [term for term in Add.make_args(index) if not term.is_Number]
+    number = sum(term for term in Add.make_args(index) if term.is_Number) + step
+    return _sum([*letters, sympy.Integer(number)] if number else letters)
 
 
 def _of_set(part: Over) -> Iterator[Change]:

@@ -107,8 +107,9 @@ def sum_of(terms: Iterable[Expr]) -> Expr:
 
 
 def _is_nothing(term: Expr) -> bool:
-    """Whether a term is a multiple of a matrix or vector of zeros, which only fills the line."""
-    return any(isinstance(f, MatrixLeaf) and not f.scalar and f.args[0].is_zero_matrix for f in Mul.make_args(term))
+    """Whether a term is a multiple of a matrix of zeros, which only fills the line; vectors are short, and stay."""
+    matrices = (f for f in Mul.make_args(term) if isinstance(f, MatrixLeaf) and not isinstance(f, VectorLeaf))
+    return any(not f.scalar and f.args[0].is_zero_matrix for f in matrices)
 
 
 def product_of(factors: Iterable[Expr]) -> Expr:

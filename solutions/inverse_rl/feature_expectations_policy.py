@@ -2,10 +2,12 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.inverse_rl.feature_expectations_policy import Given
 from rldrill.problems.recurrence import end_components
 from rldrill.solutions import knowns
@@ -45,11 +47,17 @@ def solve(given: Given, work: Work) -> None:
         fixed = {(index, state): ZERO for state in given.terminal} | _resting(work, index, loops, known["phi"])
         cases = [{"component": index, "s": state} for state in states if (index, state) not in fixed]
         solved = work.system(FEATURES_FROM, mu_of, cases, mu_of=fixed, **known) if cases else fixed
-        answer = work.answer({state: solved[index, state] for state in states})
+        answer = {state: solved[index, state] for state in states}
+        if given.matched is None:
+            answer = work.answer(answer)
         expectations |= {(index, state): value for state, value in answer.items()}
     begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
     total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
-    work.answer(total)
+    if given.matched is None:
+        work.answer(total)
+    else:
+        work.say(f"This has to be the expert's ${shown(given.matched)}$:")
+        work.answer(work.equate(given.asked_for, total[0], exact(given.matched)))
 
 
 def _endless(given: Given, motion: Mapping[Any, Value], known: Mapping[str, Any]) -> list[Loop]:
@@ -95,6 +103,37 @@ def _resting(
 
 
 def oracle(given: Given) -> Answers:
+    """The feature expectations; or where the expert's are matched, the probability that does it, by bisection."""
+    if given.matched is None:
+        return _pushed(given)
+    matched, (low, high) = at(given.matched), (0.0, 1.0)
+    rising = _from_start(given, high) > _from_start(given, low)
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (_from_start(given, middle) < matched) == rising else (low, middle)
+    return (low,)
+
+
+def possible(given: Given) -> bool:
+    """Whether the policy has the expert's feature expectation for some probability."""
+    return given.matched is None or bool(np.isclose(_from_start(given, oracle(given)[0]), at(given.matched)))
+
+
+def _from_start(given: Given, chance: float) -> float:
+    """What the policy expects from the start with this number in place of what is left open."""
+    number = Fraction(chance)
+    policy = {
+        state: {
+            action: (1 - number if share.complement else number) if isinstance(share, Parameter) else share
+            for action, share in row.items()
+        }
+        for state, row in given.policy.items()
+    }
+    *_, total = _pushed(given.model_copy(update={"policy": policy, "matched": None}))
+    return float(total[0])
+
+
+def _pushed(given: Given) -> Answers:
     """The discounted state distribution pushed forward, for twice as many steps each time, all states at once."""
     states = (*given.states, *given.terminal)
     count = len(given.states)

@@ -1,13 +1,14 @@
 """The Riccati recursion backwards from the horizon: at every time first the gain, then the value matrix."""
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_backward import Given
-from rldrill.solutions import linear_quadratic
-from rldrill.solutions.exact import NoSolution
+from rldrill.solutions import linear_quadratic, matrices
+from rldrill.solutions.exact import NoSolution, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers, Array, at
@@ -34,17 +35,28 @@ def solve(given: Given, work: Work) -> None:
         work.say(IN_COSTS)
     known = linear_quadratic.known(given)
     P = {given.horizon: work.step(lqr.terminal, T=given.horizon, **known)}
+    start = {0: linear_quadratic.start(given)}
+    if given.action is not None:
+        action = work.step(lqr.action, t=0, Lt={0: _gain(lqr, work, 0, Pt=P, **known)}, St=start)
+        price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
+        known["Rt"] = dict.fromkeys(known["Rt"], matrices.matrix([[price]]))
     L: dict[int, Any] = {}
     for time in reversed(range(given.horizon)):
         L = {time: _gain(lqr, work, time, Pt=P, **known)}
         L = {time: work.answer(L[time])} if time in given.asked else L
         P = P | {time: work.step(lqr.riccati, t=time, Pt=P, Lt=L, **known)}
         P = P | {time: work.answer(P[time])} if time in given.asked else P
-    work.answer(work.step(lqr.action, t=0, Lt=L, St={0: linear_quadratic.start(given)}))
+    if given.action is None:
+        work.answer(work.step(lqr.action, t=0, Lt=L, St=start))
 
 
 def _formulas(given: Given) -> Quadratic:
     return quadratic(given.notation, discounted=given.gamma != 1, crossed=given.N is not None)
+
+
+def _forwards(given: Given) -> bool:
+    """Whether the price is given, not found."""
+    return given.action is None
 
 
 def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
@@ -58,7 +70,11 @@ def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
     return gain
 
 
-@slip("gain-from-same-time", "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.")
+@slip(
+    "gain-from-same-time",
+    "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
+    when=_forwards,
+)
 def same_time(given: Given, work: Work) -> None:
     """The right value matrices, and every gain from that of its own time."""
     lqr, known = _formulas(given), linear_quadratic.known(given)
@@ -73,21 +89,22 @@ def same_time(given: Given, work: Work) -> None:
 VALUES = slice(1, None, 2)
 #: As for a single gain, but here matrices are given by time.
 TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
-COST_TO_GO = linear_quadratic.cost_to_go(solve, VALUES)
-MISCONCEPTIONS = (
-    POSITIVE_S,
-    FORGOT_R,
-    FORGOT_R_IN_COSTS,
-    TRANSPOSED,
-    NO_TERMINAL,
-    NO_TERMINAL_COST,
-    same_time,
-    COST_TO_GO,
+COST_TO_GO = replace(
+    linear_quadratic.cost_to_go(solve, VALUES), when=lambda given: given.convention == "value" and _forwards(given)
 )
+#: Where the price is to be found: without it, or without a value at the end, the gain says nothing of it.
+OF_GIVEN_PRICES = tuple(
+    replace(mistake, when=_forwards) for mistake in (FORGOT_R, FORGOT_R_IN_COSTS, NO_TERMINAL, NO_TERMINAL_COST)
+)
+MISCONCEPTIONS = (POSITIVE_S, *OF_GIVEN_PRICES, TRANSPOSED, same_time, COST_TO_GO)
 
 
 def oracle(given: Given) -> Answers:
     """The best plan for every unit state: all remaining states and actions at once, the dynamics as constraints."""
+    if given.action is not None:
+        price = _price(given, at(given.action))
+        priced = given.model_copy(update={"R": (((Fraction(price),),),), "action": None})
+        return [price, *oracle(priced)[:2]]
     answers = []
     m, sign = given.actions, 1 if given.notation.costs else -1
     gain: Array = np.zeros((m, len(given.start)))
@@ -96,6 +113,20 @@ def oracle(given: Given) -> Answers:
         gain = -plan[:m]
         answers += [gain, sign * cost]
     return [*answers, -gain @ np.array([at(entry) for entry in given.start])]
+
+
+def _price(given: Given, action: float) -> float:
+    """The price for which the action is the best: its worth without a price rises by what the price takes back."""
+    now, after = (
+        linear_quadratic.arrays(given.model_copy(update={"R": (((Fraction(0),),),)}), time) for time in (0, 1)
+    )
+    state = np.array([at(entry) for entry in given.start])
+
+    def worth(a: float) -> float:
+        moved = now["A"] @ state + now["B"] @ [a]
+        return float(-at(given.gamma) * moved @ after["Q"] @ moved - 2 * state @ now["N"] @ [a])
+
+    return (worth(action + 1) - worth(action - 1)) / (4 * action)
 
 
 def _best(given: Given, first: int) -> tuple[Array, Array]:

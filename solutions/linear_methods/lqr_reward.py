@@ -1,10 +1,14 @@
 """A rollout, one time after the other: action, reward, next state."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
 
 from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices
+from rldrill.solutions.exact import exact
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,
@@ -19,11 +23,16 @@ from rldrill.solutions.sheet.linear_methods import (
 )
 from rldrill.solutions.work import Work
 
-MISCONCEPTIONS = (COST_FOR_REWARD, REWARD_WITHOUT_R, ACTION_FIRST)
+#: Without the price in it, the reward says nothing of a price that is to be found.
+MISCONCEPTIONS = (
+    COST_FOR_REWARD,
+    replace(REWARD_WITHOUT_R, when=lambda given: given.total is None),
+    ACTION_FIRST,
+)
 
 
 def solve(given: Given, work: Work) -> None:
-    """The first reward is asked for on the way."""
+    """The first reward is asked for on the way; a price that is left open is found from the total before."""
     reward_of, total = (LQR_REWARD, LQR_TOTAL) if given.plain else rollout(crossed=given.N is not None)
     known = linear_quadratic.known(given)
     known["Lt"] = {time: matrices.given(by_time(given.L, time)) for time in range(given.horizon + given.plain)}
@@ -32,15 +41,30 @@ def solve(given: Given, work: Work) -> None:
     for time in range(given.horizon + given.plain):
         known["Ut"] = known["Ut"] | {time: work.step(LQR_ACTION, t=time, **known)}
         reward = linear_quadratic.number(work.step(reward_of, t=time, **known))
-        rewards[time] = work.answer(reward) if time == 0 else reward
+        rewards[time] = work.answer(reward) if time == 0 and given.total is None else reward
         if time < given.horizon:
             known["St"] = known["St"] | {time + 1: work.step(DYNAMICS, t=time, **known)}
     if not given.plain:
         rewards[given.horizon] = linear_quadratic.number(work.step(at_the_end(), T=given.horizon, **known))
-    work.answer(work.step(total, T=given.horizon, gamma=known["gamma"], rt=rewards))
+    J = work.step(total, T=given.horizon, gamma=known["gamma"], rt=rewards)
+    if given.total is None:
+        work.answer(J)
+        return
+    price = work.answer(work.equate("rho", J, exact(given.total)))
+    known["Rt"] = dict.fromkeys(known["Rt"], matrices.matrix([[price]]))
+    work.answer(linear_quadratic.number(work.step(reward_of, t=0, **known)))
 
 
 def oracle(given: Given) -> Answers:
+    """What the rewards are without a price, and with 1; in between they are linear in it."""
+    if given.total is None:
+        return _summed(given)
+    free, dear = (_summed(given.model_copy(update={"R": (((price,),),)})) for price in (Fraction(0), Fraction(1)))
+    price = (at(given.total) - free[1]) / (dear[1] - free[1])
+    return (price, free[0] + price * (dear[0] - free[0]))
+
+
+def _summed(given: Given) -> tuple[float, float]:
     """States and actions from powers of the closed loop, rewards entry by entry."""
     state = np.array([at(entry) for entry in given.start])
     rewards = []

@@ -8,7 +8,7 @@ import sympy
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.exact import Value, digits, exact, to_sympy
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -22,6 +22,9 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Work
+
+#: The most digits of a number that is taken apart into primes.
+_MOST_FACTORED = 20
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
@@ -54,8 +57,8 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
 
 
 def _in_short(work: Work, value: Value) -> Value:
-    """An entropy by the logarithms of prime numbers, where it is a number."""
-    if not isinstance(value, sympy.Expr) or value.free_symbols:
+    """An entropy by the logarithms of prime numbers, where it is a number whose factors are soon found."""
+    if not isinstance(value, sympy.Expr) or value.free_symbols or digits(value) > _MOST_FACTORED:
         return value
     shorter: Value = sympy.expand_log(value, factor=True)
     if shorter != value:

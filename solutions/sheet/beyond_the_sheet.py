@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
-from sympy import Add, Expr, cos, evaluate, sin
+from sympy import Add, Expr, Pow, cos, evaluate, sin
 
 from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, number, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -98,6 +98,15 @@ with evaluate(False):
         title="Velocity of the end point",
         source="Siciliano et al. 2009, section 3.1",
         hint="Each joint contributes its column of J times its angular velocity.",
+        place=Place.BEYOND,
+    )
+    JOINT_RATES = Formula(
+        "jacobian-inverse",
+        rates,
+        Pow(Jacobian, -1) * velocity,
+        title="Velocities of the joints for a velocity of the end",
+        source="Siciliano et al. 2009, section 3.5",
+        hint="Solve v = J ω for ω; two equations, or the inverse of J.",
         place=Place.BEYOND,
     )
     SINGULAR = Formula(

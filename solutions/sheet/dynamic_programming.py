@@ -143,6 +143,15 @@ with evaluate(False):
         },
     )
 
+    Q_OF_VALUES = Formula(
+        "q-of-values",
+        Q(s, a),
+        LOOKAHEAD,
+        title="Value of an action by current values",
+        source="Sutton & Barto 2018, section 4.4",
+        hint="The action is fixed: average over where it leads, reward plus γ times the value there.",
+        place=Place.WORKING,
+    )
     GREEDY_BY_VALUE = Misconception(
         "by-next-value-alone", "The reward on the way counts too: compare reward plus γ times the next value."
     )

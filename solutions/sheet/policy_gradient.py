@@ -229,7 +229,9 @@ with evaluate(False):
     )
     NOT_NORMALISED = Misconception("not-normalised", "Probabilities sum to 1: divide by the sum over all actions.")
     WITHOUT_EXP = Misconception(
-        "normalised-without-exp", "The preferences are exponentiated before they are normalised."
+        "normalised-without-exp",
+        "The preferences are exponentiated before they are normalised.",
+        when=lambda given: given.odds is None and not given.parameters(),
     )
     SOFTMAX_POLICY = Formula(
         "softmax-policy",

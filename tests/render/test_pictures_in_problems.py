@@ -78,6 +78,7 @@ def test_beliefs_before_and_after_are_drawn_in_the_working(family: str) -> None:
 
 
 def test_a_belief_with_an_open_probability_has_no_bars() -> None:
-    exercise = draw("bayes-predict", 3, seed=1)
+    drawn = (draw("bayes-predict", 3, seed) for seed in range(50))
+    exercise = next(each for each in drawn if each.problem.parameters)
     assert not all(isinstance(chance, fmpq) for chance in exercise.solve()["a"].values())
     assert not [block for block in exercise.working() if isinstance(block, Bars)]

@@ -42,8 +42,9 @@ def test_a_constant_feature_without_an_end_is_worth_a_geometric_series(value: st
 @quick
 def test_feature_expectations_are_linear_in_the_features_and_make_the_value(seed: int) -> None:
     given_ = draw("feature-expectations-policy", 2, seed).problem.data()["given"]
+    phi = {state: [3 * number + 1, 2 - number] for number, state in enumerate(given_["features"])}
+    given_ |= {"features": phi}
     answers = solved("feature-expectations-policy", **given_)
-    phi = given_["features"]
     # With the reward 2 φ₁ − 3 φ₂ for being in a state, V solves the Bellman equations that policy-value solves.
     rows = [
         [state, action, target, chance, str(2 * Fraction(phi[state][0]) - 3 * Fraction(phi[state][1]))]

@@ -399,3 +399,15 @@ def test_a_matrix_is_negative_definite_where_all_its_eigenvalues_are_negative(si
 def test_a_matrix_with_an_eigenvalue_of_zero_is_not_negative_definite() -> None:
     for rows in ([[0]], [[-1, 0], [0, 0]], [[0, 0], [0, -1]], [[-1, 1], [1, -1]]):
         assert not _is_negative(matrices.matrix([[fmpq(entry) for entry in line] for line in rows]))
+
+
+def test_the_price_of_a_rollout_by_hand() -> None:
+    # a₀ = −2, so r₀ = −(1 + 4ρ), and s₁ = 3 − 2 = 1, so r₁ = r₀: −2 − 8ρ = −18 for ρ = 2.
+    answers = solved("lqr-reward", A=3, B=1, Q=1, R="rho", L=2, start=[1], horizon=1, total=-18)
+    assert answers == {"a": 2, "b": -9}
+
+
+def test_the_price_of_a_first_action_by_hand() -> None:
+    # P₁ = −2; a₀ = −3·2/(2 + ρ) = −3/2 for ρ = 2; L₀ = 3/2 (from the state 1), and P₀ = −2 − 2·9 + 2·3·3/2 = −11.
+    answers = solved("lqr-backward", A=3, B=1, Q=2, R="rho", start=[1], horizon=1, action="-3/2")
+    assert [answers["a"], answers["b"][0, 0], answers["c"][0, 0]] == [2, fmpq(3, 2), -11]

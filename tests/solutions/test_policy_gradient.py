@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rldrill
-from asking import solved
+from asking import rounded, solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Logarithm, read_weight, shown
@@ -331,6 +331,12 @@ def test_wrong_givens_of_what_is_sought(name: str, given_: Any, fragment: str) -
     with pytest.raises(FileError) as error:
         family(name).read(given_)
     assert fragment in str(error.value)
+
+
+def test_an_entropy_with_long_numbers_is_not_factored() -> None:
+    # h = 500 ln 2 and 500 ln 3: nobody takes 2^500 + 3^500 apart into primes.
+    answers = solved("softmax-policy", theta=["ln 2", "ln 3"], features={"a": [500, 0], "b": [0, 500]}, entropy=True)
+    assert rounded(answers["c"], 3) == "0.000"
 
 
 def test_the_entropy_of_a_policy_is_a_third_question_and_worth_two_points() -> None:

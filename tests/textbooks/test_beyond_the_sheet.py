@@ -169,3 +169,18 @@ def test_a_point_through_a_link_and_back_by_hand() -> None:
     pose = solved("denavit-hartenberg", links=[link], asked="pose")
     assert pose["a"].tolist() == [[0, 0, 1], [1, 0, 0], [0, 1, 0]]
     assert pose["b"] == (0, 2, 1)
+
+
+def test_the_velocities_of_joints_by_hand() -> None:
+    # θ = (0, π/2), l = (2, 1): the end (2, 1), so J = (−1, −1; 2, 0). v = (1, 4): ω₁ = 2, −2 − ω₂ = 1, so ω₂ = −3.
+    arm = {"lengths": [2, 1], "angles": [0, "pi/2"]}
+    assert solved("jacobian", **arm, velocity=[1, 4])["b"] == (2, -3)
+    with pytest.raises(FileError, match="the configuration is singular"):
+        solved("jacobian", lengths=[2, 1], angles=[0, 0], velocity=[1, 4])
+
+
+def test_the_length_of_a_link_by_hand() -> None:
+    # Angles 60° and 60° + 60° = 120°: x = 3/2 − w/2 = 1/2 gives w = 2; y = 3·√3/2 + 2·√3/2.
+    answers = solved("forward-kinematics", lengths=[3, "w"], angles=["pi/3", "pi/3"], x="1/2")
+    assert answers["a"] == 2
+    assert sympy.simplify(answers["b"] - 5 * sympy.sqrt(3) / 2) == 0

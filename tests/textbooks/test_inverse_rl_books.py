@@ -27,6 +27,22 @@ def test_features_of_a_loop() -> None:
     assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": (fmpq(7, 6),)}
 
 
+def test_the_policy_that_matches_the_expert_by_hand() -> None:
+    # In x the policy stays with probability q and ends otherwise, γ = 1/2: μ = 1 + q/2·μ = 4/3 for q = 1/2.
+    answers = solved(
+        "feature-expectations-policy",
+        motion={"stay": {"x": {"x": 1}}, "go": {"x": {"end": 1}}}, policy={"x": {"stay": "q", "go": "1-q"}},
+        features={"x": [1]}, start={"x": 1}, terminal=["end"], gamma="1/2", matched="4/3",
+    )  # fmt: skip
+    assert answers == {"a": fmpq(1, 2)}
+
+
+def test_the_discount_is_found_from_an_estimate() -> None:
+    # (1 + γ·2)/1 = 2 for γ = 1/2; the other feature has 0 + 1/2·4 = 2.
+    given = {"features": {"x": [1, 0], "y": [2, 4]}, "trajectories": [["x", "y"]], "gamma": "gamma", "estimate": 2}
+    assert solved("feature-expectations", **given) == {"a": fmpq(1, 2), "b": fmpq(2)}
+
+
 def test_a_projection_in_the_plane() -> None:
     # From (0, 0) towards (4, 0) with the expert at (3, 2): the foot is (3, 0), w = (0, 2) and 2 is left;
     # (4, 0) itself is √(1 + 4) away.

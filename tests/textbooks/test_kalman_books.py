@@ -140,3 +140,10 @@ def test_a_run_that_is_too_long_says_how_many_steps_are_possible() -> None:
     with pytest.raises(FileError, match="with 2 components of the state, 25 are the most"):
         solved("kalman-filter", **ONE_METRE, mean=[[1], [1]], covariance=[[1, 0], [0, 1]], process=[[0, 0], [0, 0]],
                sensor=1, steps=steps)  # fmt: skip
+
+
+def test_the_variance_of_a_noise_by_hand() -> None:
+    # 4 + 2 = 6 before the measurement, 2 after it: 1/2 = 1/6 + 1/Q gives Q = 3. K = 6/9 = 2/3; 1 + 2/3·(4 − 1) = 3.
+    step = {"mean": 0, "covariance": 4, "steps": [{"u": 1, "z": 4}], "variance": 2}
+    assert solved("kalman-filter", **step, process=2, sensor="w") == {"a": 3, "b": 3}
+    assert solved("kalman-filter", **step, process="w", sensor=3) == {"a": 2, "b": 3}

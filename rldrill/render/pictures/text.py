@@ -19,6 +19,8 @@ from rldrill.render.pictures.tree import tree
 
 _BAR = 20
 _MOST_ARROWS = 24
+#: The arcs of more joints than these run into one another where two dots are a sign; the table says it all.
+_MOST_LINKS = 2
 _PARTS = " ▏▎▍▌▋▊▉█"
 
 
@@ -42,7 +44,7 @@ def lines(picture: Picture, width: int = 100) -> list[str]:
         case Bumps():
             return raster(plots.bumps(picture))
         case Arm():
-            return raster(mechanics.arm(picture))
+            return raster(mechanics.arm(picture)) if len(picture.lengths) <= _MOST_LINKS else []
         case Pendulum():
             return raster(mechanics.pendulum(picture))
         case _:
