@@ -17,6 +17,8 @@ from rldrill.solutions.exact import is_rational
 CHANCE = 0.85
 #: The same for causes of less weight than this.
 UNLIKELY, CHANCE_OF_UNLIKELY = 1.5, 0.5
+#: Where the time did not suffice, something likelier may have been missed: less than this is not spoken of.
+SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
 NEAR = (0.2, 0.4, 0.65)
 #: More causes than this explain nothing.
@@ -53,6 +55,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
         ]
     if not found:
         return Explained((), 0.0)
+    interrupted = clock.over
     found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
@@ -60,6 +63,8 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     chance = _as_likely(search, typed, best.cause) / room
     near = _near(found)
     every = tuple(_distinct([each.cause for each in found]))
+    if interrupted and best.cause.weight < SURE_ENOUGH:
+        return Explained((), 0.0, chance, every)
     if chance > (CHANCE if best.cause.weight >= UNLIKELY else CHANCE_OF_UNLIKELY):
         return Explained((), 0.0, chance, every)
     share = best.cause.weight / sum(cause.weight for cause in near)
