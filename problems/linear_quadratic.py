@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, Literal, NamedTuple, Self
+from typing import Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -14,6 +14,7 @@ from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatricesField,
     MatrixField,
+    NumberRows,
     OpenMatricesField,
     Rows,
     check_shape,
@@ -26,6 +27,8 @@ REWARD = "$r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$"
 #: Today's longest runs; with few states they may be longer, as long as the fractions in them do not grow too much.
 _LONG = 12
 _EFFORT = 100
+
+AnyRows = TypeVar("AnyRows", bound=Rows)
 
 Convention = Literal["value", "cost-to-go", "xuKP"]
 
@@ -135,9 +138,15 @@ class LinearQuadratic(Discounted):
         return len(self.B[0][0])
 
     @property
-    def state_costs(self) -> tuple[Rows, ...]:
+    def state_costs(self) -> tuple[NumberRows, ...]:
         """The matrices Q of all times, or one for all."""
         return self.Q if self.Q_T is None else (*(self.Q * self.horizon), self.Q_T)
+
+    @property
+    def price(self) -> Fraction:
+        """The price of the only action, where it is a number; else 1."""
+        entry = self.R[0][0][0]
+        return entry if isinstance(entry, Fraction) else Fraction(1)
 
     @property
     def plain(self) -> bool:
@@ -156,7 +165,7 @@ def check_cross(Q: Rows, R: Rows, N: Rows) -> None:
     check_weights("with the cross term the matrix of all costs, (Q N; Nᵀ R),", (*upper, *lower), positive=False)
 
 
-def by_time(series: tuple[Rows, ...], time: int) -> Rows:
+def by_time(series: tuple[AnyRows, ...], time: int) -> AnyRows:
     """The matrix of a time; a single one holds at all times."""
     return series[time] if len(series) > 1 else series[0]
 
@@ -240,14 +249,16 @@ def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
     return {"A": A, "B": B, "Q": Q, "R": ((price,),)}
 
 
-def single_gain(A: Rows, B: Rows, price: Fraction, P: Rows) -> tuple[Fraction, ...]:
+def single_gain(A: NumberRows, B: NumberRows, price: Fraction, P: NumberRows) -> tuple[Fraction, ...]:
     """The gain of a single action from the next value matrix; with a discount γ, for the price divided by it."""
     inputs = [line[0] for line in B]
     ahead = [dot(inputs, column) for column in zip(*P, strict=True)]
     return tuple(dot(ahead, column) / (dot(ahead, inputs) - price) for column in zip(*A, strict=True))
 
 
-def value_before(A: Rows, B: Rows, Q: Rows, P: Rows, gain: Sequence[Fraction], gamma: Fraction) -> Rows:
+def value_before(
+    A: NumberRows, B: NumberRows, Q: NumberRows, P: NumberRows, gain: Sequence[Fraction], gamma: Fraction
+) -> NumberRows:
     """The value matrix one time earlier, with the gain of a single action."""
     columns, inputs = tuple(zip(*A, strict=True)), [line[0] for line in B]
     ahead = [[dot(column, line) for line in zip(*P, strict=True)] for column in columns]  # AᵀP

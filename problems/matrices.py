@@ -57,6 +57,8 @@ _MATRIX: dict[str, Any] = {
 _BY_TIME = _MATRIX | {"title": "a matrix, as a list of rows, or a list of matrices"}
 MatrixField = Annotated[_Exact, AfterValidator(_even), WithJsonSchema(_MATRIX)]
 OpenMatrixField = Annotated[_Open, AfterValidator(_even), WithJsonSchema(_MATRIX)]
+#: A matrix without anything left open.
+NumberRows = tuple[tuple[Fraction, ...], ...]
 #: Matrices by time; a single one holds at all times.
 MatricesField = Annotated[
     tuple[_Exact, ...], BeforeValidator(_by_time), AfterValidator(_all_even), WithJsonSchema(_BY_TIME)

@@ -283,7 +283,8 @@ class Work:
         self.lines.append(Equality(left, (right,)))
         if slope != 1 and left != generator(letter) * slope:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
-        self.lines.append(Equality(symbol, (value,)))
+        if (left, right) != (generator(letter), value):
+            self.lines.append(Equality(symbol, (value,)))
         return value
 
     def recall(self, formula: Formula) -> None:

@@ -29,7 +29,7 @@ from rldrill.problems.beliefs import (
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, shown
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
@@ -154,7 +154,9 @@ def draw(level: int, rng: Draws) -> Given:
         q = rng.fraction("1/4", "1/2", "3/4", "1/3", "2/3") if found != "nothing" else Fraction(0)
         motion = draw_motion(scene, states, (_OPEN, _OPEN) if found == "motion" else chances)
         likelihood = draw_sensor(scene, states, rng, "1/4", "1/2", "3/4")
-        belief = (_OPEN, Parameter("1-q")) if found == "belief" else rng.split(len(states), (2, 3, 4))
+        belief: tuple[Scalar, ...] = (
+            (_OPEN, Parameter("1-q")) if found == "belief" else rng.split(len(states), (2, 3, 4))
+        )
         run = tuple(
             Event(
                 action=rng.choice(tuple(motion)) if moves else None,

@@ -20,7 +20,7 @@ from rldrill.problems.beliefs import (
 )
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, shown
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
@@ -87,7 +87,9 @@ def draw(level: int, rng: Draws) -> Given:
         chances = rng.fraction("1/2", "1/4", "3/4"), rng.fraction("1/2", "1/4", "3/4")
         motion = draw_motion(scene, states, (_OPEN, _OPEN) if left_open == "motion" else chances)
         q = rng.fraction("1/4", "1/2", "3/4", "1/3", "2/3", "1/5", "4/5") if left_open else Fraction(0)
-        belief = (_OPEN, Parameter("1-q")) if left_open == "belief" else rng.split(len(states), (3, 4, 5))
+        belief: tuple[Scalar, ...] = (
+            (_OPEN, Parameter("1-q")) if left_open == "belief" else rng.split(len(states), (3, 4, 5))
+        )
         actions = tuple(rng.choice(tuple(motion)) for _ in range(1 if level == 1 else 2))
         start = {state: filled(chance, q) for state, chance in zip(states, belief, strict=True)}
         beliefs = [start]

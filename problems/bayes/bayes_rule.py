@@ -116,7 +116,7 @@ def draw(level: int, rng: Draws) -> Given:
     hypotheses = story.hypotheses[:count]
     while True:
         q = rng.fraction("1/4", "1/3", "1/2", "2/3", "3/4", "1/5", "2/5", "3/5", "4/5") if kind else Fraction(0)
-        prior = (_OPEN, _REST) if kind in ("prior", "open") else rng.split(count, (2, 3, 4, 5))
+        prior: tuple[Scalar, ...] = (_OPEN, _REST) if kind in ("prior", "open") else rng.split(count, (2, 3, 4, 5))
         fifths = rng.choice((("1/4", "1/2", "3/4"), ("1/5", "2/5", "3/5", "4/5"), ("1/10", "1/5", "1/2", "9/10")))
         likely: dict[str, Scalar] = {name: rng.fraction(*fifths) for name in hypotheses}
         if kind == "likelihood":

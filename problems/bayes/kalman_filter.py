@@ -52,7 +52,12 @@ class Given(Givens):
     mean: MatrixField = Field(description="The mean of the first belief, a column.")
     covariance: MatrixField = Field(description="The covariance of the first belief.")
     A: MatrixField = Field(default=_ONE, validate_default=True, description="How the state moves by itself.")
-    B: MatrixField = Field(default=_ONE, validate_default=True, description="How the command moves the state.")
+    B: MatrixField = Field(
+        default=_ONE,
+        validate_default=True,
+        exclude_if=lambda B: B == _ONE,
+        description="How the command moves the state.",
+    )
     C: MatrixField = Field(default=_ONE, validate_default=True, description="What the sensor sees of the state.")
     process: OpenMatrixField = Field(description="The covariance of the noise of the motion.")
     sensor: OpenMatrixField = Field(description="The covariance of the noise of the sensor.")
@@ -149,7 +154,7 @@ def draw(level: int, rng: Draws) -> Given:
             place += u
             z = place + rng.nonzero(-4, 4)
             steps.append(Event(u=((u,),) if driven else None, z=((z,),) if measured else None))
-        beliefs = _beliefs((mean, variance), process, sensor, steps)
+        beliefs = _beliefs((mean, Fraction(variance)), process, sensor, steps)
         numbers = [number for belief in beliefs for number in belief]
         if max(max(abs(number.numerator), number.denominator) for number in numbers) <= _MOST[level]:
             break
@@ -172,7 +177,7 @@ def _with_velocity(rng: Draws) -> Given:
         mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
         covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
         A=((1, 1), (0, 1)),
-        B=((0,), (1,)),
+        **({"B": ((0,), (1,))} if driven else {}),
         C=((1, 0),),
         process=diagonal(rng.whole(1, 2), rng.whole(1, 2)),
         sensor=((rng.whole(1, 4),),),

@@ -19,7 +19,7 @@ from rldrill.problems.linear_quadratic import (
     situation,
     value_before,
 )
-from rldrill.problems.matrices import Rows
+from rldrill.problems.matrices import NumberRows
 from rldrill.problems.parts import LETTERS, Matrix, Number, Part
 from rldrill.problems.phrases import in_open
 
@@ -93,13 +93,13 @@ def draw(level: int, rng: Draws) -> Given:
     return given.model_copy(update={"R": (((Parameter("rho"),),),), **found})
 
 
-def _backwards(given: Given) -> tuple[list[tuple[Fraction, ...]], list[Rows]]:
+def _backwards(given: Given) -> tuple[list[tuple[Fraction, ...]], list[NumberRows]]:
     """Gains and value matrices, the last first."""
-    (A,), (B,), (((price,),),) = given.A, given.B, given.R
-    P: Rows = tuple(tuple(-entry for entry in line) for line in by_time(given.state_costs, given.horizon))
+    (A,), (B,) = given.A, given.B
+    P: NumberRows = tuple(tuple(-entry for entry in line) for line in by_time(given.state_costs, given.horizon))
     gains, values = [], []
     for time in range(given.horizon - 1, -1, -1):
-        gains.append(single_gain(A, B, price / given.gamma, P))
+        gains.append(single_gain(A, B, given.price / given.gamma, P))
         P = value_before(A, B, by_time(given.state_costs, time), P, gains[-1], given.gamma)
         values.append(P)
     return gains, values

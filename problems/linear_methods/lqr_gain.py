@@ -13,8 +13,8 @@ from rldrill.problems.linear_quadratic import Conventional, quadratic, single_ga
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatrixField,
+    NumberRows,
     OpenMatrixField,
-    Rows,
     check_shape,
     check_symmetric,
     is_positive,
@@ -80,11 +80,12 @@ class Given(Conventional):
         if self.left_open:
             return self
         check_symmetric("R", self.R)
+        prices = [[entry for entry in line if isinstance(entry, Fraction)] for line in self.R]
         inputs = tuple(zip(*self.B, strict=True))
         factor = self.gamma if self.notation.costs else -self.gamma
         curved = tuple(
             tuple(
-                self.R[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
+                prices[i][j] + factor * dot(first, (dot(line, then) for line in self.P))
                 for j, then in enumerate(inputs)
             )
             for i, first in enumerate(inputs)
@@ -114,6 +115,8 @@ def draw(level: int, rng: Draws) -> Given:
     discounted = kind in ("discount", "both") or (kind in ("open", "found") and rng.chance(Fraction(1, 3)))
     gamma = rng.fraction("1/2", "1/3", "2/3") if discounted else Fraction(1)
     start = tuple(rng.nonzero(-2, 3) for _ in range(2)) if kind in ("start", "both", "found") else None
+    if inputs == 1 and not all(single_gain(A, B, Fraction(1), P)):
+        return draw(level, rng)  # an entry of the start would play no part
     if kind == "found" and start is not None:
         price = rng.whole(1, 3)
         action = -dot(single_gain(A, B, price / gamma, P), start)
@@ -123,7 +126,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 _OPEN = Parameter("rho")
 #: Systems and inputs in which every entry of the value's matrix counts.
-_SYSTEMS: tuple[Rows, ...] = tuple(
+_SYSTEMS: tuple[NumberRows, ...] = tuple(
     tuple(tuple(map(Fraction, line)) for line in rows)
     for rows in (
         ((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)), ((0, 1), (-1, 2)),

@@ -96,11 +96,11 @@ _OPEN = Parameter("rho")
 def draw(level: int, rng: Draws) -> Given:
     """A rational P; a root, a discount, a cross term or two states; two coupled robots, or a price to find."""
     if level == 1:
-        return _scalar(*rng.choice(_scalars(rational=True)))
+        return _scalar(*map(Fraction, rng.choice(_scalars(rational=True))))
     if level == 2:
         kind = rng.choice(("root", "discount", "cross", "two"))
         if kind == "root":
-            return _scalar(*rng.choice(_scalars(rational=False)))
+            return _scalar(*map(Fraction, rng.choice(_scalars(rational=False))))
         if kind == "two":
             first, second = (rng.choice(_scalars(rational=True)) for _ in range(2))
             A, B, Q, R = (diagonal(*map(Fraction, pair)) for pair in zip(first, second, strict=True))

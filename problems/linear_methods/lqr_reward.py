@@ -96,8 +96,8 @@ def _rewards(given: Given) -> list[Fraction]:
         action = -dot(by_time(given.L, 0 if ended else time)[0], state) * (not ended)
         if not all(state) or not (action or ended):
             return []
-        Q, ((price,),) = by_time(given.state_costs, time), by_time(given.R, time)
-        cost = dot(state, (dot(line, state) for line in Q)) + action**2 * price
+        Q = by_time(given.state_costs, time)
+        cost = dot(state, (dot(line, state) for line in Q)) + action**2 * given.price
         rewards.append(-cost * given.gamma**time)
         state = tuple(dot(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
     return rewards

@@ -1,6 +1,7 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -27,7 +28,7 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
     """Make these moves in every step; ``afresh`` begins each step with the first belief again."""
     states = tuple(given.belief)
     start = knowns.values(given.belief)
-    known = {
+    known: dict[str, Any] = {
         "motion": knowns.motion(given.motion),
         "likelihood": knowns.likelihood(given.likelihood),
         "states": states,
@@ -123,7 +124,9 @@ def _joint(given: Given, run: Sequence[Event], q: float) -> list[Any]:
     for event in run:
         if event.action is not None:
             rows = given.motion[event.action]
-            joint = joint[..., None] * np.array([[number(rows[s].get(t, 0), q) for t in states] for s in states])
+            joint = joint[..., None] * np.array(
+                [[number(rows[s].get(t, Fraction(0)), q) for t in states] for s in states]
+            )
         if event.measurement is not None:
             joint = joint * np.array([number(given.likelihood[event.measurement][state], q) for state in states])
         last = joint.reshape(-1, len(states)).sum(axis=0)

@@ -92,18 +92,11 @@ TRANSPOSED = replace(TRANSPOSED_A, when=lambda given: len(given.start) > 1)
 COST_TO_GO = replace(
     linear_quadratic.cost_to_go(solve, VALUES), when=lambda given: given.convention == "value" and _forwards(given)
 )
-#: Without the price in it, the gain says nothing of a price that is to be found.
-PRICE_FORGOTTEN = replace(FORGOT_R, when=_forwards)
-MISCONCEPTIONS = (
-    POSITIVE_S,
-    PRICE_FORGOTTEN,
-    FORGOT_R_IN_COSTS,
-    TRANSPOSED,
-    NO_TERMINAL,
-    NO_TERMINAL_COST,
-    same_time,
-    COST_TO_GO,
+#: Where the price is to be found: without it, or without a value at the end, the gain says nothing of it.
+OF_GIVEN_PRICES = tuple(
+    replace(mistake, when=_forwards) for mistake in (FORGOT_R, FORGOT_R_IN_COSTS, NO_TERMINAL, NO_TERMINAL_COST)
 )
+MISCONCEPTIONS = (POSITIVE_S, *OF_GIVEN_PRICES, TRANSPOSED, same_time, COST_TO_GO)
 
 
 def oracle(given: Given) -> Answers:

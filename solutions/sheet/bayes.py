@@ -124,6 +124,11 @@ def _on_a_line(given: Any) -> bool:
     return bool(given.on_a_line)
 
 
+def _weighed(given: Any) -> bool:
+    """Whether variances may be taken for their inverses: not where that of the motion is to be found from the gain."""
+    return _on_a_line(given) and not isinstance(given.process[0][0], str)
+
+
 def _is_noisy(given: Any) -> bool:
     """Whether the motion has a noise, and no noise is to be found."""
     return given.variance is None and any(any(line) for line in given.process)
@@ -229,7 +234,7 @@ with evaluate(False):
     VARIANCES_FOR_INVERSES = Misconception(
         "variances-for-inverses",
         "The more certain of the two counts more: weigh with the inverse of its variance, not with the variance.",
-        when=_on_a_line,
+        when=_weighed,
     )
     KALMAN_GAIN = Formula(
         "kalman-gain",

@@ -36,6 +36,12 @@ def test_a_quotient_is_multiplied_out() -> None:
     assert written(work)[-1] == "γ = 3/4"
 
 
+def test_what_is_solved_is_said_once() -> None:
+    work = Work()
+    assert work.equate("gamma", gamma, fmpq(1, 2)) == fmpq(1, 2)
+    assert written(work) == ["γ = 1/2"]
+
+
 @pytest.mark.parametrize("left", [gamma * gamma, fmpq(3)])
 def test_what_is_not_linear_is_refused(left: object) -> None:
     with pytest.raises(NoSolution, match="not linear in gamma"):
