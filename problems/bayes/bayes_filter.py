@@ -43,8 +43,12 @@ REVISION = 3
 class Event(Givens):
     """What happens in one step: first an action, then a measurement; one of them may be missing."""
 
-    action: Name | None = Field(default=None, description="The action that is taken, if there is one.")
-    measurement: Name | None = Field(default=None, description="What is measured after it, if anything is.")
+    action: Name | None = Field(
+        default=None, description="The action that is taken, if there is one.", examples=["push"]
+    )
+    measurement: Name | None = Field(
+        default=None, description="What is measured after it, if anything is.", examples=["light"]
+    )
 
     @model_validator(mode="after")
     def _something(self) -> Self:
