@@ -100,15 +100,15 @@ def asked_features(given: Centred, known: Collection[int], opened: str = "") -> 
     if len(names) == 1:
         return Part(f"What is the feature ${names[0]}${opened}?", Numbers(names), zero=True)
     what = "the other features" if known else "the features"
-    return Part(f"What are {what} ${', '.join(names)}$, in this order{opened}?", Numbers(names), zero=True)
+    return Part(f"What are {what} ${', '.join(names)}${opened}?", Numbers(names), zero=True)
 
 
 def tents(width: Fraction | None) -> str:
     """The sentence that says what piecewise linear basis functions are."""
     far = "b" if width is None else f"b = {shown(width)}"
     return (
-        "All features are piecewise linear radial basis functions: each is $1$ at its centre, falls in proportion to "
-        f"the Euclidean distance from it, and is $0$ from the distance ${far}$ on."
+        "All features are piecewise linear radial basis functions: each is $1$ at its centre, falls linearly "
+        f"with the Euclidean distance from it, and is $0$ from the distance ${far}$ on."
     )
 
 

@@ -1,6 +1,6 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -23,6 +23,9 @@ from rldrill.problems.settings import draw_setting
 _DRAWN = 12
 #: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
 _SHORT = 300
+
+#: Drawn answers have no larger numbers above and below the line.
+_LARGEST, _LARGEST_BELOW = 250, 80
 
 #: What to do where a terminal state is given a value of its own.
 CUT_OFF = "take it out of terminal if the run was only cut off there"
@@ -130,6 +133,11 @@ def draw_rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...
 
 def _reward_before(rng: Draws, after: Fraction, unit: int) -> Fraction:
     return rng.fitting(-5, 9, lambda reward: reward + after != 0 and (reward + after) % unit == 0)
+
+
+def readable(numbers: Iterable[Fraction]) -> bool:
+    """Whether these are fractions with small numbers above and below the line."""
+    return all(abs(number.numerator) <= _LARGEST and number.denominator <= _LARGEST_BELOW for number in numbers)
 
 
 def draw_whole(
@@ -561,7 +569,9 @@ def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part
     errors = tuple(f"δ_{{{time}}}" for time in range(len(given.moves)))
     if len(errors) == 1:
         return Part(f"What is the TD error $δ_0$ of the transition{in_open(given)}?", Number(), zero=True)
-    ask = f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given)}?"
+    ask = (
+        f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given, several=True)}?"
+    )
     return Part(ask, Numbers(errors), zero=True)
 
 

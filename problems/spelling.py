@@ -20,6 +20,8 @@ _ALIKE = {
 }  # fmt: skip
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
 _SMALL_QUOTIENT = re.compile(f"([⁰¹²³⁴⁵⁶⁷⁸⁹]+)[/⁄]([{_LOWERED}]+)")
+#: A power whose exponent holds a letter: eᵞ, 2⁻ᵖ.
+_RAISED_LETTERS = re.compile("(?<=[0-9eγ)])[⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹]*[ᵝᵞᵟᵠᵖ][⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹ᵝᵞᵟᵠᵖ]*")
 _LOWERED_BEHIND = re.compile(rf"(?<![\w.])[\d.]*\d[{_LOWERED}]")
 _ONE_NUMBER = re.compile(r"\d(?:[\d.٫٬]*\d)?")
 _RAISED_POINT = re.compile(r"\s*[-+−]?0[·⋅∙•](\d+)\s*")
@@ -130,6 +132,7 @@ def respelled(text: str, longest: int) -> Source:
     _refuse_odd_digits(text)
     # ¹⁄₄ is a number of its own, as ¼ is.
     source = Source(text).replaced(_SMALL_QUOTIENT, lambda match: _on_the_line(match, text))
+    source = source.replaced(_RAISED_LETTERS, lambda match: f"^({unicodedata.normalize('NFKC', match[0])})")
     return replace(source, text="".join(map(_spelled, source.text))).part(0, len(source.text))
 
 

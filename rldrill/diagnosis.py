@@ -1,6 +1,7 @@
 """Why an answer is wrong, in a sentence, and where in the working it went wrong."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from threading import Event, Thread
 from typing import Any
@@ -12,9 +13,10 @@ from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis.explaining import MOST, Explained, explained
 from rldrill.solutions.diagnosis.following import Line, Standing, follow
-from rldrill.solutions.diagnosis.replay import Application
+from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
 from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.solution import Solution
 
@@ -84,6 +86,16 @@ class Diagnosis:
         }
 
 
+@dataclass(frozen=True, slots=True)
+class WrongAnswer:
+    """A wrong answer to a part, as it is typed, and what it comes from."""
+
+    part: str
+    answer: str
+    kind: str
+    sentence: str
+
+
 class Diagnosing:
     """Diagnoses the wrong answers to one problem; what is found out about the problem is kept."""
 
@@ -141,6 +153,24 @@ class Diagnosing:
         problem = self.solution.problem
         cells = kind.read(text, problem.parameters, problem.given.terminal_states())
         return Typed(part, cells, kind.cells(self.solution.answers[label]))
+
+    def wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
+        """Wrong answers to a part, the likeliest first, each with what it comes from."""
+        search, part = self.search({}), part_of(self.solution, label)
+        kind = answer_kind(part.kind)
+        key = Typed(part, {}, kind.cells(self.solution.answers[label]))
+        found: dict[str, WrongAnswer] = {}
+        for candidate in sorted(search.whole(Clock()), key=lambda each: -each.cause.weight):
+            if len(found) == number:
+                break
+            with suppress(*UNDONE):
+                if key.cells_of(candidate.answers) and distinguishable(
+                    self.solution, {label: candidate.answers[label]}
+                ):
+                    said = _diagnosis(candidate.cause, search.applications, 1.0)
+                    text = kind.write(candidate.answers[label])
+                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence))
+        return tuple(found.values())
 
     def diagnose(
         self,

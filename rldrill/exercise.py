@@ -232,8 +232,13 @@ class Exercise:
             )
         return Page(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
 
-    def data(self, *, answers: bool = True) -> dict[str, Any]:
-        """The problem as JSON has it; with ``answers`` also the exact answers and the steps."""
+    def data(self, *, answers: bool = True, mistakes: int = 0) -> dict[str, Any]:
+        """The problem as JSON has it.
+
+        Args:
+            answers: with the exact answers and the steps.
+            mistakes: with so many wrong answers to every part, each with what it comes from.
+        """
         result: dict[str, Any] = {"format": FORMAT, "id": self.id, **self.problem.data()}
         result["level"] = self.problem.level
         result["question"] = [unicode_text(block) for block in self.question()]
@@ -246,6 +251,11 @@ class Exercise:
             if answers:
                 kind, value = answer_kind(part.kind), self.solution.answers[part.label]
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}
+            if mistakes:
+                wrong = self.diagnosing.wrong_answers(part.label, mistakes)
+                entry["mistakes"] = [
+                    {"answer": each.answer, "kind": each.kind, "sentence": each.sentence} for each in wrong
+                ]
             result["parts"].append(entry)
         if answers:
             result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]

@@ -1,7 +1,8 @@
 """ε-greedy choice, a step for every action; several solvers take it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from rldrill.problems.document import joined
 from rldrill.solutions.exact import Value
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.sheet.control import EPSILON_GREEDY, EPSILON_GREEDY_TIED
@@ -18,3 +19,10 @@ def epsilon_greedy(work: Work, state: str, values: Mapping[str, Value], epsilon:
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
     return {action: work.step(formula, s=state, a=action, **known) for action in values}
+
+
+def greedy(best: Sequence[str]) -> str:
+    """The conclusion from an arg max, in words."""
+    if len(best) == 1:
+        return f"{best[0]} has the greatest value: it is greedy"
+    return f"{joined(list(best))} have the same greatest value: they are all greedy"

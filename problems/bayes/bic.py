@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import product
-from string import ascii_lowercase
+from string import ascii_uppercase
 from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
@@ -235,7 +235,7 @@ def question(given: Given) -> Question:
     criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), zero=True)
     if given.fitted is not None and given.border:
         border = Part("For which number $n$ of data do both models have the same BIC?", Number())
-        options = dict(zip(ascii_lowercase, names, strict=False))
+        options = dict(zip(ascii_uppercase, names, strict=False))
         after = Part(f"Which model does the BIC prefer if there are {given.border} data than that?", Choice(options))
         return Question((*_fitted(given, given.fitted), rule), (border, after))
     if given.fitted is not None:
@@ -287,5 +287,5 @@ def _number(model: Fitted) -> Fraction:
 
 
 def _winner(given: Given) -> Part:
-    options = dict(zip(ascii_lowercase, given.names, strict=False))
+    options = dict(zip(ascii_uppercase, given.names, strict=False))
     return Part(f"Which model does the {given.criterion} prefer?", Choice(options))

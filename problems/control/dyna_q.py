@@ -7,7 +7,7 @@ from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.asking_back import draw_rates, draw_rows, readable
+from rldrill.problems.asking_back import Rates, draw_rates, draw_rows, readable
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
@@ -114,7 +114,7 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     first, second, third = rng.shuffled(setting.states)[:3]
     choices = rng.sample(setting.actions, 2)
-    alpha, gamma, unit = draw_rates(rng)
+    alpha, gamma, unit = draw_rates(rng) if level > 1 else Rates(Fraction(1, 2), Fraction(1, 2), 4)
     last = () if level == 1 or rng.chance(Fraction(1, 2)) else (rng.choice((first, third, setting.terminal)),)
     run = Trajectory(
         states=(first, second, *last),

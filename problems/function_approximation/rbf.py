@@ -131,8 +131,8 @@ def question(given: Given) -> Question:
         place(given),
         centres_table(given.centres),
         Paragraph(
-            "All features are Gaussian radial basis functions of the Euclidean distance from their centres, with the "
-            f"value $1$ there and the standard deviation ${width}$."
+            "All features are Gaussian radial basis functions of the Euclidean distance from their centres, of height "
+            f"$1$ and standard deviation ${width}$."
             + (" Here $σ > 0$ is left open." if isinstance(given.sigma, Parameter) else "")
             + (f" It is known that ${'$ and $'.join(known)}$." if known else "")
         ),

@@ -158,7 +158,7 @@ def question(given: Given) -> Question:
         Paragraph(model),
         features_table(given.features, what="s", of="φ", about="s"),
         Paragraph(
-            f"At first the weights are ${weights(given.theta)}$. {method} updates them {when}. "
+            f"Initially the weights are ${weights(given.theta)}$. {method} updates them {when}. "
             f"{step_size(given.alpha)} {discount(given.gamma)}"
         ),
     )

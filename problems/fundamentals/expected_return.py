@@ -24,6 +24,7 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked
+from rldrill.problems.runs import readable
 from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Expected return"
@@ -62,6 +63,16 @@ class Given(Reversible, ModelAndPolicy):
     def chooses(self) -> bool:
         """Whether the policy leaves something to chance."""
         return any(chance not in (0, 1) for row in self.chances.values() for chance in row.values())
+
+    @property
+    def sought(self) -> str:
+        """Whether a probability of the start, of the policy or of the model is asked for; empty where none is."""
+        if self.known is None:
+            return ""
+        if any(isinstance(chance, Parameter) for chance in self.start.values()):
+            return "start"
+        chosen = (chance for row in self.chances.values() for chance in row.values())
+        return "policy" if any(isinstance(chance, Parameter) for chance in chosen) else "mdp"
 
     def episodes(self) -> Iterator[Episode]:
         """Every episode that can happen, in the order of the tables.
@@ -109,12 +120,16 @@ def draw(level: int, rng: Draws) -> Given:
     mdp = given.mdp
     if level < 3:
         return given
-    kind = rng.below(3)
-    if kind < 2 or len(starts) == 1:  # the policy left open, or asked for
-        known = None if kind == 0 else _expected(given)
-        return given.model_copy(update={"policy": _policy(mdp, (Parameter("p"), Parameter("1-p"))), "known": known})
-    opened = dict(zip(given.start, (Parameter("p"), Parameter("1-p")), strict=True))
-    return given.model_copy(update={"start": opened, "known": _expected(given)})
+    kind, sought, letters = rng.below(3), rng.split(2, (3, 4, 5)), (Parameter("p"), Parameter("1-p"))
+    if kind == 0:
+        return given.model_copy(update={"policy": _policy(mdp, letters)})
+    if kind == 1 or len(starts) == 1:
+        known = _expected(given.model_copy(update={"policy": _policy(mdp, sought)}))
+        return given.model_copy(update={"policy": _policy(mdp, letters), "known": known})
+    first, last = starts
+    start = {mdp.states[first]: sought[0], mdp.states[last]: sought[1]}
+    known = _expected(given.model_copy(update={"start": start}))
+    return given.model_copy(update={"start": dict(zip(start, letters, strict=True)), "known": known})
 
 
 def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[int, ...], gamma: Fraction) -> Given:
@@ -141,7 +156,7 @@ def _reward(rng: Draws, factor: Fraction) -> Fraction:
 
 
 def _all_matters(given: Given) -> bool:
-    """Whether no two starts are worth the same, nor two actions of a state, nor two branches of an action."""
+    """Whether no two starts, actions of a state or branches of an action are worth the same, and γ counts."""
     gamma, ahead = Fraction(given.gamma), dict.fromkeys(given.mdp.terminal, Fraction(0))
     for state, actions in reversed(given.mdp.actions.items()):
         worth = {}
@@ -155,9 +170,9 @@ def _all_matters(given: Given) -> bool:
             return False
         ahead[state] = sum((Fraction(given.chances[state][a]) * value for a, value in worth.items()), Fraction(0))
     undiscounted = given.model_copy(update={"gamma": Fraction(1)})
-    return len({ahead[state] for state in given.start}) == len(given.start) and _expected(given) != _expected(
-        undiscounted
-    )
+    if len({ahead[state] for state in given.start}) < len(given.start):
+        return False
+    return readable((_expected(given),)) and _expected(given) != _expected(undiscounted)
 
 
 def _policy(mdp: Model, chances: tuple[Scalar, ...]) -> PolicyField:

@@ -20,7 +20,8 @@ REVISION = 2
 class Given(Reversible):
     """The first rewards r_1 … r_k, the rewards that come round and round after them, and the discount.
 
-    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for.
+    Where ``known`` is the return from the start, the reward or the discount that is left open is asked for, and then
+    the return from where the rewards begin to repeat.
     """
 
     first: tuple[Open, ...] = Field(
@@ -47,7 +48,7 @@ class Given(Reversible):
 def draw(level: int, rng: Draws) -> Given:
     """One reward and then a constant; then rounds of two or three; then a letter left open or asked for."""
     if level == 1:
-        gamma = rng.fraction("1/2", "1/3", "2/3", "3/4")
+        gamma = rng.fraction("1/2", "1/3", "2/3")
         return Given(first=(rng.nonzero(-4, 9),), repeated=(rng.nonzero(-4, 9),), gamma=gamma)
     gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
     if level == 2:
@@ -62,7 +63,7 @@ def draw(level: int, rng: Draws) -> Given:
         opening, always = rng.distinct(2, 1, 9)
         known = opening + gamma * always / (1 - gamma)
         return Given(first=(opening,), repeated=(always,), gamma=Parameter("gamma"), known=known)
-    first, (one, other) = _first(rng, rng.below(2)), _round(rng, 2, gamma)
+    first, (one, other) = _first(rng, 1 + rng.below(2)), _round(rng, 2, gamma)
     known = _from_start((*first, one, other), len(first), gamma)
     hidden = (Parameter("x"), other) if rng.chance(Fraction(1, 2)) else (one, Parameter("x"))
     return Given(first=first, repeated=hidden, gamma=gamma, known=known)
@@ -107,7 +108,8 @@ def question(given: Given) -> Question:
     more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."
-        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given),))
+        tail = [Part(f"What is the return $R_{{{k}}}$?", Number())] if k else []
+        return Question((Paragraph(f"{opening}{told} {more}"),), (letter_asked(given), *tail))
     parts = [Part(f"What is the return $R_{{{k}}}${in_open(given)}?", Number())]
     if k:
         parts.append(Part(f"What is the return $R_{{0}}${in_open(given)}?", Number()))

@@ -31,7 +31,9 @@ class Given(Givens):
     )
     gamma: Discount
     estimate: Exact | None = Field(
-        default=None, description="The estimate for the first feature, from which gamma follows, which is left open."
+        default=None,
+        description="The estimate for the first feature, from which gamma follows, which is left open.",
+        examples=["5/4"],
     )
 
     @model_validator(mode="after")
@@ -77,16 +79,16 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _different(runs: list[tuple[str, ...]], features: Mapping[str, tuple[Fraction, ...]]) -> bool:
-    """Whether no trajectory has the mean of all, with γ = 1/2: then it would not matter."""
-    sums = [
-        tuple(
-            dot([Fraction(1, 2**time) for time in range(len(run))], column)
-            for column in zip(*(features[s] for s in run), strict=True)
-        )
-        for run in runs
-    ]
+    """Whether, with γ = 1/2, every trajectory matters, and every state of it: the mean is another without it."""
+
+    def summed(run: tuple[str, ...]) -> tuple[Fraction, ...]:
+        weights = [Fraction(1, 2**time) for time in range(len(run))]
+        return tuple(dot(weights, column) for column in zip(*(features[state] for state in run), strict=True))
+
+    sums = [summed(run) for run in runs]
     mean = tuple(sum(column) / len(runs) for column in zip(*sums, strict=True))
-    return mean not in sums
+    shorter = [summed(run[:time] + run[time + 1 :]) == summed(run) for run in runs for time in range(len(run))]
+    return mean not in sums and not any(shorter)
 
 
 def _back(rng: Draws, states: tuple[str, ...]) -> Given:

@@ -33,7 +33,11 @@ class Given(Givens):
     terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount
     story: str = Field(
-        default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
+        default="",
+        max_length=200,
+        pattern=r"^[^$\\]*$",
+        description="A sentence that is printed first.",
+        examples=["A robot cleans a corridor."],
     )
 
     matched: Exact | None = Field(
@@ -187,8 +191,8 @@ def question(given: Given) -> Question:
     )
     if given.matched is not None:
         letter = shown(Parameter(given.asked_for))
-        ask = f"For which ${letter}$ is the feature expectation of this policy from the start distribution the expert's"
-        return Question(blocks, (Part(f"{ask}, $μ(π_E) = {shown(given.matched)}$?", Number()),))
+        expert = f"The expert's feature expectation from the start distribution is $μ(π_E) = {shown(given.matched)}$."
+        return Question(blocks, (Part(f"{expert} For which ${letter}$ does this policy match it?", Number()),))
     parts = [
         Part(
             f"$μ_{number}(s)$ is the expected discounted sum of the feature $φ_{number}$ from $s_0 = s$ on, $s_0$ "

@@ -105,7 +105,7 @@ def question(given: Given) -> Question:
         ),
         trajectory_table(run),
         *terminal_note(run.terminal),
-        Paragraph("Before it the critic's values are:"),
+        Paragraph("The critic's initial values are:"),
         values_table(given.values),
         *policy_blocks(given.features, given.theta),
         Paragraph(

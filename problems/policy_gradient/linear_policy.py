@@ -116,7 +116,7 @@ def question(given: Given) -> Question:
                 Part(f"{which}?", Policy(actions)),
             ),
         )
-    where = "In each state both actions have the same value for one $w$. Which?"
+    where = "In each state, for which $w$ do both actions have the same value?"
     return Question(
         blocks,
         (

@@ -185,7 +185,7 @@ def question(given: Given) -> Question:
 
 def _terms(given: Given) -> str:
     """What the letters of the question stand for."""
-    mean = ", and $L$ their mean" if len(given.samples) > 1 else ""
+    mean = ", and their mean $L$" if len(given.samples) > 1 else ""
     objective = f"PPO's clipped objective for the sample at time $t$ is called $L_t${mean}."
     ratio = "The ratio $ρ_t$ is the new probability of the action divided by the old one."
     if given.epsilon is None and given.objective is None:
@@ -222,7 +222,7 @@ def _asked(what: str, letter: str, times: range) -> Part:
     names = tuple(f"{letter}_{{{time}}}" for time in times)
     if len(names) == 1:
         return Part(f"What is the {what} ${names[0]}$?", Number())
-    return Part(f"What are the {what}s ${', '.join(names)}$, in this order?", Numbers(names))
+    return Part(f"What are the {what}s ${', '.join(names)}$?", Numbers(names))
 
 
 def _samples_table(given: Given) -> Table:

@@ -124,7 +124,7 @@ def question(given: Given) -> Question:
             "by the sum of all its updates with a small constant step size, until they have converged."
         ),
     )
-    tail = in_open(given)
+    tail = in_open(given, several=len(given.states) > 1)
     key = Values("V", given.states)
     what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
     ask = f"To what {'does' if len(given.states) == 1 else 'do'} {what} converge with the updates of"

@@ -13,7 +13,7 @@ from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, seen
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, readable, seen
 from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
@@ -72,13 +72,14 @@ def draw(level: int, rng: Draws) -> Given:
     longer = rng.choice(((a, b, c, end), (a, b, c, d), (a, b, a, end), (a, b, b, end)))
     if level == 2:
         return _matters(rng, longer, end, gamma, lam)
-    kind = rng.below(3)
-    given = _matters(rng, longer if kind == 0 else rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
-    if kind == 0:
-        return given.model_copy(update={"lam": Parameter("lambda")})
-    if kind == 1:
+    kind = rng.below(4)
+    if kind == 3:
+        given = _matters(rng, rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
         return given.model_copy(update={"lam": Parameter("lambda"), "known": _average(given)})
-    return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+    given = _matters(rng, longer, end, gamma, lam)
+    if kind == 2:
+        return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+    return given.model_copy(update={"lam": Parameter("lambda")})
 
 
 def _matters(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, lam: Fraction) -> Given:
@@ -86,7 +87,9 @@ def _matters(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, lam
     while True:
         run, values = draw_whole(rng, states, end, gamma)
         given = Given(trajectory=run, values=values, gamma=gamma, lam=lam)
-        if all(_average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")):
+        if readable((_average(given),)) and all(
+            _average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+        ):
             return given
 
 

@@ -178,7 +178,9 @@ def question(given: Given) -> Question:
         returns = Part(f"What is the return ${entries[0]}${tail}?", Number())
     else:
         listed = ", ".join(entries) if len(entries) < 4 else f"{entries[0]}, …, {entries[-1]}"
-        returns = Part(f"What are the returns ${listed}$, in this order{tail}?", Numbers(entries))
+        returns = Part(
+            f"What are the returns ${listed}$, in this order{in_open(given, several=True)}?", Numbers(entries)
+        )
     return Question(blocks, (returns, values))
 
 

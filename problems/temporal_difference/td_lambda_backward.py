@@ -18,6 +18,7 @@ from rldrill.problems.runs import (
     ValueRun,
     draw_reward,
     draw_values,
+    readable,
     run_situation,
     sought_parts,
     values_asked,
@@ -45,10 +46,7 @@ def draw(level: int, rng: Draws) -> Given:
     a, b, c = rng.shuffled(setting.states)[:3]
     end = setting.terminal
     if level == 1:
-        run = _run(rng, (a, b, end), end)
-        while _learned(run) == _learned(run.model_copy(update={"gamma": Fraction(0)})):
-            run = _run(rng, (a, b, end), end)
-        return run
+        return _run(rng, (a, b, end), end)
     if level == 2:
         tours = (a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, c, end)
         run = _run(rng, rng.choice(tours), end)
@@ -65,7 +63,16 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _run(rng: Draws, states: tuple[str, ...], end: str) -> Given:
-    """A run whose first update gives whole values; λ is 1/2, or what makes γλ a half."""
+    """A run whose values stay readable, and depend on γ from the first state on."""
+    while True:
+        run = _rewarded(rng, states, end)
+        after, undiscounted = (_learned(each) for each in (run, run.model_copy(update={"gamma": Fraction(1)})))
+        if readable(after.values()) and after[states[0]] != undiscounted[states[0]]:
+            return run
+
+
+def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> Given:
+    """A run whose first update gives whole values."""
     terminal = tuple(state for state in states if state == end)
     alpha, (gamma, lam) = rng.fraction("1/2", "1/2", "1/4"), rng.choice(_DECAYS)
     left = [state for state in sorted(set(states)) if state not in terminal]

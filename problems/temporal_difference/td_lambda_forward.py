@@ -12,7 +12,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, run_situation, sought_parts
+from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, readable, run_situation, sought_parts
 from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
@@ -66,11 +66,18 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _run(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
-    """A run with whole n-step returns whose first update depends on all that is given."""
+    """A run with whole returns whose first update depends on all that is given, and gives a readable number."""
     run = _whole(rng, states, end, asked)
-    while any(_learned(run) == _learned(run.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")):
+    while not _matters(run):
         run = _whole(rng, states, end, asked)
     return run
+
+
+def _matters(run: Given) -> bool:
+    value, average = _learned(run), _learned(run.model_copy(update={"alpha": Fraction(1)}))
+    return readable((value, average)) and all(
+        value != _learned(run.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+    )
 
 
 def _whole(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
@@ -108,7 +115,10 @@ def question(given: Given) -> Question:
         returns = Part(f"What is the λ-return ${entries[0]}${tail}?", Number())
         asked = f'$V("{given.updated[0]}")$'
     else:
-        returns = Part(f"What are the λ-returns ${', '.join(entries)}$, in this order{tail}?", Numbers(entries))
+        returns = Part(
+            f"What are the λ-returns ${', '.join(entries)}$, in this order{in_open(given, several=True)}?",
+            Numbers(entries),
+        )
         asked = f"the values of the states visited at times {joined([f'${time}$' for time in given.asked])}"
     verb = "is" if len(entries) == 1 else "are"
     values = Part(f"What {verb} {asked} after the update{tail}?", Values("V", given.updated))

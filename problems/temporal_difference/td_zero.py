@@ -22,6 +22,7 @@ from rldrill.problems.runs import (
     draw_reward,
     draw_values,
     errors_asked,
+    readable,
     run_blocks,
     sought_parts,
     values_asked,
@@ -87,6 +88,14 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _run(rng: Draws, states: tuple[str, ...], end: str = "") -> AlongRun:
+    """A run whose values stay readable."""
+    run = _rewarded(rng, states, end)
+    while not readable(_learned(run).values()):
+        run = _rewarded(rng, states, end)
+    return run
+
+
+def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> AlongRun:
     """A run after whose first updates the values are whole, and are so when they are discounted, if that can be."""
     terminal = tuple(state for state in states if state == end)
     alpha, gamma = rng.fraction("1/2", "1/4", "1/5"), rng.fraction("1/2", "1/2", "3/4", "4/5")

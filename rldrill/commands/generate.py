@@ -1,5 +1,6 @@
 """``rldrill generate``."""
 
+from enum import Enum
 from typing import Annotated
 
 import typer
@@ -7,6 +8,14 @@ import typer
 from rldrill.commands.arguments import Level, Names, Seed
 
 NAME = "generate"
+#: So many wrong answers are printed for every part.
+_MISTAKES = 8
+
+
+class Extra(Enum):
+    """What can be printed besides."""
+
+    MISTAKES = "mistakes"
 
 
 def command(
@@ -15,10 +24,11 @@ def command(
     level: Level = None,
     seed: Seed = None,
     answers: Annotated[bool, typer.Option("--answers", help="With exact answers and steps.")] = False,
+    more: Annotated[list[Extra] | None, typer.Option("--with", help="With wrong answers and their causes.")] = None,
 ) -> None:
     """Print problems as JSON Lines, one problem a line.
 
-    Examples: rldrill generate -n 100 --answers > problems.jsonl · rldrill generate td-zero --level 2 -n 5
+    Examples: rldrill generate -n 100 --answers > problems.jsonl · rldrill generate td-zero -n 5 --with mistakes
     """
     from itertools import islice
 
@@ -28,4 +38,5 @@ def command(
 
     for family, wanted, own_seed in islice(sequence(names or (), level, announced_seed(seed)), number):
         exercise = rldrill.draw(family.name, wanted, own_seed)
-        print_json(exercise.data(answers=answers), indent=None)
+        wrong = _MISTAKES if Extra.MISTAKES in (more or ()) else 0
+        print_json(exercise.data(answers=answers, mistakes=wrong), indent=None)

@@ -223,11 +223,11 @@ class Screen:
         if not lines:
             return
         followed = record.exercise.follow(lines)
-        for line in followed.lines:
-            mark, style = _STANDINGS[line.standing]
-            self._print(words("  ", (mark, f"bold {style}"), f" {line.text}"))
-            if line.sentence:
-                self._print(words("    ", (line.sentence, style)))
+        for step in followed.lines:
+            mark, style = _STANDINGS[step.standing]
+            self._print(words("  ", (mark, f"bold {style}"), f" {step.text}"))
+            if step.sentence:
+                self._print(words("    ", (step.sentence, style)))
         if followed.first is None:
             self._print(words("  ", followed.sentence))
 

@@ -1,7 +1,7 @@
 """Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
 
 from functools import reduce
-from string import ascii_lowercase
+from string import ascii_uppercase
 from typing import Any
 
 import numpy as np
@@ -112,7 +112,7 @@ def _border(given: Given, work: Work, better: int) -> None:
     cost, preferred = ("more", simple) if given.border == "more" else ("less", rich)
     work.say(f"With {given.border} data every parameter costs {cost}, so that the BIC prefers {preferred}.")
     chosen = preferred if better < 0 else (rich if preferred == simple else simple)
-    work.answer(ascii_lowercase[given.names.index(chosen)])
+    work.answer(ascii_uppercase[given.names.index(chosen)])
 
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
@@ -125,7 +125,7 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     if any(sign(criteria[best] - criteria[other]) == 0 for other in models if other != best):
         raise NoSolution(f"{'both' if two else 'the best'} models have the same {name}")
     work.say(f"The {name} of {best} is the {'smaller' if two else 'smallest'} one: {best} is preferred.")
-    return ascii_lowercase[models.index(best)]
+    return ascii_uppercase[models.index(best)]
 
 
 @slip("largest-wins", "The smallest BIC wins: it is large where the fit is poor or there are many parameters.")
@@ -147,7 +147,7 @@ def oracle(given: Given) -> Answers:
             middle = (low * high) ** 0.5
             costs = [given.fitted[name].k * np.log(middle) - 2 * np.log(chances[name]) for name in (simple, rich)]
             low, high = (low, middle) if costs[0] < costs[1] else (middle, high)
-        return (high, ascii_lowercase[given.names.index(simple if given.border == "more" else rich)])
+        return (high, ascii_uppercase[given.names.index(simple if given.border == "more" else rich)])
     if given.fitted is not None:
         fit = np.array(
             [
@@ -171,7 +171,7 @@ def oracle(given: Given) -> Answers:
         n = int(pooled.sum())
     price = np.log(float(n)) if given.criterion == "BIC" else 2.0
     criteria = price * np.array(free) - 2 * fit
-    winner = ascii_lowercase[int(criteria.argmin())]
+    winner = ascii_uppercase[int(criteria.argmin())]
     return (criteria, winner) if given.fitted is not None else (fit, criteria, winner)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
 from rldrill.solutions.exact import Value, decimal, exact
+from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.sheet.control import (
     ALL_PULLS_COUNTED,
@@ -74,7 +75,13 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
         work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
         work.answer({NEXT: given.untried})
     else:
-        work.answer({NEXT: work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)})
+        chosen = work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)
+        greedy = arg_max(tuple(averages), tuple(averages.values()))
+        if not set(chosen) & set(greedy):
+            work.say(
+                f"UCB takes {chosen[0]}, although {greedy[0]} has the greater average: {chosen[0]} is less certain."
+            )
+        work.answer({NEXT: chosen})
 
 
 def _counted(given: Averaged, averages: dict[str, Value]) -> dict[str, Any]:

@@ -48,6 +48,8 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     tables |= {(2, *pair): value for pair, value in known["Q"].items()}  # what nobody gave: nothing after the end
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
+        if len(given.updates) > 1:
+            work.say(f"The transition at $t = {time}$ updates $Q_{turn}$:")
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
             find(work, given.outcome, given.asked_for, {pair: tables[turn, *pair] for pair in given.updated})

@@ -15,12 +15,18 @@ from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
 CHANCE = 0.85
+#: The same for causes of less weight than this.
+UNLIKELY, CHANCE_OF_UNLIKELY = 1.5, 0.5
+#: Where the time did not suffice, something likelier may have been missed: less than this is not spoken of.
+SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
 NEAR = (0.2, 0.4, 0.65)
 #: More causes than this explain nothing.
 MOST = 2
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
+#: Of so few answers one proves nothing: yes or no, a choice, an action or two.
+_FEW = 4
 #: A decimal has no more places than this.
 _PLACES = 8
 #: A decimal tells no more numbers apart than this, where it is a rounded one.
@@ -40,6 +46,8 @@ class Explained:
 def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     """What a wrong answer comes from; nothing, where that could be anything."""
     room = _room(typed, exact=True)
+    if room < _FEW:
+        return Explained((), 0.0)
     found = [*_single(search, typed, clock)]
     if not found and room >= ROOM_FOR_TWO:
         found = [*_apart(search, typed, clock)] or [
@@ -47,6 +55,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
         ]
     if not found:
         return Explained((), 0.0)
+    interrupted = clock.over
     found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
@@ -54,7 +63,9 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     chance = _as_likely(search, typed, best.cause) / room
     near = _near(found)
     every = tuple(_distinct([each.cause for each in found]))
-    if chance > CHANCE:
+    if interrupted and best.cause.weight < SURE_ENOUGH:
+        return Explained((), 0.0, chance, every)
+    if chance > (CHANCE if best.cause.weight >= UNLIKELY else CHANCE_OF_UNLIKELY):
         return Explained((), 0.0, chance, every)
     share = best.cause.weight / sum(cause.weight for cause in near)
     return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)

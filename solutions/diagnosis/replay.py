@@ -19,7 +19,10 @@ _LONGEST = 2000
 #: A changed working is given up when it has so many times the steps of the right one, and a hundred more.
 _LONGER = 3
 #: What a changed problem, which need not be one, may lead to.
-UNDONE = (NoSolution, NotGiven, NotReal, TooLong, ArithmeticError, LookupError, TypeError, ValueError, AttributeError)
+UNDONE = (
+    NoSolution, NotGiven, NotReal, TooLong, ArithmeticError, LookupError, TypeError, ValueError, AttributeError,
+    AssertionError, RuntimeError,
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

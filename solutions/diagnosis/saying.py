@@ -9,6 +9,7 @@ from rldrill.problems.mathematics import Math, name, relation, row
 from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.search import Cause
+from rldrill.solutions.formula.edits import IN_ONE_TERM
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
@@ -48,8 +49,8 @@ _EDITS = {
     "case": "the wrong case is taken in {part}",
     "choice": "{instead} is taken without the choice",
     "function": "{instead} stands where {part} belongs",
-    "summand-left-out": "the term is missing",
-    "summand-sign": "the term has the wrong sign",
+    "summand-left-out": "a term of the sum is missing",
+    "summand-sign": "a term of the sum has the wrong sign",
     "smallest": "the smallest is taken, not the greatest",
     "other-taken": "the value of another action than the best is taken",
     "mean-for-max": "the mean is taken, not the maximum",
@@ -126,8 +127,9 @@ def saying(cause: Cause, applications: Sequence[Application]) -> Words:
 
 def _what(cause: Cause) -> Words:
     if cause.edit is not None:
+        template = _EDITS[cause.kind]
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
-        return _filled(_EDITS[cause.kind], part=_short(cause.edit.part), instead=instead)
+        return _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = _short(cause.probe.part)
@@ -202,17 +204,19 @@ GLYPHS_T = next((glyph for symbol, glyph in GLYPHS.items() if symbol.name == "t"
 
 def _term(cause: Cause) -> Words:
     within = cause.edit.within if cause.edit is not None else cause.probe.within if cause.probe is not None else ()
+    own = cause.kind in IN_ONE_TERM
     if not cause.term and cause.nth is not None:
-        return (f" in the {_ordinal(cause.nth)} term of the sum",)
+        nth = _ordinal(cause.nth)
+        return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
     if not cause.term:
         return ()
     pairs = [
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)
     ]
-    words: list[str | Math] = [" in the term of "]
+    words: list[str | Math] = [" (that of " if own else " in the term of "]
     for number, pair in enumerate(pairs):
         words += [", ", pair] if number else [pair]
-    return tuple(words)
+    return (*words, ")") if own else tuple(words)
 
 
 def _ordinal(place: int) -> str:

@@ -10,6 +10,7 @@ from rldrill.solutions.centres import distances, measured
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.greedy import greedy
 from rldrill.solutions.oracle import Answers, Array, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.function_approximation import (
@@ -68,7 +69,9 @@ def _values(
 
 
 def _greedy(work: Work, values: Mapping[tuple[str, str], Value], actions: tuple[str, ...]) -> None:
-    work.answer({"s": work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=actions)})
+    best = work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=actions)
+    work.say(f"The action {greedy(best)}." if len(best) == 1 else f"The actions {greedy(best)}.")
+    work.answer({"s": best})
 
 
 def _state_sought(given: Given, bumps: Bumps, work: Work, places: Callable[[Given, str], range]) -> None:

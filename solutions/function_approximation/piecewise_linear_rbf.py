@@ -26,22 +26,27 @@ def solve(given: Given, work: Work) -> None:
     others = tuple(number for number in range(1, len(given.centres) + 1) if number not in known)
     state: tuple[Value, ...] = ()
     b = None if given.width is None else exact(given.width)
-    if known:
-        work.recall(PIECEWISE_LINEAR_RBF)
-        sought = "the distance" if given.position is None else "$b$"
-        work.say(f"A feature above $0$ is $1 − ‖s − c_i‖/b$. Solved for {sought}:")
     if given.position is None:
+        _inside(work, "the distance")
         far = {number: work.step(DISTANCE_FROM_TENT, s="s", i=number, width=b, **features) for number in known}
         state = (work.answer(found(given, work, far)),)
     if b is None:
         (number,) = known
-        b = work.answer(work.step(WIDTH_FROM_TENT, i=number, **features, **distances(given, work, of=known)))
+        near = distances(given, work, of=known)
+        _inside(work, "$b$")
+        b = work.answer(work.step(WIDTH_FROM_TENT, i=number, **features, **near))
     measures = distances(given, work, state, of=others)
     values = tuple(work.step(PIECEWISE_LINEAR_RBF, i=number, width=b, **measures) for number in others)
     if values:
         values = work.answer(values)
     if given.theta:
         value_of_state(work, given.theta, values)
+
+
+def _inside(work: Work, sought: str) -> None:
+    """What a feature that is not 0 tells."""
+    work.recall(PIECEWISE_LINEAR_RBF)
+    work.say(f"A feature above $0$ is $1 − ‖s − c_i‖/b$. Solved for {sought}:")
 
 
 def oracle(given: Given) -> Answers:

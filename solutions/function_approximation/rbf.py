@@ -30,16 +30,17 @@ def solve(given: Given, work: Work) -> None:
         known["sigma"] = exact(given.sigma)
     others = tuple(number for number in range(1, len(given.centres) + 1) if number not in logarithms)
     state: tuple[Value, ...] = ()
-    if logarithms:
-        work.recall(RBF)
-        work.say(f"Solved for {'the distance' if given.position is None else '$σ$'}:")
     if given.position is None:
+        work.recall(RBF)
+        work.say("Solved for the distance:")
         far = {number: work.step(DISTANCE_FROM_RBF, s="s", i=number, **known) for number in logarithms}
         state = (work.answer(found(given, work, far)),)
     if given.sigma is None:
         (number,) = logarithms
-        width = work.step(WIDTH_FROM_RBF, i=number, **known, **distances(given, work, of=logarithms))
-        known["sigma"] = work.answer(width)
+        measures = distances(given, work, of=logarithms)
+        work.recall(RBF)
+        work.say("Solved for $σ$:")
+        known["sigma"] = work.answer(work.step(WIDTH_FROM_RBF, i=number, **known, **measures))
     known |= distances(given, work, state, of=others)
     values = tuple(work.step(RBF, i=number, **known) for number in others)
     if values:

@@ -1,13 +1,16 @@
 """A geometric series for the rewards that repeat, then the first rewards before it."""
 
+from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
+from rldrill.problems.exact import Scalar
 from rldrill.problems.fundamentals.return_infinite import Given
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.reversible import find, tried, with_letter
+from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (
     GEOMETRIC_SERIES,
     PLUS_FOR_MINUS,
@@ -24,21 +27,35 @@ MISCONCEPTIONS = (TAIL_FORGOTTEN, TAIL_UNDISCOUNTED, PLUS_FOR_MINUS, ROUND_OF_ON
 def solve(given: Given, work: Work) -> None:
     """One round over 1 − γⁿ; the return from the start has the first rewards and the discounted rest."""
     k = len(given.first)
-    gamma = exact(given.gamma)
-    r = {time + 1: exact(reward) for time, reward in enumerate((*given.first, *given.repeated))}
-    tail = work.step(GEOMETRIC_SERIES, t=k, n=len(given.repeated), gamma=gamma, r=r)
     if given.known is not None:
-        find(given, work, work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}) if k else tail)
+        letter = find(given, work, _from_start(given, work, exact, _tail(given, work, exact)))
+        if k:
+            work.answer(_tail(given, work, reading(letter)))
         return
-    tail = work.answer(tail)
+    tail = work.answer(_tail(given, work, exact))
     if k:
-        work.answer(work.step(RETURN_UNROLLED, t=0, n=k, gamma=gamma, r=r, G={k: tail}))
+        work.answer(_from_start(given, work, exact, tail))
+
+
+def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
+    return work.step(GEOMETRIC_SERIES, t=len(given.first), n=len(given.repeated), **_known(given, read))
+
+
+def _from_start(given: Given, work: Work, read: Callable[[Scalar], Value], tail: Value) -> Value:
+    k = len(given.first)
+    return work.step(RETURN_UNROLLED, t=0, n=k, G={k: tail}, **_known(given, read)) if k else tail
+
+
+def _known(given: Given, read: Callable[[Scalar], Value]) -> dict[str, Any]:
+    rewards = enumerate((*given.first, *given.repeated), 1)
+    return {"gamma": read(given.gamma), "r": {time: read(reward) for time, reward in rewards}}
 
 
 def oracle(given: Given) -> Answers:
     """The rewards one by one, until what is left is too small to count."""
     if given.known is not None:
-        return (_found(given),)
+        number = _found(given)
+        return (number, *oracle(with_letter(given, Fraction(number).limit_denominator(10**6)))[:-1])
     gamma = at(given.gamma)
     enough = 1 if gamma == 0 else int(min(2_000_000, -36 / np.log(gamma)))  # γ to that power is below 1e-15
     repeated = np.resize([at(reward) for reward in given.repeated], enough)

@@ -29,6 +29,8 @@ def solve(given: Given, work: Work) -> None:
         return
     worth = work.answer(worth)
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
+    work.say("With $ξ = 0$ the left side has to be at least as great as every right side; it is:")
+    work.give(REWARD_OF_FEATURES, worth[EXPERT], policy=EXPERT)
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
@@ -56,8 +58,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     least = work.answer(least)
     enough = largest(tuple(least.values()))
     work.say(
-        f"The expert gains more from the weight than every other policy, so each constraint holds from its own "
-        f"${letter}$ on, and all of them from the greatest on."
+        "The expert has more of this feature than every other policy, so each constraint holds from its own "
+        f"${letter}$ on, and all of them from the greatest on: ${letter} ≥ {enough}$.".replace("-", "−")
     )
     work.answer(enough)
 

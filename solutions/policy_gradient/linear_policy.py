@@ -9,6 +9,7 @@ from rldrill.problems.exact import Parameter
 from rldrill.problems.policy_gradient.linear_policy import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.greedy import greedy
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
 from rldrill.solutions.slips import right_answers
@@ -39,7 +40,10 @@ def _values(given: Given, work: Work, known: Mapping[str, Any]) -> dict[tuple[st
 
 def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -> None:
     actions = {state: tuple(row) for state, row in given.features.items()}
-    work.answer({state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions})
+    best = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
+    for state, row in best.items():
+        work.say(f"In {state}, {greedy(row)}.")
+    work.answer(best)
 
 
 @slip(

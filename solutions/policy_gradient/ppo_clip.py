@@ -94,9 +94,9 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
     for time, ratio in known["rho"].items():
         possible = _can_be_cut(known, time)
         wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
+        conclusion = "yes, a small $ε$ holds the ratio" if possible else "no, clipping never lowers the objective"
         work.say(
-            f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: "
-            + ("a small $ε$ holds the ratio at its bound." if possible else "the minimum is never the clipped term.")
+            f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: {conclusion}."
         )
         work.answer(possible)
         cut += [time] if possible else []

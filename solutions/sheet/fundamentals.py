@@ -209,11 +209,14 @@ with evaluate(False):
     )
 
     UNWEIGHTED = Misconception(
-        "unweighted-mean", "The episodes are not equally probable: each return counts with its episode's probability."
+        "unweighted-mean",
+        "The episodes are not equally probable: each return counts with its episode's probability.",
+        when=lambda given: given.known is None,
     )
     BEST_EPISODE = Misconception(
         "maximum-for-mean",
         "The expected return averages over what can happen; it is not the luckiest episode's return.",
+        when=lambda given: given.known is None,
     )
     GOAL = Formula(
         "goal",
@@ -232,12 +235,12 @@ with evaluate(False):
     START_DROPPED = Misconception(
         "start-probability-dropped",
         "An episode is only as probable as its start state to begin with.",
-        when=lambda given: len(given.start) > 1,
+        when=lambda given: len(given.start) > 1 and given.sought != "start",
     )
     POLICY_DROPPED = Misconception(
         "policy-probability-dropped",
         "Each action on the way counts with the probability with which the policy takes it.",
-        when=lambda given: given.chooses,
+        when=lambda given: given.chooses and given.sought != "policy",
     )
     LAST_BRANCH_DROPPED = Misconception("last-branch-dropped", "The last step of an episode has its probability too.")
     EPISODE_PROBABILITY = Formula(

@@ -207,7 +207,7 @@ with evaluate(False):
     LITERAL_VALUE = Misconception(
         "own-value-in-td-error",
         "The TD error belongs to the transition: the value subtracted in it is that of the state that was left.",
-        when=lambda given: len(given.visited) > 1,
+        when=lambda given: len(given.visited) > 1 and _given("alpha")(given),
     )
     TD_LAMBDA_BACKWARD = Formula(
         "td-lambda-backward",

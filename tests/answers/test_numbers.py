@@ -152,3 +152,9 @@ def test_a_first_power_above_a_line_is_shown_in_brackets() -> None:
     reading = read_number("(2^1) / 3")
     assert reading.echo == "(2^1)/3"
     assert read_number(reading.echo).value == reading.value
+
+
+@pytest.mark.parametrize(("text", "echo"), [("eᵞ", "e^gamma"), ("3e⁻ᵞ", "3e^(-gamma)"), ("e²ᵞ", "e^(2*gamma)")])
+def test_a_letter_above_the_line_is_an_exponent(text: str, echo: str) -> None:
+    assert read_number(text, ("gamma",)).value == read_number(echo, ("gamma",)).value
+    assert read_number(text, ("gamma",)).value != read_number("e*gamma", ("gamma",)).value

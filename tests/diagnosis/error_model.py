@@ -522,7 +522,7 @@ def _twofold(solution: Solution, steps: Sequence[Step], rng: random.Random) -> I
         chosen = rng.random()
 
         def err(at: int, step: Step) -> Any:
-            if at == first:
+            if at == first:  # noqa: B023
                 return _rewritten_value(step, WRITTEN[kind], path)  # noqa: B023
             if at != second:  # noqa: B023
                 return None

@@ -1,9 +1,17 @@
-"""Measures the diagnosis over all families: ``python tests/diagnosis/measure.py [--seeds N] [family ...]``."""
+"""Measures the diagnosis over all families and levels: run it as ``python tests/diagnosis/measure.py [family ...]``.
 
+It prints for every family and every kind of error what share of the answers is diagnosed rightly (the kind and the
+place), by the place or the kind alone, wrongly, or not at all; how many numbers from nowhere are accused of something;
+and the time. ``--seeds N`` takes several problems of each level, ``--sample N`` so many errors of each, ``--show``
+prints what is missed.
+"""
+
+import argparse
 import random
 import sys
 import time
 from collections import Counter, defaultdict
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from statistics import median
 
@@ -11,275 +19,184 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from error_model import Erroneous, erroneous, numeric, random_wrong
 
+from rldrill.diagnosis import AT_THE_PROMPT
 from rldrill.problems.catalogue import selection
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Unreadable
-from rldrill.solutions.diagnosis.explaining import explained
-from rldrill.solutions.diagnosis.search import Clock, Search, Typed
+from rldrill.solutions.diagnosis.explaining import MOST, explained
+from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.solution import Solution
 
 #: What may be said of an error, by the names of the program's causes.
-TERM = {"term-left-out", "factor-left-out", "case"}
-ACCEPTED = {
-    "term_lost": {
-        "summand-left-out",
-        "kept",
-        "bracket-left-out",
-        "term-left-out",
-        "factor-left-out",
-        "index",
-        "range",
-        "twin",
-        "case",
-        "choice",
-        "elsewhere",
-        "confused",
-    },
-    "factor_lost": {
-        "bracket-left-out",
-        "factor-left-out",
-        "term-left-out",
-        "doubled",
-        "halved",
-        "tenfold",
-        "power",
-        "inverse",
-        "elsewhere",
-        "index",
-        "sign",
-    },
-    "sign_turned": {"summand-sign", "all-signs", "sign", "minus-lost", "difference", "twice"},
-    "bracket_lost": {"bracket"},
-    "bracket_widened": {"bracket"},
-    "minus_lost": {"summand-sign", "sign", "minus-lost", "difference", "twice"},
-    "power_off": {"power", "squared", "squared-value", "factor-left-out", "index"},
-    "power_as_product": {"power-as-product"},
-    "square_forgotten": {"power", "squared", "squared-value", "factor-left-out", "index"},
-    "factor_twice": {"squared-value", "squared", "power", "doubled", "halved", "index"},
-    "smallest_taken": {"min-for-max", "choice", "elsewhere", "smallest", "other-taken"},
-    "mean_taken": {"mean-for-max"},
-    "all_added": {"sum-for-max"},
-    "first_taken": {"other-taken", "choice", "min-for-max", "elsewhere", "case"},
-    "complement_taken": {"complement", "complement-of-value"},
-    "complement_forgotten": {"complement-of-value", "complement", "confused", "exchanged"},
-    "inverse_forgotten": {"inverse", "upside-down", "divided", "factor-left-out"},
-    "upside_down": {"inverse", "upside-down"},
-    "transposition_forgotten": {"transposed", "order-of-factors", "answer-transposed"},
-    "matrices_exchanged": {"order-of-factors", "transposed"},
-    "added_for_multiplied": {"added"},
-    "point_shifted": {"tenfold"},
-    "fractions_added_crosswise": {"crosswise"},
-    "numbers_exchanged": {"summand-sign", "all-signs", "difference", "sign", "exchanged"},
-    "value_sign": {"sign", "difference", "all-signs", "minus-lost"},
-    "value_tenfold": {"tenfold"},
-    "value_one_off": {"one-off", "numerator"},
-    "value_digits_swapped": {"digits"},
-    "value_numerator_off": {"numerator", "one-off"},
-    "value_denominator_off": {"denominator", "one-off"},
-    "value_halved": {"doubled", "halved", "factor-left-out", "twice"},
-    "update_left_out": {"kept", "term-left-out", "factor-left-out"},
-    "change_doubled": {"twice", "repeated", "factor-left-out", "change-doubled"},
-    "entries_exchanged": {"exchanged-cells", "rows-exchanged", "elsewhere"},
-    "one_sign_lost": {"sign", "minus-lost", "difference"},
-    "answer_sign": {"all-signs", "sign", "minus-lost", "difference"},
-    "answer_upside_down": {"inverse", "upside-down"},
-    "another_quantity": {"another-quantity"},
-    "answer_transposed": {"answer-transposed", "transposed"},
-}
+ACCEPTED_NAMES = {
+    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept range summand-left-out "
+    "term-left-out twin",
+    "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse power sign tenfold "
+    "term-left-out",
+    "sign_turned": "all-signs difference minus-lost sign summand-sign twice",
+    "bracket_lost": "bracket",
+    "bracket_widened": "bracket",
+    "minus_lost": "difference minus-lost sign summand-sign twice",
+    "power_off": "factor-left-out index power squared squared-value",
+    "power_as_product": "power-as-product",
+    "square_forgotten": "factor-left-out index power squared squared-value",
+    "factor_twice": "doubled halved index power squared squared-value",
+    "smallest_taken": "choice elsewhere min-for-max other-taken smallest",
+    "mean_taken": "mean-for-max",
+    "all_added": "sum-for-max",
+    "first_taken": "case choice elsewhere min-for-max other-taken",
+    "complement_taken": "complement complement-of-value",
+    "complement_forgotten": "complement complement-of-value confused exchanged",
+    "inverse_forgotten": "divided factor-left-out inverse upside-down",
+    "upside_down": "inverse upside-down",
+    "transposition_forgotten": "answer-transposed order-of-factors transposed",
+    "matrices_exchanged": "order-of-factors transposed",
+    "added_for_multiplied": "added",
+    "point_shifted": "tenfold",
+    "fractions_added_crosswise": "crosswise",
+    "numbers_exchanged": "all-signs difference exchanged sign summand-sign",
+    "value_sign": "all-signs difference minus-lost sign",
+    "value_tenfold": "tenfold",
+    "value_one_off": "numerator one-off",
+    "value_digits_swapped": "digits",
+    "value_numerator_off": "numerator one-off",
+    "value_denominator_off": "denominator one-off",
+    "value_halved": "doubled factor-left-out halved twice",
+    "update_left_out": "factor-left-out kept term-left-out",
+    "change_doubled": "change-doubled factor-left-out repeated twice",
+    "entries_exchanged": "elsewhere exchanged-cells rows-exchanged",
+    "one_sign_lost": "difference minus-lost sign",
+    "answer_sign": "all-signs difference minus-lost sign",
+    "answer_upside_down": "inverse upside-down",
+    "another_quantity": "another-quantity",
+    "answer_transposed": "answer-transposed transposed",
+}  # fmt: skip
+ACCEPTED = {kind: frozenset(names.split()) for kind, names in ACCEPTED_NAMES.items()}
+RANDOM_ANSWERS = 3
+FIRST_SEED = 100
 
 
-def right(error: Erroneous, causes, solution, steps) -> str:
-    """right, place (only), kind (only) or wrong."""
-    best = "wrong"
-    for cause in causes:
+class Measured:
+    """One problem, its errors and what is said of them."""
+
+    def __init__(self, solution: Solution, seconds: float | None) -> None:
+        self.solution = solution
+        self.seconds = seconds
+        self.search = Search(solution)
+        self.steps = [each.number for each in self.search.applications if not each.equation]
+
+    def causes(self, label: str, text: str) -> tuple[tuple[Cause, ...], float] | None:
+        """What is said of a wrong answer, and the milliseconds that it took; None where it is not wrong."""
+        problem = self.solution.problem
+        part = next(part for part in problem.parts if part.label == label)
+        kind = answer_kind(part.kind)
+        try:
+            cells = kind.read(text, problem.parameters, problem.given.terminal_states())
+        except Unreadable:  # longer than anybody types
+            return None
+        typed = Typed(part, cells, kind.cells(self.solution.answers[label]))
+        if not typed.wrong:
+            return None
+        begun = time.process_time()
+        found = explained(self.search, typed, Clock(self.seconds)).causes
+        return found, 1000 * (time.process_time() - begun)
+
+    def verdict(self, error: Erroneous, causes: Sequence[Cause]) -> str:
+        """right, place (alone), kind (alone), wrong, many or none."""
+        if not causes:
+            return "none"
+        if len(causes) > MOST:
+            return "many"
+        verdicts = [self._of_one(error, cause) for cause in causes]
+        return next(verdict for verdict in ("right", "place", "kind", "wrong") if verdict in verdicts)
+
+    def _of_one(self, error: Erroneous, cause: Cause) -> str:
         if cause.mistake is not None:
-            # A listed mistake is right where the error is one of that formula, all along.
-            read = [f.key for f in solution.work.read if cause.mistake in f.misread]
-            if error.formula in read or cause.mistake.is_slip:
-                return "listed"
-            continue
-        if error.twofold:
-            at = None if error.place is None else steps[error.place]
-            places = {c.application.number for c in (cause, cause.then) if c and c.application}
-            if at in places or cause.then is not None:
-                return "right"
-            continue
-        kinds = ACCEPTED[error.kind]
-        kind = cause.kind in kinds or (cause.kind in {"elsewhere"} and error.kind == "first_taken")
-        numbers = {c.application.number for c in (cause,) if c.application}
-        if error.formula is None:
-            place = True
-        elif error.everywhere:
-            place = cause.application is None and cause.formula is not None and cause.formula.key == error.formula
-            place = place or (
-                cause.application is not None and cause.formula is not None and cause.formula.key == error.formula
-            )
-        else:
-            place = steps[error.place] in numbers or (
-                cause.application is None and (cause.formula is None or cause.formula.key == error.formula)
-            )
-        if kind and place:
+            read = [formula.key for formula in self.solution.work.read if cause.mistake in formula.misread]
+            return "right" if error.formula in read or cause.mistake.is_slip else "wrong"
+        place = self._at_its_place(error, cause)
+        kind = error.twofold or cause.kind in ACCEPTED[error.kind]
+        if place and kind:
             return "right"
-        if place and best == "wrong":
-            best = "place"
-        elif kind and best == "wrong":
-            best = "kind"
-    return best
+        return "place" if place else "kind" if kind and not error.twofold else "wrong"
+
+    def _at_its_place(self, error: Erroneous, cause: Cause) -> bool:
+        if error.formula is None:
+            return True
+        same_formula = cause.formula is None or cause.formula.key == error.formula
+        if error.everywhere or cause.application is None:
+            return same_formula
+        places = {each.application.number for each in (cause, cause.then) if each and each.application}
+        return self.steps[error.place] in places
 
 
-def main() -> None:
-    arguments = sys.argv[1:]
-    seeds = 1
-    if "--seeds" in arguments:
-        at = arguments.index("--seeds")
-        seeds = int(arguments[at + 1])
-        del arguments[at : at + 2]
-    budget = None
-    if "--budget" in arguments:
-        at = arguments.index("--budget")
-        budget = float(arguments[at + 1])
-        del arguments[at : at + 2]
-    sample = 0
-    if "--sample" in arguments:
-        at = arguments.index("--sample")
-        sample = int(arguments[at + 1])
-        del arguments[at : at + 2]
-    verbose = "-v" in arguments
-    arguments = [a for a in arguments if a != "-v"]
-    total, kinds, families, times = Counter(), defaultdict(Counter), defaultdict(Counter), defaultdict(list)
-    accused, tried = Counter(), Counter()
-    causes_of = Counter()
-    wrongs = defaultdict(Counter)
-    for family in selection(arguments):
-        if family.name == "dyna-q":
-            continue
+def report(name: str, row: Counter[str], more: str = "") -> None:
+    number = sum(row.values())
+    shares = " ".join(f"{kind} {100 * row[kind] / number:5.1f}" for kind in ("right", "place", "kind", "wrong", "none"))
+    print(f"{name:30} n={number:5} {shares} many {100 * row['many'] / number:4.1f} {more}", flush=True)
+
+
+def main(arguments: Iterable[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("families", nargs="*")
+    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--sample", type=int, default=0)
+    parser.add_argument("--show", action="store_true")
+    parser.add_argument("--at-the-prompt", action="store_true", help="with the time that there is at a prompt")
+    chosen = parser.parse_args(arguments)
+    kinds: dict[str, Counter[str]] = defaultdict(Counter)
+    accused: Counter[bool] = Counter()
+    every: list[float] = []
+    for family in selection(chosen.families):
+        row: Counter[str] = Counter()
+        times: list[float] = []
+        mine: Counter[bool] = Counter()
         for level in family.levels:
-            for seed in range(100, 100 + seeds):
+            for seed in range(FIRST_SEED, FIRST_SEED + chosen.seeds):
                 solution = draw(family.name, level, seed)
-                search = Search(solution)
-                steps = [each.number for each in search.applications if not each.equation]
-                keys = {p.label: (p, answer_kind(p.kind)) for p in solution.problem.parts}
-
-                def typed(label, text):
-                    part, kind = keys[label]
-                    cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
-                    return Typed(part, cells, kind.cells(solution.answers[label]))
-
-                begun = time.process_time()
+                measured = Measured(solution, AT_THE_PROMPT if chosen.at_the_prompt else None)
                 errors = erroneous(solution, seed)
-                if sample:
-                    errors = random.Random(seed).sample(errors, min(sample, len(errors)))
+                if chosen.sample:
+                    errors = random.Random(seed).sample(errors, min(chosen.sample, len(errors)))
                 for error in errors:
-                    try:
-                        t = typed(error.part, error.text)
-                    except Unreadable:  # longer than anybody types
+                    if (said := measured.causes(error.part, error.text)) is None:
                         continue
-                    if not t.wrong:
-                        continue
-                    begun = time.process_time()
-                    result = explained(search, t, Clock(budget))
-                    spent = (time.process_time() - begun) * 1000
-                    times[family.name].append(spent)
-                    verdict = (
-                        "none"
-                        if not result.causes or len(result.causes) > 2
-                        else right(error, result.causes, solution, steps)
-                    )
-                    if verdict == "none" and len(result.causes) > 2:
-                        verdict = "many"
-                    if verbose:
-                        ok = [c.kind for c in result.every if right(error, [c], solution, steps) in ("right", "listed")]
-                        print(
-                            "REC",
-                            family.name,
-                            verdict,
-                            error.kind,
-                            f"{result.chance:.4g} 0",
-                            [(c.kind, round(c.weight, 3), c.kind in ok) for c in result.every],
-                        )
-                    total[verdict] += 1
-                    kinds[error.kind if not error.twofold else "two slips"][verdict] += 1
-                    families[family.name][verdict] += 1
-                    causes_of[result.causes[0].kind if result.causes else "-"] += 1
-                    if verdict in ("wrong", "place", "kind"):
-                        wrongs[error.kind][verdict + " " + " / ".join(c.kind for c in result.causes)] += 1
-                        if verbose:
-                            print(
-                                verdict,
-                                solution.problem.identity,
-                                error,
-                                [
-                                    (
-                                        c.kind,
-                                        c.weight,
-                                        c.application and c.application.number,
-                                        str((c.edit and c.edit.part) or (c.probe and c.probe.part)),
-                                        c.what,
-                                    )
-                                    for c in result.causes
-                                ],
-                                result.confidence,
-                            )
-                    elif verbose and verdict in ("none", "many"):
-                        print(verdict, solution.problem.identity, error)
-                for part in solution.problem.parts:
-                    if not numeric(solution, part.label):
-                        continue
-                    for n in range(3):
-                        text = random_wrong(solution, part.label, n)
-                        if text is None:
-                            continue
-                        t = typed(part.label, text)
-                        if not t.wrong:
-                            continue
-                        result = explained(search, t, Clock(budget))
-                        tried[family.name] += 1
-                        if verbose:
-                            print(
-                                "REC",
-                                family.name,
-                                "RANDOM",
-                                "-",
-                                f"{result.chance:.4g} 0",
-                                [(c.kind, round(c.weight, 3), False) for c in result.every],
-                            )
-                        if result.causes and len(result.causes) <= 2:
-                            accused[family.name] += 1
-                            if verbose:
-                                print(
-                                    "ACCUSED",
-                                    solution.problem.identity,
-                                    part.label,
-                                    text,
-                                    [(c.kind, c.weight, c.application and c.application.number) for c in result.causes],
-                                    result.confidence,
-                                )
-    n = sum(total.values())
-    for name, row in families.items():
-        m = sum(row.values())
-        spent = times[name]
-        print(
-            f"{name:30} n={m:4} right {100 * (row['right'] + row['listed']) / m:5.1f} many {100 * row['many'] / m:5.1f} none {100 * row['none'] / m:5.1f} "
-            f"wrong {100 * (row['wrong']) / m:5.1f} place {100 * row['place'] / m:4.1f} kind {100 * row['kind'] / m:4.1f} accused {accused[name]}/{tried[name]} ms {median(spent):.1f} {max(spent):.0f}"
-        )
+                    verdict = measured.verdict(error, said[0])
+                    row[verdict] += 1
+                    kinds["two slips" if error.twofold else error.kind][verdict] += 1
+                    times.append(said[1])
+                    if chosen.show and verdict != "right":
+                        print(verdict, solution.problem.identity, error, [cause.kind for cause in said[0]])
+                mine.update(random_verdicts(measured, chosen.show))
+        if row:
+            report(
+                family.name, row, f"accused {mine[True]}/{mine.total()} ms {median(times):.1f} worst {max(times):.0f}"
+            )
+        accused.update(mine)
+        every += times
     print()
-    for name, row in sorted(kinds.items()):
-        m = sum(row.values())
-        print(
-            f"{name:28} n={m:4} right {100 * (row['right'] + row['listed']) / m:5.1f} many {100 * row['many'] / m:5.1f} none {100 * row['none'] / m:5.1f} place {100 * row['place'] / m:4.1f} kind {100 * row['kind'] / m:4.1f} wrong {100 * row['wrong'] / m:5.1f} {wrongs[name].most_common(3)}"
-        )
-    every = [spent for row in times.values() for spent in row]
+    for kind, row in sorted(kinds.items()):
+        report(kind, row)
     print()
-    print(
-        "n",
-        n,
-        {k: f"{100 * v / n:.1f}" for k, v in total.items()},
-        "random accused",
-        sum(accused.values()),
-        "of",
-        sum(tried.values()),
-        f"ms median {median(every):.1f} worst {max(every):.0f}",
-    )
+    report("all", sum(kinds.values(), Counter()), f"ms {median(every):.1f} worst {max(every):.0f}")
+    print(f"numbers from nowhere that are accused: {accused[True]} of {accused.total()}")
+
+
+def random_verdicts(measured: Measured, show: bool) -> Iterable[bool]:
+    """Whether numbers from nowhere are accused of something."""
+    for part in measured.solution.problem.parts:
+        if not numeric(measured.solution, part.label):
+            continue
+        for number in range(RANDOM_ANSWERS):
+            text = random_wrong(measured.solution, part.label, number)
+            said = None if text is None else measured.causes(part.label, text)
+            if said is None:
+                continue
+            accused = 0 < len(said[0]) <= MOST
+            if show and accused:
+                print("ACCUSED", measured.solution.problem.identity, part.label, text, [each.kind for each in said[0]])
+            yield accused
 
 
 if __name__ == "__main__":

@@ -13,6 +13,9 @@ from places import ROOMS, Mutation, Source
 #: So many tests for one change at most: to load the files of more takes longer than they are likely to be worth.
 MOST = 1000
 
+#: What test files import that start other programs or look at PDFs: their tests come last of their rank.
+_DEAR = {"pexpect", "printed", "subprocess"}
+
 
 @dataclass(frozen=True)
 class Uses:
@@ -29,6 +32,7 @@ class Choice:
     root: Path
     ids: tuple[str, ...]
     _uses: dict[str, dict[str, Uses]] = field(default_factory=dict)
+    _dear: dict[str, bool] = field(default_factory=dict)
 
     @cached_property
     def _imports(self) -> dict[str, frozenset[str]]:
@@ -49,10 +53,16 @@ class Choice:
         keyed = []
         for rank, test in self.ranked(source, mutation):
             function = test.partition("[")[0]
-            keyed.append((rank, order[rank, function], test))
+            keyed.append((rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
             order[rank, function] += 1
-        keyed.sort(key=lambda each: each[:2])
-        return tuple(test for _, _, test in keyed[:MOST])
+        keyed.sort(key=lambda each: each[:3])
+        return tuple(test for *_, test in keyed[:MOST])
+
+    def _is_dear(self, file: str) -> bool:
+        if file not in self._dear:
+            imports = (node for node in Source.read(self.root, file).tree.body if _imports(node))
+            self._dear[file] = bool(_DEAR & {name.partition(".")[0] for node in imports for name in _names(node)})
+        return self._dear[file]
 
     def ranked(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
         """The IDs with their ranks, 0 where what is tested is made of the changed statement."""
@@ -148,6 +158,11 @@ def _defines(node: ast.stmt) -> set[str]:
         case ast.Import(names=names) | ast.ImportFrom(names=names):
             return {alias.asname or alias.name.partition(".")[0] for alias in names}
     return set()
+
+
+def _names(node: ast.AST) -> list[str]:
+    """The modules that a statement imports."""
+    return [alias.name for alias in node.names] if isinstance(node, ast.Import) else [getattr(node, "module", "") or ""]
 
 
 def _imports(node: ast.AST) -> bool:

@@ -363,3 +363,9 @@ def test_a_slip_behind_anything_is_found_in_its_column(written: Node, random: Ra
     with pytest.raises(Unreadable) as refused:
         read_number(f"{text} + *", ["gamma"])
     assert refused.value.position == len(text) + 3
+
+
+@pytest.mark.parametrize("text", ["0.133...", "0.12...", "0.3...", "1.4142…"])
+def test_digits_that_do_not_show_how_they_go_on_are_refused(text: str) -> None:
+    with pytest.raises(Unreadable, match="does not show which digits repeat"):
+        tree(text)

@@ -57,3 +57,8 @@ def test_a_column_of_numbers_stands_right_and_one_with_a_word_in_it_left() -> No
     mixed = _printed(Table(("x",), (("$1$",), ("ten",))))
     assert numbers[-2].index("1") == numbers[-1].index("1") + 1
     assert mixed[-2].index("1") == mixed[-1].index("t")
+
+
+def test_a_tree_of_24_arrows_is_drawn_and_of_25_not() -> None:
+    assert len(lines(_diagram(24))) == 25  # a line for each, below that of the state
+    assert lines(_diagram(25)) == []

@@ -18,6 +18,8 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
     ("td-lambda-backward", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
                             "alpha": 1, "gamma": 1, "lam": 1, "replacing": True}),
     ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
+    ("bandit", {"pulls": [["x", 2], ["x", 4], ["y", 1]], "between": ["x", "y"]}),
+    ("epsilon-greedy", {"values": {"x": 1, "y": 1}, "epsilon": "1/2"}),
     ("sarsa-lambda", {"trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
                       "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,
                       "replacing": True}),

@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 
 import rldrill
 from asking import solved
+from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.solution import solver
 
 STATES = ("a", "b", "c")
 ACTIONS = ("x", "y", "z")
@@ -207,3 +209,28 @@ def test_wrong_givens_are_told_in_one_sentence(family: str, given_: dict[str, An
         solved(family, **given_)
     assert fragment in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_an_action_that_a_policy_leaves_out_is_not_taken() -> None:
+    # From a to b, reward 1: b is worth 1/4·8 + 3/4·4 = 5 there, since z is never taken; 0 + 1/2·(1 + 5 − 0) = 3.
+    given = {
+        "trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
+        "values": {"a": {"x": 0}, "b": {"x": 8, "y": 4, "z": 100}},
+        "alpha": "1/2", "gamma": 1, "policy": {"b": {"x": "1/4", "y": "3/4"}},
+    }  # fmt: skip
+    assert list(solved("expected-sarsa", **given)["a"].values()) == [3]
+    known = family("expected-sarsa")
+    ((value,),) = solver(known).oracle(known.read(given))
+    assert value == pytest.approx(3)
+
+
+@pytest.mark.parametrize(
+    ("arms", "said"),
+    [
+        (["a", "b", "c"], "c was never pulled, so its sample average does not exist"),
+        (["a", "b", "c", "d"], "c and d were never pulled, so their sample averages do not exist"),
+    ],
+)
+def test_an_arm_that_was_never_pulled_is_named(arms: list[str], said: str) -> None:
+    exercise = rldrill.read({"family": "bandit", "given": {"arms": arms, "pulls": [["a", 1], ["b", 0]], "c": 1}})
+    assert said in str(exercise.question())

@@ -307,7 +307,7 @@ def test_the_regression_of_rs_manual() -> None:
     akaike, bayes = solved("bic", criterion="AIC", fitted=fitted), solved("bic", fitted=fitted, n=47)
     assert rounded(akaike["a"]["all"], 4) == "326.0716"
     assert rounded(bayes["a"]["all"], 4) == "339.0226"
-    assert akaike["b"] == bayes["b"] == "a"
+    assert akaike["b"] == bayes["b"] == "A"
 
 
 def test_speed_and_stopping_distance_of_cars_in_r() -> None:
@@ -329,7 +329,7 @@ def test_speed_and_stopping_distance_of_cars_in_r() -> None:
     akaike, bayes = solved("bic", criterion="AIC", fitted=fitted), solved("bic", fitted=fitted, n=50)
     assert [rounded(akaike["a"][model], 4) for model in fitted] == ["469.8024", "419.1569", "421.1569"]
     assert rounded(bayes["a"]["line"], 4) == "424.8929"
-    assert akaike["b"] == bayes["b"] == "b"
+    assert akaike["b"] == bayes["b"] == "B"
 
 
 @pytest.mark.parametrize(
@@ -394,7 +394,7 @@ def test_the_variance_of_a_prior_that_is_found_by_hand() -> None:
 def test_the_number_of_data_at_which_two_models_are_alike_by_hand() -> None:
     # Three parameters more for a fit that is 27 times as likely: 2 ln 27 = 3 ln n, so n = 9; with fewer data they pay.
     fitted = {"rich": {"likelihood": "1/3", "k": 4}, "simple": {"likelihood": "1/81", "k": 1}}
-    assert solved("bic", fitted=fitted, border="fewer") == {"a": 9, "b": "a"}
-    assert solved("bic", fitted=fitted, border="more") == {"a": 9, "b": "b"}
-    assert solved("bic", fitted=fitted, n=8)["b"] == "a"
-    assert solved("bic", fitted=fitted, n=10)["b"] == "b"
+    assert solved("bic", fitted=fitted, border="fewer") == {"a": 9, "b": "A"}
+    assert solved("bic", fitted=fitted, border="more") == {"a": 9, "b": "B"}
+    assert solved("bic", fitted=fitted, n=8)["b"] == "A"
+    assert solved("bic", fitted=fitted, n=10)["b"] == "B"
