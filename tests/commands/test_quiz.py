@@ -217,9 +217,9 @@ def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) ->
 def test_an_open_bracket_goes_on_in_a_real_terminal() -> None:
     child = spawned(GAIN)
     child.expect("> $")
-    child.sendline("[[1/18, 1/6],")
+    child.sendline("[[0, 1/4],")
     child.expect(r"\.\.\. ")
-    child.sendline("[-5/9, 1/3]]")
+    child.sendline("[3/8, 3/8]]")
     child.expect(r"✓\S* Right")
     child.close(force=True)
 
