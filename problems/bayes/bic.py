@@ -241,7 +241,11 @@ def question(given: Given) -> Question:
     tosses = given.data.tosses
     told = ONE_COIN if len(tosses) == 1 else COIN_MODELS
     blocks = (
-        Paragraph("Independent tosses of " + ("a coin" if len(tosses) == 1 else f"{len(tosses)} coins") + " gave:"),
+        Paragraph(
+            "Independent tosses of "
+            + {1: "a coin", 2: "two coins", 3: "three coins"}.get(len(tosses), f"{len(tosses)} coins")
+            + " gave:"
+        ),
         Table(
             header=("coin", "heads", "tails"),
             rows=tuple((coin, f"${heads}$", f"${tails}$") for coin, (heads, tails) in tosses.items()),
@@ -269,7 +273,7 @@ def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
     rows = tuple(
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
-    count = "Two models" if len(fitted) == 2 else f"{len(fitted)} models"
+    count = {2: "Two models", 3: "Three models"}.get(len(fitted), f"{len(fitted)} models")
     data = "$n$ data" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data"
     return (
         Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),
