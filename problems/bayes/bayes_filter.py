@@ -43,8 +43,12 @@ REVISION = 3
 class Event(Givens):
     """What happens in one step: first an action, then a measurement; one of them may be missing."""
 
-    action: Name | None = Field(default=None, description="The action that is taken, if there is one.")
-    measurement: Name | None = Field(default=None, description="What is measured after it, if anything is.")
+    action: Name | None = Field(
+        default=None, description="The action that is taken, if there is one.", examples=["push"]
+    )
+    measurement: Name | None = Field(
+        default=None, description="What is measured after it, if anything is.", examples=["light"]
+    )
 
     @model_validator(mode="after")
     def _something(self) -> Self:
@@ -168,7 +172,9 @@ def draw(level: int, rng: Draws) -> Given:
         beliefs = _beliefs(start, motion, likelihood, run, q)
         unchanged = any(before == after for before, after in pairwise((start, *beliefs)))
         finest = max(chance.denominator for after in beliefs for chance in after.values())
-        if finest <= _FINEST[level] and not unchanged:
+        # What is read next depends on every move, if the readings tell all states apart.
+        alike = level == 3 and len(set(likelihood[scene.readings[0]].values())) < len(states)
+        if finest <= _FINEST[level] and not unchanged and not alike:
             break
     state = rng.choice(states)
     steps = run if level < 3 or found != "nothing" else run[:1]

@@ -120,17 +120,14 @@ class Given(Givens):
         return tuple(self.fitted) if self.fitted is not None else self.data.models if self.data is not None else ()
 
 
-_HALF = Fraction(1, 2)
-
-
 def draw(level: int, rng: Draws) -> Given:
     """Two models already fitted; three of them, or a coin; two coins, or from how many data on the simpler one wins."""
-    first = rng.chance(_HALF)  # whether the first model is the winner
+    place = rng.below(6)  # that of the winner
     while True:
         given = _drawn(level, rng)
-        costs = {name: _cost(given, name) for name in given.names}
-        best = min(costs.values())
-        if given.border or (list(costs.values()).count(best) == 1 and first == (costs[given.names[0]] == best)):
+        costs = [_cost(given, name) for name in given.names]
+        winners = [index for index, cost in enumerate(costs) if cost == min(costs)]
+        if given.border or winners == [place % len(costs)]:
             return given
 
 
@@ -149,7 +146,7 @@ def _drawn(level: int, rng: Draws) -> Given:
             criterion=criterion,
             data=Data(tosses=dict(zip(("red", "blue", "gold"), counts, strict=False)), models=(models[0], models[1])),
         )
-    names = ("line", "parabola", "cubic")[: 3 if level == 2 and rng.chance(_HALF) else 2]
+    names = ("line", "parabola", "cubic")[: 3 if level == 2 else 2]
     numbers = sorted(rng.distinct(len(names), 1, 6))
     if kind == "border":
         base, more = rng.choice((2, 3)), int(numbers[1] - numbers[0])
@@ -244,7 +241,11 @@ def question(given: Given) -> Question:
     tosses = given.data.tosses
     told = ONE_COIN if len(tosses) == 1 else COIN_MODELS
     blocks = (
-        Paragraph("Independent tosses of " + ("a coin" if len(tosses) == 1 else f"{len(tosses)} coins") + " gave:"),
+        Paragraph(
+            "Independent tosses of "
+            + {1: "a coin", 2: "two coins", 3: "three coins"}.get(len(tosses), f"{len(tosses)} coins")
+            + " gave:"
+        ),
         Table(
             header=("coin", "heads", "tails"),
             rows=tuple((coin, f"${heads}$", f"${tails}$") for coin, (heads, tails) in tosses.items()),
@@ -272,7 +273,7 @@ def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
     rows = tuple(
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
-    count = "Two models" if len(fitted) == 2 else f"{len(fitted)} models"
+    count = {2: "Two models", 3: "Three models"}.get(len(fitted), f"{len(fitted)} models")
     data = "$n$ data" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data"
     return (
         Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),

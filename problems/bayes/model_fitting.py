@@ -184,8 +184,8 @@ def _coin(coin: Coin) -> Question:
     tosses = coin.heads + coin.tails
     blocks = (
         Paragraph(
-            f"A gripper is tried ${tosses}$ times; it holds in ${coin.heads}$ of the trials, and slips in ${coin.tails}$."
-            " The trials are independent, and each holds with the same unknown probability $θ$."
+            f"A gripper is tried ${tosses}$ times: it holds in ${coin.heads}$ of the trials and slips in "
+            f"${coin.tails}$. The trials are independent, and each holds with the same unknown probability $θ$."
         ),
     )
     prior = f'Now $θ$ has the prior $"Beta"({shown(coin.a)}, {shown(coin.b)})$, whose density is proportional to '

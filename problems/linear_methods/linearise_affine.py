@@ -53,7 +53,7 @@ def question(given: Given) -> Question:
             discretised(given),
             Paragraph(
                 "The linearisation of $F$ at the operating point is multiplied out, $F(s, a) ≈ A_Δ s + B_Δ a + C$. "
-                "Then $C$ is pulled into the state: with $s̃_t = (s_t, 1)^⊤$ it reads $s̃_{t+1} = Ã s̃_t + B̃ a_t$."
+                "Then $C$ is made part of the state: with $s̃_t = (s_t, 1)^⊤$ it reads $s̃_{t+1} = Ã s̃_t + B̃ a_t$."
             ),
         ),
         (Part("What is $C$?", Matrix(n, 1)), *_matrices(given, n, m)),

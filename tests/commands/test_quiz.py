@@ -160,16 +160,16 @@ def test_ctrl_d_in_a_real_terminal(terminal: pexpect.spawn) -> None:
     assert terminal.exitstatus == 0
 
 
-GAIN = "lqr-gain/3/1"  # L = [1/18 1/6; −5/9 1/3]
+GAIN = "lqr-gain/3/3"  # L = [0 1/4; 3/8 3/8]
 
 
 @pytest.mark.parametrize(
     "lines",
     [
-        ("1/18 1/6\n-5/9 1/3",),
-        ("[1/18 1/6\n-5/9 1/3]",),
-        ("[[1/18, 1/6],", "[-5/9, 1/3]]"),
-        ("[", "1/18 1/6", "-5/9 1/3", "]"),
+        ("0 1/4\n3/8 3/8",),
+        ("[0 1/4\n3/8 3/8]",),
+        ("[[0, 1/4],", "[3/8, 3/8]]"),
+        ("[", "0 1/4", "3/8 3/8", "]"),
     ],
 )
 def test_the_lines_of_a_matrix_are_one_answer(lines: tuple[str, ...]) -> None:
@@ -207,7 +207,7 @@ def spawned(*arguments: str, **environment: str) -> pexpect.spawn:
 def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) -> None:
     child = spawned(GAIN, TERM=terminal_name)
     child.expect("> $")
-    rows = "1/18 1/6\n-5/9 1/3"
+    rows = "0 1/4\n3/8 3/8"
     # A terminal that can do so tells where a paste begins and ends; another one types it.
     child.send(f"\x1b[200~{rows}\x1b[201~\r" if terminal_name == "xterm" else rows.replace("\n", "\r") + "\r")
     child.expect(r"✓\S* Right")
@@ -217,9 +217,9 @@ def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) ->
 def test_an_open_bracket_goes_on_in_a_real_terminal() -> None:
     child = spawned(GAIN)
     child.expect("> $")
-    child.sendline("[[1/18, 1/6],")
+    child.sendline("[[0, 1/4],")
     child.expect(r"\.\.\. ")
-    child.sendline("[-5/9, 1/3]]")
+    child.sendline("[3/8, 3/8]]")
     child.expect(r"✓\S* Right")
     child.close(force=True)
 
@@ -248,10 +248,10 @@ def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
 
 def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     # Windows has no select for a console; msvcrt tells whether keys wait.
-    waiting = ["1/18 1/6", "-5/9 1/3"]
+    waiting = ["0 1/4", "3/8 3/8"]
     console = types.ModuleType("msvcrt")
     monkeypatch.setattr(console, "kbhit", lambda: bool(waiting), raising=False)
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
-    assert line_editor()("> ") == "1/18 1/6\n-5/9 1/3"
+    assert line_editor()("> ") == "0 1/4\n3/8 3/8"

@@ -28,6 +28,7 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                             "point": [1, 2, 3]}),
     ("denavit-hartenberg", {"links": [{"theta": "pi/2", "d": 1, "a": 2, "alpha": 0}], "asked": "point",
                             "point": [1, 2, 3]}),
+    ("jacobian", {"lengths": [2, 1], "angles": [0, "pi/2"], "velocity": [1, 4]}),
     ("model-fitting", {"sample": {"values": [7, 9, 8], "prior": {"mean": 6, "variance": 1, "noise": 2}}}),
     ("model-fitting", {"line": {"points": [[0, 1], [1, 3], [2, 2]], "prior": {"variance": 1, "noise": 1}}}),
     ("model-comparison", {"models": {"x": {}, "y": {"theta": "1/2"}, "z": {"thetas": [["1/4", 1]]}},
