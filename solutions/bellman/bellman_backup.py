@@ -14,7 +14,7 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_POLICY,
     MAX_FOR_MEAN,
 )
-from rldrill.solutions.sheet.dynamic_programming import EVALUATION_MAX_FOR_MEAN, POLICY_EVALUATION
+from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION
 from rldrill.solutions.work import Work
 
 
@@ -27,7 +27,6 @@ MISCONCEPTIONS = (
     DISCOUNTED_REWARD,
     replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.unknown != ("gamma",)),
     replace(MAX_FOR_MEAN, when=_comparable),
-    replace(EVALUATION_MAX_FOR_MEAN, when=_comparable),
 )
 
 

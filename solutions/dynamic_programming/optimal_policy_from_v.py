@@ -17,16 +17,13 @@ from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FR
 from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_BY_REWARD,
     GREEDY_BY_VALUE,
-    GREEDY_FROM_Q,
     GREEDY_FROM_V,
-    SMALLEST_Q,
 )
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
-    SMALLEST_Q,
     replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.missing is None),
     replace(OWN_VALUE, when=lambda given: given.missing is None),
 )
@@ -40,10 +37,8 @@ def solve(given: Given, work: Work) -> None:
         V[given.missing] = work.answer(_missing(given, given.missing, work, known | {"V": V}))
     known |= {"V": V}
     if given.action_values:
-        Q = work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
-        greedy = {s: work.step(GREEDY_FROM_Q, s=s, Q=Q, actions=given.mdp.actions) for s in given.mdp.states}
-    else:
-        greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
+        work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
+    greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
     if given.gamma != 1:
         work.answer(greedy)
         return

@@ -1,5 +1,7 @@
 """Sweeps of iterative policy evaluation: from the old values, or with the newest."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
@@ -9,9 +11,8 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import Answers, at, chances, tensors
 from rldrill.solutions.policy_values import ONE_ACTION
-from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAX_FOR_MEAN
 from rldrill.solutions.sheet.dynamic_programming import (
-    EVALUATION_MAX_FOR_MEAN,
     POLICY_EVALUATION,
 )
 from rldrill.solutions.work import Work
@@ -54,7 +55,11 @@ def synchronous(given: Given, work: Work) -> None:
     solve(given.model_copy(update={"in_place": False}), work)
 
 
-MISCONCEPTIONS = (in_place, synchronous, EVALUATION_MAX_FOR_MEAN, FORGOT_GAMMA)
+def _comparable(given: Given) -> bool:
+    return not given.parameters() and any(len(actions) > 1 for actions in given.mdp.actions.values())
+
+
+MISCONCEPTIONS = (in_place, synchronous, replace(MAX_FOR_MEAN, when=_comparable), FORGOT_GAMMA)
 
 
 def oracle(given: Given) -> Answers:

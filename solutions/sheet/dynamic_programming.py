@@ -32,6 +32,7 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_GAMMA,
     FORGOT_POLICY,
     LOOKAHEAD,
+    MAX_FOR_MEAN,
     WITHOUT_GAMMA,
 )
 
@@ -64,11 +65,6 @@ with evaluate(False):
     _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
 
-    EVALUATION_MAX_FOR_MEAN = Misconception(
-        "max-for-mean",
-        "Evaluation averages over the policy's actions; only value iteration takes the maximum.",
-        when=lambda given: not given.parameters() and any(len(some) > 1 for some in given.mdp.actions.values()),
-    )
     POLICY_EVALUATION = Formula(
         "policy-evaluation",
         V(s),
@@ -83,7 +79,7 @@ with evaluate(False):
                 pi(a, s) * SumOver(P(s, a, s1) * (gamma * (R(s, a, s1) + V(s1))), s1, Successors(s, a)), a, Actions(s)
             ),
             FORGOT_GAMMA: SumOver(pi(a, s) * WITHOUT_GAMMA, a, Actions(s)),
-            EVALUATION_MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
+            MAX_FOR_MEAN: MaxOver(LOOKAHEAD, a, Actions(s)),
         },
     )
 

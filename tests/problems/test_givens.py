@@ -27,7 +27,7 @@ def mdp(*transitions: list[object], terminal: tuple[str, ...] = ("end",)) -> dic
 @pytest.mark.parametrize(
     ("given", "fragment"),
     [
-        (changed(gamma="x"), "given.gamma: 'x' is not a number"),
+        (changed(gamma="x"), "x is left open, so no action can be called greedy"),
         (changed(gamma="11/10"), "given.gamma: 11/10 is not between 0 and 1"),
         (changed(gamma=float("nan")), "given.gamma"),
         (changed(sweeps=0), "given.sweeps"),
