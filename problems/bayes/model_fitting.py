@@ -184,7 +184,7 @@ def _coin(coin: Coin) -> Question:
     tosses = coin.heads + coin.tails
     blocks = (
         Paragraph(
-            f"A gripper is tried ${tosses}$ times; it holds in ${coin.heads}$ of the trials and slips in ${coin.tails}$."
+            f"A gripper is tried ${tosses}$ times; it holds in ${coin.heads}$ of the trials, and slips in ${coin.tails}$."
             " The trials are independent, and each holds with the same unknown probability $θ$."
         ),
     )

@@ -91,7 +91,12 @@ def _equal(rng: Draws, setting: Setting, state: str, values: dict[str, Fraction]
             continue
         number = worth(Dynamics(transitions=tuple(rows)), (state, first), values, gamma)
         rows += draw_paying(rng, setting, setting.states, (state, second), number, values, gamma, shape, barred=state)
-        if len(rows) > 2 and all(row.reward.denominator == 1 for row in rows if isinstance(row.reward, Fraction)):
+        net: dict[str, Fraction] = {}
+        for row in rows:
+            sign = 1 if row.action == first else -1
+            net[row.next] = net.get(row.next, Fraction(0)) + sign * Fraction(row.probability)
+        whole = all(row.reward.denominator == 1 for row in rows if isinstance(row.reward, Fraction))
+        if len(rows) > 2 and all(net.values()) and whole:
             return rows
 
 

@@ -131,10 +131,10 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The edges; the best total and the best next state from everywhere, and the best path through a state."""
-    negative = " (a cost, where it is negative)" if any(edge.reward < Fraction(0) for edge in given.edges) else ""
+    negative = " (a cost, if it is negative)" if any(edge.reward < Fraction(0) for edge in given.edges) else ""
     blocks = (
         Paragraph(
-            f"{given.story} The moves are deterministic. From each state one of these edges is taken, for this "
+            f"{given.story} The moves are deterministic: each takes one of these edges and earns its "
             f"reward{negative}. The return is the undiscounted sum of the rewards up to {given.goal}.".strip()
         ),
         Table(

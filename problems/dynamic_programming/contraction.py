@@ -97,8 +97,9 @@ def question(given: Given) -> Question:
     )
     parts = [Part(f"What is $‖{'V_0 − V^*' if known else 'V_1 − V_0'}‖_∞$?", Number())]
     if not known:
-        parts.append(Part("Give an upper bound on $‖V_0 − V^*‖_∞$ from this change of the first sweep.", Number()))
-    ask = f"What upper bound on $‖V_{{{given.sweeps}}} − V^*‖_∞$, after {counted(given.sweeps)}, follows?"
+        parts.append(Part("What upper bound on $‖V_0 − V^*‖_∞$ does this change imply?", Number()))
+    error = f"$‖V_{{{given.sweeps}}} − V^*‖_∞$, the error after {counted(given.sweeps)}"
+    ask = f"What upper bound does the contraction property then give on {error}?"
     parts.append(Part(ask, Number()))
     if given.accuracy is not None:
         limit = f"$‖V_k − V^*‖_∞ ≤ {shown(given.accuracy)}$"

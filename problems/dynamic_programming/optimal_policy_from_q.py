@@ -116,7 +116,10 @@ def draw(level: int, rng: Draws) -> Given:
         targets = tuple(reached) or tuple(place for place in places if place not in holed)[-1:]
         shape = Shape(states=0, actions=0, branches=2, reward=8, denominators=(2, 4))
         found = draw_outcomes(rng, *gap, targets[:2], shape)
-        while not tells_apart(found, worth, gamma):
+        rival = max(values[gap[0]][action] for action in setting.actions if (gap[0], action) not in gaps)
+        while not tells_apart(found, worth, gamma) or any(
+            Fraction(row.reward) + gamma * worth.get(row.next, Fraction(0)) == rival for row in found
+        ):
             found = draw_outcomes(rng, *gap, targets[:2], shape)
         rows += found
     if level == 3:

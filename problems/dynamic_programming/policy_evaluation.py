@@ -51,7 +51,7 @@ def draw(level: int, rng: Draws) -> Given:
     states = 2 if level == 1 else 2 + rng.below(2)
     alone = level > 1 and rng.chance(Fraction(1, 3))
     gamma = rng.fraction("1/2", "4/5") if started else Fraction(1, 2)
-    in_place = rng.chance(Fraction(1, 2)) and (started or states == 2)
+    in_place = rng.chance(Fraction(1, 2)) and (started or (level == 3 and states == 2))
     sure = level == 1 or (not alone and (states == 3 or (in_place and not started)))
     shape = Shape(states=states, actions=2, branches=1 if sure else 2, denominators=(2,))
     start = draw_values(rng, setting.states[:states], gamma)

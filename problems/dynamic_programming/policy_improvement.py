@@ -55,10 +55,10 @@ class Given(Givens):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two states whose moves are certain; then moves that are not; then the values are asked for, too."""
-    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    gamma = rng.choice(tuple(UNITS)[: max(level, 2)])
     states = 2 if level == 1 else 2 + rng.below(2)
     shape = Shape(states=states, actions=3 if states == 2 else 2, branches=min(level, 2), denominators=(2,))
-    others = (-4, -1) if rng.chance(Fraction(1, 2)) else (-4, 4)
+    others = (-4, -1) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 2)) else (-4, 4)
     forked: Literal["own", "others"] = "own" if level == 3 else "others"
     setting = draw_setting(rng)
     mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)

@@ -42,7 +42,7 @@ def draw(level: int, rng: Draws) -> Given:
         2: Shape(states=2, actions=2 + rng.below(2), branches=2, denominators=(2,)),
         3: Shape(states=3, actions=2, branches=2, denominators=(2,)),
     }[level]
-    others = (-4, -1) if rng.chance(Fraction(1, 2 if level == 1 else 5)) else (-3, 5)
+    others = (-4, -1) if rng.chance({1: Fraction(3, 5), 2: Fraction(1, 10), 3: Fraction(0)}[level]) else (-3, 5)
     mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
     return Given(mdp=mdp, start=policy, gamma=gamma, rounds=min(level, 2))
 

@@ -14,7 +14,7 @@ from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Setting, Shape, draw_model, draw_setting
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
-from rldrill.problems.valued import draw_values
+from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
@@ -79,13 +79,9 @@ def draw(level: int, rng: Draws) -> Given:
     states = 2 if over_actions else 3 if level != 2 else 2 + rng.below(2)
     shape = Shape(states=states, actions=2, branches=2 if over_actions else 1, denominators=(2,))
     gamma = rng.fraction("1/2", "2/3", "4/5") if level == 1 else Fraction(1, 2)
-    mdp = draw_model(rng, setting, shape)
-    scale = 1 if level == 1 else 2
-    rows = tuple(
-        row._replace(reward=rng.whole(4, 9) if row.next == setting.terminal else scale * Fraction(row.reward))
-        for row in mdp.transitions
-    )
-    mdp = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
+    mdp = _paying(rng, draw_model(rng, setting, shape), 1 if level == 1 else 2)
+    while over_actions and not _decided(mdp, gamma):
+        mdp = _paying(rng, draw_model(rng, setting, shape), 2)
     return Given(
         mdp=mdp,
         gamma=gamma,
@@ -93,6 +89,23 @@ def draw(level: int, rng: Draws) -> Given:
         start=draw_values(rng, mdp.states, gamma) if level == 1 else None,
         in_place=not over_actions and rng.chance(Fraction(1, 2)),
         action_values=over_actions,
+    )
+
+
+def _paying(rng: Draws, mdp: Model, scale: int) -> Model:
+    """The model with rewards a number of times as large, and one at the end that is worth going for."""
+    rows = tuple(
+        row._replace(reward=rng.whole(4, 9) if row.next in mdp.terminal else scale * Fraction(row.reward))
+        for row in mdp.transitions
+    )
+    return Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
+
+
+def _decided(mdp: Model, gamma: Fraction) -> bool:
+    """Whether no two outcomes of an action are worth the same after the first sweep."""
+    first = {state: max(worth(mdp, (state, a), {}, gamma) for a in actions) for state, actions in mdp.actions.items()}
+    return all(
+        tells_apart([row for row in mdp.transitions if row.state == state], first, gamma) for state in mdp.states
     )
 
 

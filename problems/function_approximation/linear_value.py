@@ -64,7 +64,9 @@ class Given(Givens):
     bumps: Bumps | None = Field(
         default=None, description="The state with basis functions that give its features; instead of features."
     )
-    action: Name | None = Field(default=None, description="The action whose stacked vector is asked for, if any.")
+    action: Name | None = Field(
+        default=None, description="The action whose stacked vector is asked for, if any.", examples=["stay"]
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -117,10 +117,10 @@ def _width_sought(rng: Draws) -> Given:
     """One feature tells the width, and with it the others."""
     if rng.choice((True, False)):
         width = rng.whole(7, 12)
-        centred = draw_on_a_line(rng, rng.shuffled((*rng.distinct(rng.choice((1, 2, 3)), 1, int(width) - 1), width)))
+        centred = draw_on_a_line(rng, rng.shuffled((*rng.distinct(rng.choice((2, 3)), 1, int(width) - 1), width)))
     else:
         text = rng.choice(tuple(_STEPS))
-        width, centred = Fraction(text), draw_in_the_plane(rng, _STEPS[text][rng.below(2) :])
+        width, centred = Fraction(text), draw_in_the_plane(rng, _STEPS[text])
     squares = [square(centred.position or (), centre) for centre in centred.centres]
     number = rng.choice([n for n, far in enumerate(squares, 1) if far < width**2 and isqrt(int(far)) ** 2 == far])
     known = {number: 1 - isqrt(int(squares[number - 1])) / width}
@@ -130,7 +130,7 @@ def _width_sought(rng: Draws) -> Given:
 def _state_sought(rng: Draws) -> Given:
     """Two features tell the state, on one side of both centres or between them, and with it the third."""
     width = rng.whole(6, 12)
-    far = rng.distinct(rng.choice((3, 4)), 1, int(width))
+    far = rng.distinct(rng.choice((4, 5)), 1, int(width))
     centred = draw_on_a_line(rng, far)
     inside = [n for n, distance in enumerate(far, 1) if distance < width]
     known = {number: 1 - far[number - 1] / width for number in rng.sample(inside, 2)}

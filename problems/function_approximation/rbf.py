@@ -49,6 +49,7 @@ class Given(Centred):
         default=(),
         exclude_if=lambda theta: not theta,
         description="The weights of the features, where the value of the state is asked for, too.",
+        examples=[["2", "-1"]],
     )
 
     @model_validator(mode="after")
@@ -94,7 +95,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _open(rng: Draws) -> Given:
-    centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[:2]))
+    centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[:3]))
     return Given(position=centred.position, centres=centred.centres, sigma=Parameter("sigma"))
 
 
@@ -102,9 +103,9 @@ def _width_sought(rng: Draws) -> Given:
     """One feature tells the width, and with it the others."""
     sigma = rng.whole(4, 6)
     if rng.choice((True, False)):
-        centred = draw_on_a_line(rng, rng.distinct(3, 1, 5))
+        centred = draw_on_a_line(rng, rng.distinct(4, 1, 5))
     else:
-        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((1, 2))]))
+        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((2, 3))]))
     squares = [square(centred.position or (), centre) for centre in centred.centres]
     number = rng.choice([n for n, far in enumerate(squares, 1) if far in (1, 4, 9, 16, 25)])
     return Given(
@@ -114,9 +115,10 @@ def _width_sought(rng: Draws) -> Given:
 
 def _state_sought(rng: Draws) -> Given:
     """Two features tell the state, on one side of both centres or between them, and with it the third."""
-    sigma, far = rng.whole(4, 6), rng.distinct(3, 1, 6)
+    count = rng.choice((4, 5))
+    sigma, far = rng.whole(4, 6), rng.distinct(count, 1, 6)
     centred = draw_on_a_line(rng, far)
-    known = {number: -(far[number - 1] ** 2) / (2 * sigma**2) for number in rng.sample((1, 2, 3), 2)}
+    known = {number: -(far[number - 1] ** 2) / (2 * sigma**2) for number in rng.sample(range(1, count + 1), 2)}
     return Given(centres=centred.centres, sigma=sigma, logarithms=known)
 
 

@@ -96,18 +96,19 @@ def draw(level: int, rng: Draws) -> Single | Compared:
 
 
 def _rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
-    """Rewards whose returns are not 0, and whole at the end."""
+    """Rewards whose returns are not 0 or equal to the one before, and whole at the end."""
     rewards: tuple[Fraction, ...] = (gamma.denominator * rng.nonzero(-2, 3),)
     for number in range(1, count):
         multiple = gamma.denominator if number == 1 else 1
-        rewards = (_reward_before(rng, gamma * _total(rewards, gamma), multiple), *rewards)
+        rewards = (_reward_before(rng, _total(rewards, gamma), gamma, multiple), *rewards)
     return rewards
 
 
-def _reward_before(rng: Draws, after: Fraction, multiple: int) -> Fraction:
-    """A reward that makes a multiple of a number with what comes after it, where that is whole; but never 0."""
+def _reward_before(rng: Draws, later: Fraction, gamma: Fraction, multiple: int) -> Fraction:
+    """A reward that makes a multiple of a number with what comes later, where that is whole; but not 0 or the same."""
+    after = gamma * later
     whole = multiple if after.denominator == 1 else Fraction(1, after.denominator)
-    return rng.fitting(-4, 9, lambda reward: reward + after != 0 and (reward + after) % whole == 0)
+    return rng.fitting(-4, 9, lambda reward: reward + after not in (0, later) and (reward + after) % whole == 0)
 
 
 def _total(rewards: Sequence[Fraction], gamma: Fraction) -> Fraction:

@@ -113,14 +113,14 @@ _LESS_BY_PREFERENCE = (("9/20", 2, 1), ("7/20", 3, 1), ("9/20", 3, 1), ("7/20", 
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sample; then two or three; then the clipping range is found, from the objective or as the largest that cuts.
+    """One sample; then two; then the clipping range is found, from the objective or as the largest that cuts.
 
     In half of the samples clipping cuts off the gradient.
     """
     setting = draw_setting(rng)
     if level == 3:
         return _searched(rng, setting)
-    count = 1 if level == 1 else rng.choice((2, 3))
+    count = level
     cuts = [rng.choice((True, True, False, False if level == 1 else None)) for _ in range(count)]
     if cuts.count(None) == count:
         return draw(level, rng)
@@ -145,7 +145,7 @@ def draw(level: int, rng: Draws) -> Given:
 def _searched(rng: Draws, setting: Setting) -> Given:
     """Samples with the new policy's preferences, and the clipping range to be found."""
     by_objective = rng.choice((True, False))
-    cuts = rng.shuffled((True, False)) if by_objective else rng.choice(_SOME_CUT)
+    cuts = rng.shuffled((True, False, False)) if by_objective else rng.choice(_SOME_CUT)
     samples, objective = [], Fraction(0)
     epsilon = rng.fraction("1/10", "1/5", "3/20")
     for state, cut in zip(rng.shuffled(setting.states), cuts, strict=False):
@@ -163,7 +163,7 @@ def _searched(rng: Draws, setting: Setting) -> Given:
 
 
 #: Of which samples clipping can cut off the gradient: of some, not of all.
-_SOME_CUT = tuple(cuts for cuts in product((True, False), repeat=3) if len(set(cuts)) > 1)
+_SOME_CUT = tuple(cuts for cuts in product((True, False), repeat=4) if len(set(cuts)) > 1)
 
 
 def question(given: Given) -> Question:

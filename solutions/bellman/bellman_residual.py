@@ -14,7 +14,7 @@ from rldrill.solutions.exact import Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
-from rldrill.solutions.policy_values import evaluated
+from rldrill.solutions.policy_values import ONE_ACTION, evaluated
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
@@ -29,6 +29,8 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work) -> None:
     """One backup of every state, compared with what the values say."""
+    if not given.mdp.chooses:
+        work.say(ONE_ACTION)
     residuals = _residuals(given, work)
     if not given.verdict:
         return

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
+from rldrill.problems.document import joined
 from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
@@ -29,6 +30,9 @@ def _along(given: Given, work: Work, ways: Ways) -> None:
     values = _totals(given.goal, given.backwards, ways, R, work)
     values = {given.goal: ZERO} | work.answer({state: values[state] for state in ways})
     best = {state: _best(state, after, R, values, work) for state, after in ways.items()}
+    if given.forks:
+        told = joined([f"{state} → {best[state][0]}" for state in given.forks])
+        work.say(f"The maxima above are reached by {told}.")
     work.say(f"An optimal path from {given.start} is {_path(given.start, best)}.")
     work.say("Each tail of it is an optimal path from where the tail begins: this is the principle of optimality.")
     if given.forks:

@@ -14,12 +14,19 @@ from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V
-from rldrill.solutions.sheet.dynamic_programming import GREEDY_BY_REWARD, GREEDY_BY_VALUE, GREEDY_FROM_V
+from rldrill.solutions.sheet.dynamic_programming import (
+    GREEDY_BY_REWARD,
+    GREEDY_BY_VALUE,
+    GREEDY_FROM_Q,
+    GREEDY_FROM_V,
+    SMALLEST_Q,
+)
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
+    SMALLEST_Q,
     replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.missing is None),
     replace(OWN_VALUE, when=lambda given: given.missing is None),
 )
@@ -33,8 +40,10 @@ def solve(given: Given, work: Work) -> None:
         V[given.missing] = work.answer(_missing(given, given.missing, work, known | {"V": V}))
     known |= {"V": V}
     if given.action_values:
-        work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
-    greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
+        Q = work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
+        greedy = {s: work.step(GREEDY_FROM_Q, s=s, Q=Q, actions=given.mdp.actions) for s in given.mdp.states}
+    else:
+        greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
     if given.gamma != 1:
         work.answer(greedy)
         return
@@ -49,16 +58,17 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Val
     An action that may lead back to the state gives an equation for the value.
     """
     x = generator("x")
+    work.say(f'With $x = V^*("{state}")$ the actions in {state} are worth:')
     values = []
     for action in given.mdp.actions[state]:
         worth = work.step(Q_STAR_FROM_V, s=state, a=action, **{**known, "V": {**known["V"], state: x}})
         if parameters(worth):
-            work.say(f'If {action} is optimal in {state}, this is $x = V^*("{state}")$ itself:')
+            work.say(f"If {action} is optimal in {state}, this is $x$ itself:")
             worth = work.equate("x", worth, x)
         values.append(worth)
     best = largest(values)
     (action, *_) = arg_max(given.mdp.actions[state], values)
-    work.say(f'The greatest of these is ${text_of(best)}$, with {action}: $V^*("{state}") = {text_of(best)}$.')
+    work.say(f'The greatest of these values is ${text_of(best)}$, with {action}: $V^*("{state}") = {text_of(best)}$.')
     return best
 
 

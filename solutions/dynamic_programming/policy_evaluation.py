@@ -8,6 +8,7 @@ from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.oracle import Answers, at, chances, tensors
+from rldrill.solutions.policy_values import ONE_ACTION
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     EVALUATION_MAX_FOR_MEAN,
@@ -19,6 +20,8 @@ from rldrill.solutions.work import Work
 def solve(given: Given, work: Work) -> None:
     """Sweep after sweep, one step for every state."""
     mdp = given.mdp
+    if not mdp.chooses:
+        work.say(ONE_ACTION)
     known = knowns.model(mdp) | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
     values = dict.fromkeys(mdp.states, ZERO) | knowns.state_values(given.start or {}, mdp.terminal)
     for sweep in range(1, given.sweeps + 1):

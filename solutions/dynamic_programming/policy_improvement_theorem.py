@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
+from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.endless import Loop
 from rldrill.solutions.exact import NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
@@ -67,9 +69,13 @@ def _values(given: Given, work: Work, evaluation: Evaluation) -> dict[str, Value
 def _compared(given: Given, work: Work, values: Mapping[str, Value], worth: Any) -> tuple[int, ...]:
     worth = work.answer(worth)
     gaps = {state: sign(worth[state, a] - values[state]) for state, a in given.pairs}
+    told = []
     for state, gap in gaps.items():
         holds = "<" if gap < 0 else "≥"
         work.step(POLICY_IMPROVEMENT_THEOREM, sign=holds, s=state, V=values, pi1=given.other)
+        here = f"{text_of(worth[state, given.other[state]])} {holds} {text_of(values[state])}".replace("-", "−")
+        told.append(f"${here}$ in {state}")
+    work.say(f"In numbers: {joined(told)}.")
     return tuple(gaps.values())
 
 

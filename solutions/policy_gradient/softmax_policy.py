@@ -13,12 +13,12 @@ from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.policy_gradient import (
+    ENTROPY,
     NOT_NORMALISED,
     PREFERENCE,
     SOFTMAX_ODDS,
     SOFTMAX_POLICY,
     WITHOUT_EXP,
-    entropy,
 )
 from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Work
@@ -42,7 +42,7 @@ def solve(given: Given, work: Work) -> None:
     found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
         known["pi"] = {(action, "s"): found[action] for action in actions}
-        work.answer(_in_short(work, work.step(entropy(), **known)))
+        work.answer(_in_short(work, work.step(ENTROPY, **known)))
 
 
 def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -> None:
@@ -63,7 +63,7 @@ def _in_short(work: Work, value: Value) -> Value:
     shorter: Value = sympy.expand_log(value, factor=True)
     if shorter != value:
         work.say("With as few different logarithms as possible:")
-        work.give(entropy(), shorter)
+        work.give(ENTROPY, shorter)
     return shorter
 
 

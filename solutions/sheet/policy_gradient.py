@@ -3,7 +3,6 @@
 Weights, features and gradients are vectors; weights and features are also known by their entries.
 """
 
-from functools import cache
 from typing import Any
 
 from sympy import evaluate, exp, log
@@ -479,18 +478,12 @@ with evaluate(False):
         hint="Average the objective over the samples.",
         place=Place.WORKING,
     )
-
-
-@cache
-def entropy() -> Formula:
-    """How undecided a policy is in a state."""
-    with evaluate(False):
-        return Formula(
-            "entropy",
-            of_policy(s),
-            -SumOver(pi(b, s) * log(pi(b, s)), b, Choices),
-            title="Entropy of a policy",
-            source="Cover & Thomas 2006, section 2.1",
-            hint="Weigh the logarithm of every probability with the probability itself, add, and change the sign.",
-            place=Place.BEYOND,
-        )
+    ENTROPY = Formula(
+        "entropy",
+        of_policy(s),
+        -SumOver(pi(b, s) * log(pi(b, s)), b, Choices),
+        title="Entropy of a policy",
+        source="Cover & Thomas 2006, section 2.1",
+        hint="Weigh the logarithm of every probability with the probability itself, add, and change the sign.",
+        place=Place.WORKING,
+    )

@@ -38,6 +38,7 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                   "objective": "6/5"}),
     ("ppo-clip", {"samples": [{"state": "s", "action": "a", "old": "1/2", "new": "1/4", "advantage": -1}],
                   "objective": "-4/5"}),
+    ("softmax-policy", {"theta": [0], "features": {"a": [1], "b": [0]}, "entropy": True}),
     ("softmax-policy", {"theta": ["ln x"], "features": {"a": [1], "b": [0]}, "odds": ["a", "b", 3]}),
     ("rbf", {"centres": [[0], [4]], "sigma": 1, "logarithms": {"1": "-1/2", "2": "-9/2"}}),
     ("rbf", {"position": [2], "centres": [[0]], "logarithms": {"1": "-1/2"}}),

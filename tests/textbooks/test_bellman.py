@@ -171,3 +171,34 @@ def test_a_terminal_state_may_have_its_0_among_given_values(name: str, more: dic
     assert solved(name, **{**known, "values": {"a": 4, "end": 0}}) == solved(name, **known)
     with pytest.raises(FileError, match="the value of 'end' must be 0, because it is terminal; give 0, or make it the"):
         solved(name, **{**known, "values": {"a": 4, "end": 2}})
+
+
+def test_numbers_found_from_a_backup_by_hand() -> None:
+    # x + 1/2·4 = 5; 2 + 4γ = 3 + 2γ; 4p + 2(1 − p) = 7/2.
+    def rows(first: str, second: str) -> dict[str, Any]:
+        return {"transitions": [["a", "go", "b", 1, first], ["a", "stay", "c", 1, second]]}
+
+    one = {"transitions": [["a", "go", "b", 1, "x"]]}
+    known: dict[str, Any] = {"dynamics": one, "policy": {"a": "go"}, "values": {"a": 5, "b": 4}, "gamma": "1/2"}
+    assert solved("bellman-backup", find=True, **known) == {"a": 3}
+    tied = {"dynamics": rows("2", "3"), "values": {"b": 4, "c": 2}, "gamma": "gamma", "find": True}
+    assert solved("action-value", **tied) == {"a": fmpq(1, 2)}
+    mixed = {"dynamics": rows("2", "1"), "values": {"a": "7/2", "b": 4, "c": 2}, "gamma": "1/2", "chance": True}
+    assert solved("action-value", **mixed)["b"] == fmpq(3, 4)
+
+
+def test_a_value_that_no_policy_gives_is_refused() -> None:
+    rows = [["a", "go", "b", 1, 2], ["a", "stay", "b", 1, 0]]  # worth 4 and 2
+    with pytest.raises(FileError, match="no policy gives it"):
+        solved("action-value", dynamics={"transitions": rows}, values={"a": 5, "b": 4}, gamma="1/2", chance=True)
+
+
+def test_what_action_values_leave_open_by_hand() -> None:
+    # 8p + 4(1 − p) = 5, and so 0·p + 4(1 − p) = 3; 8p + 2(1 − p) = 5.
+    policy = {"a": {"x": "p", "y": "1-p"}, "b": {"x": "p", "y": "1-p"}}
+    values = {"a": {"x": 8, "y": 4}, "b": {"x": 0, "y": 4}}
+    found = solved("value-from-action-values", values=values, policy=policy, known={"a": 5})
+    assert found == {"a": fmpq(1, 4), "b": {"b": 3}}
+    even = {"a": {"x": 8, "y": 2}, "b": {"x": 5}}
+    equal = solved("value-from-action-values", values=even, policy=policy | {"b": "x"}, equal=True)
+    assert equal == {"a": fmpq(1, 2)}

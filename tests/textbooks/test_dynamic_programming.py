@@ -188,3 +188,17 @@ def test_sweeps_start_with_0_in_a_terminal_state() -> None:
     assert solved("value-iteration", mdp=RACING, gamma=1, sweeps=1, start=start | {"overheated": 0})
     with pytest.raises(FileError, match="start: the value of 'overheated' must be 0, because it is terminal"):
         solved("value-iteration", mdp=RACING, gamma=1, sweeps=1, start=start | {"overheated": 3})
+
+
+def test_numbers_that_are_found_by_hand() -> None:
+    # y earns x + 1/2·4, the other action 6; go is worth 2 + 1/2·4 = 4, stay for ever 1/(1 − 1/2) = 2; after one
+    # sweep a is worth 2 and b 4, and 1 + 4γ = 2.
+    missing = {"transitions": [["a", "y", "b", 1, "x"]]}
+    tied = solved("optimal-policy-from-q", values={"a": {"z": 6}, "b": {"z": 4}}, missing=missing, gamma="1/2")
+    assert tied == {"a": 4, "b": {"b": ("z",)}}
+    mdp = {"transitions": [["a", "go", "b", 1, 2], ["a", "stay", "a", 1, 1], ["b", "go", "end", 1, 4]]}
+    found = solved("optimal-policy-from-v", mdp=mdp, values={"b": 4}, missing="a", gamma="1/2")
+    assert found == {"a": 4, "b": {"a": ("go",), "b": ("go",)}}
+    mdp = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 2], ["b", "x", "end", 1, 4]]}
+    tie = solved("value-iteration", mdp=mdp, gamma="gamma", sweeps=1, tie="a")
+    assert tie == {"a": {"a": 2, "b": 4}, "b": fmpq(1, 4)}
