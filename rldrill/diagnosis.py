@@ -11,11 +11,14 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.explaining import MOST, Explained, explained
 from rldrill.solutions.diagnosis.following import Line, Standing, follow
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
-from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.diagnosis.search import Search
+from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.solution import Solution

@@ -8,9 +8,13 @@ from typing import Any
 from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
+from rldrill.solutions.diagnosis.causes import Candidate, Cause
+from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import Change
-from rldrill.solutions.diagnosis.search import Candidate, Cause, Clock, Search, Typed, approximate
+from rldrill.solutions.diagnosis.search import Search
+from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.diagnosis.weights import ALIKE
+from rldrill.solutions.diagnosis.written_down import written_down
 from rldrill.solutions.exact import is_rational
 
 #: How many likelier causes there may be for every answer that could have been typed, at most.
@@ -101,7 +105,7 @@ def _near(found: Sequence[Candidate]) -> list[Cause]:
 
 def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
     yield from (each for each in search.whole(clock) if search.fits(typed, each.answers))
-    yield from (each for each in search.written_down(typed) if search.fits(typed, each.answers))
+    yield from (each for each in written_down(typed, search.applications) if search.fits(typed, each.answers))
     wrong = set(typed.wrong)
     for each in search.local(typed, clock, lambda changed: changed >= wrong):
         if search.fits(typed, each.answers):

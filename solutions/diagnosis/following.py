@@ -11,8 +11,10 @@ from unicodedata import normalize
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
 from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
+from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
-from rldrill.solutions.diagnosis.search import Cause, Search, approximate, near
+from rldrill.solutions.diagnosis.search import Search
+from rldrill.solutions.diagnosis.typed import approximate, near
 from rldrill.solutions.exact import NotReal, is_rational
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import probes

@@ -6,9 +6,9 @@ from typing import Any, TypeAlias
 from sympy import Expr
 
 from rldrill.problems.mathematics import Math, name, relation, row
+from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
-from rldrill.solutions.diagnosis.search import Cause
 from rldrill.solutions.formula.edits import IN_ONE_TERM
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.sets import Over

@@ -1,24 +1,27 @@
 """The search: everything that is changed in a working, and what comes out of it, once for every problem."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
-from itertools import combinations
-from threading import Event
-from time import perf_counter
 from typing import Any
 
 import sympy
-from flint import fmpq
 from sympy import Expr
 
-from rldrill.problems.parts import Matrix, Number, Part
-from rldrill.solutions.answers.judging import matches, wrong_cells
-from rldrill.solutions.answers.kinds import Cell, answer_kind
-from rldrill.solutions.answers.text import Reading
+from rldrill.solutions.answers.judging import matches
 from rldrill.solutions.diagnosis import weights
-from rldrill.solutions.diagnosis.arithmetic import slips
+from rldrill.solutions.diagnosis.alternatives import (
+    LIKELY,
+    at_one,
+    at_place,
+    hashable,
+    likely,
+    plain,
+    terms,
+)
+from rldrill.solutions.diagnosis.causes import Candidate, Cause
+from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.givens import misread
 from rldrill.solutions.diagnosis.replay import (
     UNDONE,
@@ -31,151 +34,24 @@ from rldrill.solutions.diagnosis.replay import (
     replayed,
     with_givens,
 )
-from rldrill.solutions.exact import enclosure, is_rational
-from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
-from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.diagnosis.typed import Typed, approximate, equal, near
+from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
+from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.vector import Vector
 
-#: Where answers with an open parameter are compared at first.
-_POINT = fmpq(37, 101)
-#: No two answers that a marker takes for the same are further apart, by their size or near 0.
-_NEAR, _NEAR_ZERO = 0.012, 0.0011
-#: A place whose quantity has more values than this elsewhere is not tried with all of them.
-_ELSEWHERE = 12
-#: A sum of more terms than this is not edited term by term.
-_TERMS = 8
-#: So many causes of the same value are told apart.
-_ALIKE = 4
-#: Two slips are each of at least this weight, and the first is one of so many.
-_LIKELY, _FIRST = 1.5, 12
+#: Two slips: the first is one of so many.
+_FIRST = 12
 #: So many pairs of places are tried.
 _TRIES = 100
 #: So many other values of one application are gone on from, for one answer.
 _REPLAYS = 30
 _NOT_COMPUTED = float("nan")
-
-
-@dataclass(frozen=True, eq=False)
-class Cause:
-    """One way to err, at one place or everywhere.
-
-    Args:
-        kind: what was done, a name.
-        weight: how likely it is.
-        application: where it was done; None where it was done all along.
-        formula: the formula that it was done to, if any.
-        edit: how that was edited, if it was.
-        probe: the place in it whose value is another one, if there is one.
-        term: the term of a sum that it was done in alone, its letters' values.
-        nth: the number of that term, from 0, where it was done in every sum.
-        was: the value that was right, of the place in the formula if there is one, else of the application.
-        other: the value that was put in for it.
-        became: the value that came out of the application.
-        what: of what else is said what it was.
-        mistake: the listed mistake that it is, if it is one.
-        then: what was done besides.
-    """
-
-    kind: str
-    weight: float
-    application: Application | None = None
-    formula: Formula | None = None
-    edit: Edit | None = None
-    probe: Probe | None = None
-    term: tuple[Any, ...] = ()
-    was: Any = None
-    other: Any = None
-    became: Any = None
-    what: str = ""
-    nth: int | None = None
-    mistake: Misconception | None = None
-    then: "Cause | None" = None
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A cause, and the answers that it leads to."""
-
-    cause: Cause
-    answers: Mapping[str, Any]
-
-
-@dataclass
-class Typed:
-    """What was typed for a part, beside what is right."""
-
-    part: Part
-    cells: Mapping[str, Cell]
-    key: Mapping[str, Any]
-
-    @cached_property
-    def wrong(self) -> tuple[str, ...]:
-        """The cells that are wrong."""
-        return wrong_cells(self.cells, self.key)
-
-    @cached_property
-    def sizes(self) -> dict[str, float]:
-        """What the typed cells are worth, roughly; words are left out."""
-        return {name: approximate(cell.value) for name, cell in self.cells.items() if isinstance(cell, Reading)}
-
-    def cells_of(self, answers: Mapping[str, Any] | None) -> dict[str, Any] | None:
-        """The cells of this part among some answers; None where they have no such part, or another one."""
-        if answers is None or self.part.label not in answers:
-            return None
-        try:
-            cells = answer_kind(self.part.kind).cells(answers[self.part.label])
-        except UNDONE:
-            return None
-        return cells if cells.keys() == self.key.keys() else None
-
-    def differing(self, cells: Mapping[str, Any]) -> set[str]:
-        """The cells that are not those of the key."""
-        return {name for name, right in self.key.items() if not _equal(cells[name], right)}
-
-    def near(self, values: Mapping[str, Any]) -> bool:
-        """Whether an answer is roughly what was typed, so that it is worth a proof."""
-        return all(near(approximate(values[name]), size) for name, size in self.sizes.items())
-
-
-def near(one: float, two: float) -> bool:
-    """Whether two numbers could be the same, rounded; what could not be computed could."""
-    if one != one or two != two:
-        return True
-    return abs(one - two) <= _NEAR * abs(one) + _NEAR_ZERO
-
-
-def approximate(value: Any) -> float:
-    """What a value is worth, roughly; nan where that is not known."""
-    if is_rational(value):
-        try:
-            return int(value.p) / int(value.q)
-        except OverflowError:
-            return _NOT_COMPUTED
-    try:
-        return float(enclosure(value, _POINT).mid())
-    except UNDONE:
-        return _NOT_COMPUTED
-
-
-@dataclass
-class Clock:
-    """How long there is to search: some seconds, or until somebody says stop; without either, without end."""
-
-    seconds: float | None = None
-    stop: Event | None = None
-    _begun: float = field(default_factory=perf_counter)
-
-    @property
-    def over(self) -> bool:
-        """Whether the time is over."""
-        if self.stop is not None and self.stop.is_set():
-            return True
-        return self.seconds is not None and perf_counter() - self._begun > self.seconds
+#: So many causes of the same value are told apart.
+_ALIKE = 4
 
 
 class Search:
@@ -269,9 +145,9 @@ class Search:
                 if edit.once is None:
                     continue
                 weight = weights.IDEAS[edit.kind] * weights.IN_ONE_TERM
-                terms = [[term for term, _ in _terms(edit.within, place.known)] for place in places]
-                for nth in range(max(map(len, terms))):
-                    same = {each[nth] for each in terms if len(each) > nth}
+                every = [[term for term, _ in terms(edit.within, place.known)] for place in places]
+                for nth in range(max(map(len, every))):
+                    same = {each[nth] for each in every if len(each) > nth}
                     term = next(iter(same)) if len(same) == 1 else ()
                     cause = Cause(edit.kind, weight, None, places[0].formula, edit, term=term, nth=nth)
                     yield from self._candidate(cause, Change({right: edit.once}, letters=_nth(edit.within, nth)))
@@ -339,11 +215,11 @@ class Search:
                 yield cause, Cases(here, edit.right, right), case
             if edit.once is not None:
                 once = Cases(here, edit.once, right)
-                for term, at in _terms(edit.within, application.known):
+                for term, at in terms(edit.within, application.known):
                     yield replace(cause, weight=weight * weights.IN_ONE_TERM, term=term), once, {**case, **at}
         for probe in probes(right):
             changed = Cases(here, probe.right, right)
-            for cause, letters_ in self._at(application, probe):
+            for cause, letters_ in at_place(application, probe):
                 yield cause, changed, {**case, **letters_}
 
     @property
@@ -357,87 +233,14 @@ class Search:
         number = application.number
         if number not in self._alternatives:
             found: dict[Any, list[Cause]] = defaultdict(list)
-            for cause in sorted(self._at_one(application), key=lambda cause: -cause.weight):
-                alike = found[_hashable(cause.became)]
+            for cause in sorted(at_one(application), key=lambda cause: -cause.weight):
+                alike = found[hashable(cause.became)]
                 if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
                     alike.append(cause)
-            found.pop(_hashable(application.value), None)
+            found.pop(hashable(application.value), None)
             every = (cause for alike in found.values() for cause in alike)
             self._alternatives[number] = sorted(every, key=lambda cause: -cause.weight)
         return self._alternatives[number]
-
-    def _at_one(self, application: Application) -> Iterator[Cause]:
-        formula, right, known, value = application.formula, application.right, application.known, application.value
-        base = Cause("", 0.0, application, formula, was=value)
-        for kind, other in slips(value):
-            yield replace(base, kind=kind, weight=weights.VALUES[kind], became=other)
-        if (old := application.old()) is not None and _same_form(old, value):
-            yield replace(base, kind="kept", weight=weights.VALUES["kept"], became=old)
-            yield from self._repeated(application, base)
-        if application.equation:
-            return
-        for edit in edits(right):
-            weight = weights.IDEAS[edit.kind] * weights.AT_ONE
-            if edit.kind in IN_ONE_TERM:
-                pass
-            elif (other := _value(edit.right, known)) is not None and _same_form(other, value):
-                yield replace(
-                    base, kind=edit.kind, weight=weight * _likely_there(edit, (), known), edit=edit, became=other
-                )
-            if edit.once is not None:
-                for term, at in list(_terms(edit.within, known))[:_TERMS]:
-                    other = _value(edit.once, {**known, **at})
-                    if other is not None and _same_form(other, value):
-                        in_term = weight * weights.IN_ONE_TERM * _likely_there(edit, term, known)
-                        yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
-        for probe in probes(right):
-            for cause, letters in self._at(application, probe):
-                other = _value(probe.right, {**known, **letters})
-                if other is not None and _same_form(other, value):
-                    yield replace(cause, became=other)
-
-    def _repeated(self, application: Application, base: Cause) -> Iterator[Cause]:
-        """The same update once more, from the value that it gave."""
-        left, known = application.formula.left, application.known
-        try:
-            arguments = tuple(value_of(argument, known) for argument in left.args)
-        except UNDONE:
-            return
-        key = arguments[0] if len(arguments) == 1 else arguments
-        again = {**known, left.func.code: {**known[left.func.code], key: application.value}}
-        if (other := _value(application.right, again)) is not None:
-            yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
-
-    def _at(self, application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:
-        """What another value of one place in a formula could be."""
-        known = application.known
-        terms = list(_terms(probe.within, known)) if probe.within else [((), {})]
-        for term, at in terms:
-            here = {**known, **dict(zip((over.index.name for over in probe.within), term, strict=True))}
-            was = _value(probe.part, here)
-            if was is None or is_matrix(was) or isinstance(was, Vector) or not hasattr(was, "__add__"):
-                continue
-            for kind, other in self._others(probe.part, was, here):
-                weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(terms) > 1 else 1)
-                cause = Cause(
-                    kind, weight, application, application.formula, probe=probe, term=term, was=was, other=other
-                )
-                yield cause, {**at, SCALE.name: fmpq(0), SHIFT.name: other}
-
-    def _others(self, part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-        leaf = isinstance(part, Quantity) or part.is_Symbol
-        if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
-            yield "crosswise", crosswise
-        for kind, other in slips(was):
-            lost = kind == "sign" and leaf and is_rational(was) and was < 0
-            yield "minus-lost" if lost else kind, other
-        if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
-            elsewhere = _distinct(known[part.code].values())
-            if len(elsewhere) <= _ELSEWHERE:
-                yield from (("elsewhere", other) for other in elsewhere if other != was)
-        if leaf:
-            scalars = _distinct(known.values())
-            yield from (("elsewhere", other) for other in scalars if other != was)
 
     # How answers depend on one value ----------------------------------------------------------------
     def responses(self, application: Application) -> list[tuple[Any, Mapping[str, Any] | None]]:
@@ -445,7 +248,7 @@ class Search:
         number = application.number
         if number not in self._responses:
             value = application.value
-            if _plain(value):
+            if plain(value):
                 others = [value + 1, value - 3, value * 4 + 7]
             elif is_matrix(value) or isinstance(value, Vector):
                 others = [value * 3]
@@ -481,7 +284,7 @@ class Search:
                     near(size, typed.sizes[name]) for name, size in predict(cause.became).items()
                 ):
                     continue
-                same = _hashable(cause.became)
+                same = hashable(cause.became)
                 if same not in done:
                     done[same] = self.replay(Change(values={application.number: cause.became}))
                 answers = done[same]
@@ -496,14 +299,12 @@ class Search:
     ) -> tuple[set[str], Callable[[Any], dict[str, float]] | None] | None:
         """The cells that depend on a value, and how, where it is a straight line; None where none of them is wrong."""
         points: list[tuple[float, dict[str, Any]]] = [(approximate(application.value), dict(typed.key))]
-        if not _plain(application.value):
+        if not plain(application.value):
             points = [(_NOT_COMPUTED, dict(typed.key))]
         for other, answers in self.responses(application):
             if (cells := typed.cells_of(answers)) is not None:
-                points.append((approximate(other) if _plain(other) else _NOT_COMPUTED, cells))
-        changed = {
-            name for name in typed.key for _, cells in points[1:] if not _equal(cells.get(name), typed.key[name])
-        }
+                points.append((approximate(other) if plain(other) else _NOT_COMPUTED, cells))
+        changed = {name for name in typed.key for _, cells in points[1:] if not equal(cells.get(name), typed.key[name])}
         if len(points) > 1 and not changed & set(typed.wrong):
             return None
         if len(points) < 4 or any(x != x for x, _ in points) or set(typed.sizes) != set(typed.key):
@@ -533,13 +334,13 @@ class Search:
             for first in self.alternatives(application)[:_FIRST]:
                 if clock.over or tries < 0:
                     return
-                if first.weight < _LIKELY:
+                if first.weight < LIKELY:
                     break
                 trace: list[Traced] = []
                 if self.replay(Change(values={application.number: first.became}), trace) is None:
                     continue
                 for traced in trace:
-                    if traced[0] > application.number and traced[0] in numbers and _plain(traced[3]):
+                    if traced[0] > application.number and traced[0] in numbers and plain(traced[3]):
                         tries -= 1
                         yield from self._then(typed, application, first, traced)
 
@@ -550,7 +351,7 @@ class Search:
         if wanted is None:
             return
         second = self.applications[number] if number < len(self.applications) else None
-        for kind, weight, edit, other in _likely(right, known, value):
+        for kind, weight, edit, other in likely(right, known, value):
             if near(approximate(other), wanted):
                 answers = self.replay(Change(values={**values, number: other}))
                 if answers is not None:
@@ -600,62 +401,6 @@ class Search:
             self._rivals[key] = rivals
         return self._rivals[key]
 
-    # The answer itself ------------------------------------------------------------------------------
-    def written_down(self, typed: Typed) -> Iterator[Candidate]:
-        """What can go wrong between the working and the answer."""
-        kind = answer_kind(typed.part.kind)
-        key = dict(typed.key)
-        if any(isinstance(value, tuple) for value in key.values()):
-            return
-
-        def made(name: str, cells: dict[str, Any], what: str = "", of: str = "") -> Iterator[Candidate]:
-            if typed.near(cells):
-                cause = Cause(of or name, weights.ANSWERS[of or name], what=what)
-                yield Candidate(cause, {typed.part.label: kind.value(cells)})
-
-        if len(key) > 1:
-            for one, two in combinations(typed.wrong, 2):
-                what = f"{one} and {two}"
-                yield from made("exchanged-cells", {**key, one: key[two], two: key[one]}, what)
-            yield from made("all-signs", {name: -value for name, value in key.items()})
-        for name, value in key.items():
-            if typed.wrong == (name,) or len(key) == 1:
-                for slip, other in slips(value):
-                    yield from made(slip, {**key, name: other}, name)
-        if len(key) == 1:
-            ((name, value),) = key.items()
-            yield from made("one-minus", {name: 1 - value})
-            yield from made("percent", {name: value * 100})
-            for application in self.applications:
-                if _plain(application.value):
-                    for candidate in made("another-quantity", {name: application.value}):
-                        yield replace(candidate, cause=replace(candidate.cause, application=application))
-        shape = typed.part.kind
-        if isinstance(shape, Matrix) and shape.rows == shape.columns > 1:
-            cells = {
-                f"row {row}, column {column}": key[f"row {column}, column {row}"]
-                for row in range(1, shape.rows + 1)
-                for column in range(1, shape.columns + 1)
-            }
-            yield from made("answer-transposed", cells)
-        if not isinstance(shape, Number) and len(key) > 2:
-            yield from self._scaled(typed, key)
-
-    def _scaled(self, typed: Typed, key: Mapping[str, Any]) -> Iterator[Candidate]:
-        """All entries by the same factor too large: not normalised."""
-        ratios = {
-            cell.value / key[name]
-            for name, cell in typed.cells.items()
-            if isinstance(cell, Reading) and key[name] != 0 and is_rational(cell.value) and is_rational(key[name])
-        }
-        if len(ratios) == 1 and all(value != 0 and is_rational(value) for value in key.values()):
-            factor = next(iter(ratios))
-            cells = {name: value * factor for name, value in key.items()}
-            yield Candidate(
-                Cause("answer-scaled", weights.ANSWERS["answer-scaled"], was=factor),
-                {typed.part.label: answer_kind(typed.part.kind).value(cells)},
-            )
-
     def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
         """Whether these answers are what was typed."""
         cells = typed.cells_of(answers)
@@ -667,100 +412,13 @@ class Search:
             return False
 
 
-def _likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:
-    """The likeliest other values of an application in a changed working."""
-    for kind, other in slips(value):
-        if (weight := weights.VALUES[kind]) >= _LIKELY:
-            yield kind, weight, None, other
-    for edit in edits(right):
-        weight = weights.IDEAS[edit.kind] * weights.AT_ONE
-        if weight >= _LIKELY and edit.kind not in IN_ONE_TERM:
-            other = _value(edit.right, known)
-            if other is not None and _plain(other) and other != value:
-                yield edit.kind, weight, edit, other
-
-
-def _crosswise(part: Expr, known: Mapping[str, Any]) -> fmpq | None:
-    """Two fractions added top to top and bottom to bottom."""
-    one, two = (_value(term, known) for term in part.args)
-    if not is_rational(one) or not is_rational(two) or 1 in (one.q, two.q) or one.q == two.q:
-        return None
-    return fmpq(one.p + two.p, one.q + two.q)
-
-
-def _value(right: Expr, known: Mapping[str, Any]) -> Any:
-    try:
-        return value_of(right, known)
-    except UNDONE:
-        return None
-
-
-def _terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tuple[Any, ...], dict[str, Any]]]:
-    """The terms of sums in one another: the values of their letters, and what says so to an edit."""
-    found: list[tuple[Any, ...]] = [()]
-    names = [over.index.name for over in within]
-    try:
-        for depth, over in enumerate(within):
-            found = [
-                (*term, item)
-                for term in found
-                for item in value_of(over.domain, {**known, **dict(zip(names[:depth], term, strict=True))})
-            ]
-    except UNDONE:
-        return
-    for term in found:
-        yield term, {element(depth): item for depth, item in enumerate(term)}
-
-
 def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
     """The letters of the nth term, whatever the application; of none where there are fewer."""
 
     def letters(known: Mapping[str, Any]) -> Mapping[str, Any]:
-        for number, (_, at) in enumerate(_terms(within, known)):
+        for number, (_, at) in enumerate(terms(within, known)):
             if number == nth:
                 return at
         return {element(depth): None for depth in range(len(within))}
 
     return letters
-
-
-def _likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
-    """How likely an edit is for these values: 1 − x is taken for a share of 1."""
-    if edit.kind != "complement-of-value" or len(term) != len(edit.within):
-        return 1.0
-    here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
-    share = approximate(_value(edit.part, {**known, **here}))
-    return 1.0 if 0 < share < 1 else weights.NO_SHARE
-
-
-def _plain(value: Any) -> bool:
-    """Whether a value is one number, of any form."""
-    return is_rational(value) or (
-        not isinstance(value, str | int | tuple | Mapping | Vector)
-        and not is_matrix(value)
-        and hasattr(value, "__add__")
-    )
-
-
-def _distinct(values: Iterable[Any]) -> list[Any]:
-    """The numbers among some values, each once."""
-    return list({str(value): value for value in values if _plain(value)}.values())
-
-
-def _same_form(other: Any, value: Any) -> bool:
-    if is_matrix(value):
-        return is_matrix(other) and (other.nrows(), other.ncols()) == (value.nrows(), value.ncols())
-    if isinstance(value, tuple):
-        return isinstance(other, tuple)
-    return isinstance(other, Vector) if isinstance(value, Vector) else _plain(other)
-
-
-def _equal(one: Any, two: Any) -> bool:
-    try:
-        return bool(one == two)
-    except UNDONE:
-        return False
-
-
-def _hashable(value: Any) -> Any:
-    return tuple(map(str, value.entries())) if is_matrix(value) else str(value)

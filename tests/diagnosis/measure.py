@@ -23,8 +23,11 @@ from rldrill.diagnosis import AT_THE_PROMPT
 from rldrill.problems.catalogue import selection
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Unreadable
+from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.explaining import MOST, explained
-from rldrill.solutions.diagnosis.search import Cause, Clock, Search, Typed
+from rldrill.solutions.diagnosis.search import Search
+from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.solution import Solution
 

@@ -1,0 +1,185 @@
+"""What may come out of one application of a formula instead of its value."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from flint import fmpq
+from sympy import Expr
+
+from rldrill.solutions.diagnosis import weights
+from rldrill.solutions.diagnosis.arithmetic import slips
+from rldrill.solutions.diagnosis.causes import Cause
+from rldrill.solutions.diagnosis.replay import UNDONE, Application
+from rldrill.solutions.diagnosis.typed import approximate
+from rldrill.solutions.exact import is_rational
+from rldrill.solutions.formula.compiling import value_of
+from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
+from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.vector import Vector
+
+#: A place whose quantity has more values than this elsewhere is not tried with all of them.
+_ELSEWHERE = 12
+#: A sum of more terms than this is not edited term by term.
+TERMS = 8
+#: What is likely has at least this weight.
+LIKELY = 1.5
+
+
+def at_one(application: Application) -> Iterator[Cause]:
+    """What can be done at one application, with the value that comes out."""
+    formula, right, known, value = application.formula, application.right, application.known, application.value
+    base = Cause("", 0.0, application, formula, was=value)
+    for kind, other in slips(value):
+        yield replace(base, kind=kind, weight=weights.VALUES[kind], became=other)
+    if (old := application.old()) is not None and same_form(old, value):
+        yield replace(base, kind="kept", weight=weights.VALUES["kept"], became=old)
+        yield from _repeated(application, base)
+    if application.equation:
+        return
+    for edit in edits(right):
+        weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+        if edit.kind in IN_ONE_TERM:
+            pass
+        elif (other := value_or_none(edit.right, known)) is not None and same_form(other, value):
+            yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
+        if edit.once is not None:
+            for term, at in list(terms(edit.within, known))[:TERMS]:
+                other = value_or_none(edit.once, {**known, **at})
+                if other is not None and same_form(other, value):
+                    in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
+                    yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
+    for probe in probes(right):
+        for cause, letters in at_place(application, probe):
+            other = value_or_none(probe.right, {**known, **letters})
+            if other is not None and same_form(other, value):
+                yield replace(cause, became=other)
+
+
+def _repeated(application: Application, base: Cause) -> Iterator[Cause]:
+    """The same update once more, from the value that it gave."""
+    left, known = application.formula.left, application.known
+    try:
+        arguments = tuple(value_of(argument, known) for argument in left.args)
+    except UNDONE:
+        return
+    key = arguments[0] if len(arguments) == 1 else arguments
+    again = {**known, left.func.code: {**known[left.func.code], key: application.value}}
+    if (other := value_or_none(application.right, again)) is not None:
+        yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
+
+
+def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:
+    """What another value of one place in a formula could be."""
+    known = application.known
+    every = list(terms(probe.within, known)) if probe.within else [((), {})]
+    for term, at in every:
+        here = {**known, **dict(zip((over.index.name for over in probe.within), term, strict=True))}
+        was = value_or_none(probe.part, here)
+        if was is None or is_matrix(was) or isinstance(was, Vector) or not hasattr(was, "__add__"):
+            continue
+        for kind, other in _others(probe.part, was, here):
+            weight = weights.INSIDE[kind] * (weights.IN_ONE_TERM if len(every) > 1 else 1)
+            cause = Cause(kind, weight, application, application.formula, probe=probe, term=term, was=was, other=other)
+            yield cause, {**at, SCALE.name: fmpq(0), SHIFT.name: other}
+
+
+def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    leaf = isinstance(part, Quantity) or part.is_Symbol
+    if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
+        yield "crosswise", crosswise
+    for kind, other in slips(was):
+        lost = kind == "sign" and leaf and is_rational(was) and was < 0
+        yield "minus-lost" if lost else kind, other
+    if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
+        elsewhere = _distinct(known[part.code].values())
+        if len(elsewhere) <= _ELSEWHERE:
+            yield from (("elsewhere", other) for other in elsewhere if other != was)
+    if leaf:
+        scalars = _distinct(known.values())
+        yield from (("elsewhere", other) for other in scalars if other != was)
+
+
+def likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:
+    """The likeliest other values of an application in a changed working."""
+    for kind, other in slips(value):
+        if (weight := weights.VALUES[kind]) >= LIKELY:
+            yield kind, weight, None, other
+    for edit in edits(right):
+        weight = weights.IDEAS[edit.kind] * weights.AT_ONE
+        if weight >= LIKELY and edit.kind not in IN_ONE_TERM:
+            other = value_or_none(edit.right, known)
+            if other is not None and plain(other) and other != value:
+                yield edit.kind, weight, edit, other
+
+
+def _crosswise(part: Expr, known: Mapping[str, Any]) -> fmpq | None:
+    """Two fractions added top to top and bottom to bottom."""
+    one, two = (value_or_none(term, known) for term in part.args)
+    if not is_rational(one) or not is_rational(two) or 1 in (one.q, two.q) or one.q == two.q:
+        return None
+    return fmpq(one.p + two.p, one.q + two.q)
+
+
+def value_or_none(right: Expr, known: Mapping[str, Any]) -> Any:
+    """What an expression is worth; None where it has no value."""
+    try:
+        return value_of(right, known)
+    except UNDONE:
+        return None
+
+
+def terms(within: Sequence[Over], known: Mapping[str, Any]) -> Iterator[tuple[tuple[Any, ...], dict[str, Any]]]:
+    """The terms of sums in one another: the values of their letters, and what says so to an edit."""
+    found: list[tuple[Any, ...]] = [()]
+    names = [over.index.name for over in within]
+    try:
+        for depth, over in enumerate(within):
+            found = [
+                (*term, item)
+                for term in found
+                for item in value_of(over.domain, {**known, **dict(zip(names[:depth], term, strict=True))})
+            ]
+    except UNDONE:
+        return
+    for term in found:
+        yield term, {element(depth): item for depth, item in enumerate(term)}
+
+
+def likely_there(edit: Edit, term: tuple[Any, ...], known: Mapping[str, Any]) -> float:
+    """How likely an edit is for these values: 1 − x is taken for a share of 1."""
+    if edit.kind != "complement-of-value" or len(term) != len(edit.within):
+        return 1.0
+    here = {over.index.name: item for over, item in zip(edit.within, term, strict=True)}
+    share = approximate(value_or_none(edit.part, {**known, **here}))
+    return 1.0 if 0 < share < 1 else weights.NO_SHARE
+
+
+def plain(value: Any) -> bool:
+    """Whether a value is one number, of any form."""
+    return is_rational(value) or (
+        not isinstance(value, str | int | tuple | Mapping | Vector)
+        and not is_matrix(value)
+        and hasattr(value, "__add__")
+    )
+
+
+def _distinct(values: Iterable[Any]) -> list[Any]:
+    """The numbers among some values, each once."""
+    return list({str(value): value for value in values if plain(value)}.values())
+
+
+def same_form(other: Any, value: Any) -> bool:
+    """Whether one value can stand for another: numbers, vectors, matrices of a shape."""
+    if is_matrix(value):
+        return is_matrix(other) and (other.nrows(), other.ncols()) == (value.nrows(), value.ncols())
+    if isinstance(value, tuple):
+        return isinstance(other, tuple)
+    return isinstance(other, Vector) if isinstance(value, Vector) else plain(other)
+
+
+def hashable(value: Any) -> Any:
+    """A value as a key of a dictionary."""
+    return tuple(map(str, value.entries())) if is_matrix(value) else str(value)

@@ -1,0 +1,54 @@
+"""What somebody may have done, and what comes of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rldrill.solutions.diagnosis.replay import Application
+from rldrill.solutions.formula.edits import Edit, Probe
+from rldrill.solutions.formula.formula import Formula, Misconception
+
+
+@dataclass(frozen=True, eq=False)
+class Cause:
+    """One way to err, at one place or everywhere.
+
+    Args:
+        kind: what was done, a name.
+        weight: how likely it is.
+        application: where it was done; None where it was done all along.
+        formula: the formula that it was done to, if any.
+        edit: how that was edited, if it was.
+        probe: the place in it whose value is another one, if there is one.
+        term: the term of a sum that it was done in alone, its letters' values.
+        nth: the number of that term, from 0, where it was done in every sum.
+        was: the value that was right, of the place in the formula if there is one, else of the application.
+        other: the value that was put in for it.
+        became: the value that came out of the application.
+        what: of what else is said what it was.
+        mistake: the listed mistake that it is, if it is one.
+        then: what was done besides.
+    """
+
+    kind: str
+    weight: float
+    application: Application | None = None
+    formula: Formula | None = None
+    edit: Edit | None = None
+    probe: Probe | None = None
+    term: tuple[Any, ...] = ()
+    was: Any = None
+    other: Any = None
+    became: Any = None
+    what: str = ""
+    nth: int | None = None
+    mistake: Misconception | None = None
+    then: "Cause | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A cause, and the answers that it leads to."""
+
+    cause: Cause
+    answers: Mapping[str, Any]
