@@ -81,7 +81,7 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
     names = ("mean", "mean_bar", "covariance", "covariance_bar", "moved", "read", "Ct", "Kt")
     fixed |= {name: Anything(matrix) for name in names} | {"identity": fmpq_mat(2, 2, [1, 0, 0, 1])}
     fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
-    fixed |= {"components": (1, 2), "tasks": (1, 2)}
+    fixed |= {"components": (1, 2), "tasks": (1, 2), "pi": Anything(lambda _: abs(number()) + 1)}
     return {
         code: fixed[code] if code in fixed else _value(expression, code, number, matrix) for code in needs(expression)
     }

@@ -15,8 +15,9 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.formula.notation import Counting, IntegralOver, S, SampleMean, T, n, t
-from rldrill.solutions.formula.putting_in import put_in
+from rldrill.solutions.formula.putting_in import put_in, reduced
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
+from rldrill.solutions.knowns import Sparse
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BIC, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
@@ -54,7 +55,7 @@ def test_the_step_of_the_design_document() -> None:
         "S": {0: "cool", 1: "warm"}, "V": {"cool": fmpq(2), "warm": fmpq(4)}, "r": {1: fmpq(-1)},
         "t": 0, "alpha": fmpq(1, 2), "gamma": fmpq(9, 10),
     }  # fmt: skip
-    assert unicode(typeset(put_in(TD_ZERO.right, known))) == "2 + 1/2·((−1) + 9/10·4 − 2)"
+    assert unicode(typeset(put_in(TD_ZERO.right, known))) == "2 + 1/2·(−1 + 9/10·4 − 2)"
 
 
 def test_factorials_expectations_integrals_and_roots_are_written() -> None:
@@ -68,7 +69,7 @@ def test_factorials_expectations_integrals_and_roots_are_written() -> None:
 
 def test_a_negative_logarithm_that_is_put_in_has_brackets() -> None:
     known = {"M": "x", "log_likelihood": -log(4), "free": fmpq(1), "n": fmpq(8)}
-    assert unicode(typeset(put_in(BIC.right, known))) == "−2·(−ln 4) + ln 8"
+    assert unicode(typeset(put_in(BIC.right, known))) == "−2·(−ln 4) + 1·ln 8"
 
 
 def test_a_1_that_multiplies_a_matrix_is_left_out() -> None:
@@ -77,7 +78,7 @@ def test_a_1_that_multiplies_a_matrix_is_left_out() -> None:
     assert unicode(typeset(put_in(KALMAN_MOVE_COVARIANCE.right, known))) == "2 + 1"
 
 
-def test_zero_terms_are_dropped_and_unknowns_stay() -> None:
+def test_zeros_that_are_given_keep_their_places_and_what_is_not_there_leaves_none() -> None:
     known = {
         "s": "cool", "gamma": fmpq(1, 2), "actions": {"cool": ("slow", "fast")},
         "successors": {("cool", "slow"): ("cool",), ("cool", "fast"): ("warm",)},
@@ -85,7 +86,11 @@ def test_zero_terms_are_dropped_and_unknowns_stay() -> None:
         "P": {("cool", "slow", "cool"): fmpq(1), ("cool", "fast", "warm"): fmpq(1)},
         "R": {("cool", "slow", "cool"): fmpq(3), ("cool", "fast", "warm"): fmpq(5)},
     }  # fmt: skip
-    assert unicode(typeset(put_in(BELLMAN_V.right, known))) == "3 + 1/2·V^π(cool)"
+    slow = "1·1·(3 + 1/2·V^π(cool))"
+    assert unicode(typeset(put_in(BELLMAN_V.right, known))) == f"{slow} + 0·1·(5 + 1/2·V^π(warm))"
+    never = known | {"pi": Sparse({("slow", "cool"): fmpq(1)})}
+    assert unicode(typeset(put_in(BELLMAN_V.right, never))) == slow
+    assert unicode(typeset(reduced(put_in(BELLMAN_V.right, known)))) == "3 + 1/2·V^π(cool)"
 
 
 def test_a_formula_with_two_cases() -> None:
@@ -163,7 +168,11 @@ def test_a_maximum_over_one_action_and_a_negative_number_alone_stand_bare() -> N
     fails = {"s": "cool", "V": {"cool": fmpq(-2)}, "pi1": {"cool": "fast"}}
     work.step(POLICY_IMPROVEMENT_THEOREM, sign="<", **fails)
     lines = [" ".join(unicode_text(line.equation()).split()) for line in work.lines if isinstance(line, Step)]
-    assert lines == ["Q*(cool, fast) = 3 + 1/2·(−4) = 1", "‖V − V′‖_∞ = |1 − 4| = 3", "Q^π(cool, fast) < −2"]
+    assert lines == [
+        "Q*(cool, fast) = 1·(3 + 1/2·(−4)) = 3 + 1/2·(−4) = 1",
+        "‖V − V′‖_∞ = |1 − 4| = 3",
+        "Q^π(cool, fast) < −2",
+    ]
 
 
 #: As a lecturer writes them: the constant first, one line of fraction, no minus in front of what stands above a line.
