@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 from rldrill.commands import verify as verify_command
 from rldrill.grading.answers_file import read_answers
 from rldrill.grading.verification import MarkedPart, Report, Score, verify
+from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError, NothingToGrade
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -308,14 +309,16 @@ def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> No
 
 
 def test_an_id_may_be_typed_with_or_without_its_revision(folder: Path) -> None:
-    (row,) = judged(folder, '"td-zero/1/7@1" = {a = "1"}')
-    assert row.problem == "td-zero/1/7@1"
-    assert judged(folder, '"td-zero/1/7" = {a = "1"}')[0].problem == "td-zero/1/7@1"
+    (row,) = judged(folder, f'"{NOW}" = {{a = "1"}}')
+    assert row.problem == NOW
+    assert judged(folder, '"td-zero/1/7" = {a = "1"}')[0].problem == NOW
 
 
 # --- faults -----------------------------------------------------------------------------------------------
 
 HEAD = "student,problem,part,answer\n"
+#: An ID with the revision of this release.
+NOW = f"td-zero/1/7@{family('td-zero').revision}"
 FAULTY = [
     ("a.toml", 'td-zero/1/7 = "1"', "Problem IDs stand in quotes"),
     ("a.toml", '[td-zero/1/7]\na = "1"', "Problem IDs stand in quotes"),
@@ -328,7 +331,7 @@ FAULTY = [
     ("a.toml", '"td.toml" = {b = 1}', "there is no part 'b'; td.toml has a."),
     ("a.toml", '"return.toml" = 1', "the part is missing; return.toml has a, b."),
     ("a.toml", '"return.toml" = {a = 1, A = 2}', "return.toml (a) is answered twice"),
-    ("a.toml", '"td-zero/1/7" = "1"\n"td-zero/1/7@1" = "2"', "td-zero/1/7@1 (a) is answered twice"),
+    ("a.toml", f'"td-zero/1/7" = "1"\n"{NOW}" = "2"', f"{NOW} (a) is answered twice"),
     ("a.toml", '"td-zero/1/7@99" = "1"', "is of revision 99"),
     ("a.toml", '"td-zeri/1/7" = "1"', "There is no family 'td-zeri'"),
     ("a.toml", '"none.toml" = "1"', "none.toml: there is no such file"),
@@ -351,7 +354,7 @@ FAULTY = [
     ("a.csv", HEAD + "Ann,return.toml,,1\n", "line 2: the part is missing"),
     ("a.csv", HEAD + "Ann,,a,1\n", "line 2: '' is neither a problem ID"),
     ("a.csv", HEAD + "Ann,td-zero/4/7,a,1\n", "line 2: 'td-zero/4/7' is neither a problem ID"),
-    ("a.csv", HEAD + "Ann,td-zero/1/7@2,a,1\n", "line 2: td-zero/1/7@2 is of revision 2"),
+    ("a.csv", HEAD + "Ann,td-zero/1/7@98,a,1\n", "line 2: td-zero/1/7@98 is of revision 98"),
     ("a.csv", HEAD + "Ann,none.json,a,1\n", "line 2: "),
     ("a.csv", HEAD + "\x1b[31mAnn,td.toml,a,1\n", "'student' holds a character that cannot be printed"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
