@@ -29,9 +29,10 @@ MAY_IMPORT = {
     "exam": {"problems", "solutions", "library"},
     "print": {"problems", "solutions", "library", "render", "exam"},
     "grading": {"problems", "solutions", "library"},
-    "quiz": {"problems", "solutions", "library", "render", "exam"},
+    "history": {"problems"},
+    "quiz": {"problems", "solutions", "library", "render", "exam", "history"},
     "audit": {"problems", "solutions", "exam"},
-    "commands": {"problems", "library", "render", "exam", "print", "grading", "quiz", "audit"},
+    "commands": {"problems", "library", "render", "exam", "print", "grading", "history", "quiz", "audit"},
 }
 
 

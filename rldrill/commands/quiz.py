@@ -1,12 +1,22 @@
 """``rldrill quiz``."""
 
-from typing import Annotated
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from itertools import islice
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rldrill.commands.arguments import Level, Seed, complete_ids, complete_names
 
+if TYPE_CHECKING:
+    from rldrill.history.attempts import Attempt
+    from rldrill.quiz.planning import Plan
+
 NAME = "quiz"
+_NUMBER, _MOST = 10, 1000
+#: About so many minutes are expected for a problem, where only the time is given.
+_MINUTES_EACH = 3
 
 
 def _complete(incomplete: str) -> list[str]:
@@ -19,16 +29,28 @@ def command(
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=_complete,
-            help="Topics, families, problem IDs or problem files; all families, if none.",
+            help="Topics, families, problem IDs or problem files; what your history says, if none.",
         ),
     ] = None,
-    number: Annotated[int, typer.Option("--number", "-n", min=1, max=1000, help="How many problems.")] = 10,
+    number: Annotated[
+        int | None,
+        typer.Option("--number", "-n", min=1, max=_MOST, help=f"How many problems; {_NUMBER}, if not given."),
+    ] = None,
     level: Level = None,
     seed: Seed = None,
+    exam_date: Annotated[
+        datetime | None,
+        typer.Option(formats=["%Y-%m-%d"], metavar="YYYY-MM-DD", help="See everything again before this day."),
+    ] = None,
+    minutes: Annotated[
+        int | None, typer.Option("--minutes", "-m", min=1, max=600, help="End after so many minutes.")
+    ] = None,
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 
-    Examples: rldrill quiz · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
+    Without names, a level or a seed your history chooses: what is due for review, and something new.
+
+    Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
     """
     from rldrill.problems.errors import UsageError
     from rldrill.quiz.prompt import is_interactive, line_editor
@@ -38,12 +60,46 @@ def command(
             "The quiz needs a terminal; without one use 'rldrill verify FILE' to grade answers, "
             "'rldrill worksheet' to print problems or 'rldrill generate' to get them as data."
         )
-    from rldrill.exam.selection import announced_seed
-    from rldrill.quiz.questions import questions
+    from rldrill.history.keeping import Keeper
+
+    keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
+    wanted = list(names or ())
+    plan = None
+    if exam_date is not None or not (wanted or level or seed is not None):
+        if level or seed is not None:
+            raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
+        plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
+        typer.echo(plan.says())  # before the libraries that take a while
+    from rldrill.exam.selection import announced_seed, fresh_seed
+    from rldrill.quiz.questions import planned, questions, timed
+    from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
     from rldrill.render.terminal import console
 
-    exercises, total = questions(tuple(names or ()), number, level, lambda: announced_seed(seed))
-    if not Screen(console(), line_editor()).run(exercises, Session(total)):
+    recorder = Recorder(keeper.keep)
+    total = number or (_MOST if minutes else _NUMBER)
+    if plan is None:
+        exercises, total = questions(wanted, total, level, lambda: announced_seed(seed))
+    else:
+        exercises = islice(planned(plan, recorder, utc_now, fresh_seed), total)
+    if minutes:
+        exercises = timed(exercises, minutes, recorder)
+    again = (
+        "rldrill quiz" if exam_date is None else " ".join(["rldrill quiz", *wanted, f"--exam-date {exam_date.date()}"])
+    )
+    session = Session(total if number or not minutes else None, minutes=minutes, again=again)
+    if not Screen(console(), line_editor(), recorder).run(exercises, session):
         raise typer.Exit(130)
+
+
+def _expected(minutes: int | None) -> int:
+    return _NUMBER if minutes is None else max(1, minutes // _MINUTES_EACH)
+
+
+def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan":
+    from rldrill.problems.catalogue import selection
+    from rldrill.quiz.planning import Plan, skills
+
+    families = [family.name for family in selection(names)] if names else None
+    return Plan(skills(families), attempts, number, datetime.now(UTC), exam_date and exam_date.date())

@@ -1,6 +1,7 @@
-"""Which exercises a quiz asks: the problems named, or draws from what is selected."""
+"""Which exercises a quiz asks: the problems named, draws from what is selected, or what is planned."""
 
 from collections.abc import Callable, Iterator, Sequence
+from datetime import datetime
 from itertools import islice
 from pathlib import Path
 
@@ -8,6 +9,8 @@ from rldrill.exam.selection import sequence
 from rldrill.exercise import Exercise, draw, load
 from rldrill.problems.catalogue import selection
 from rldrill.problems.identity import looks_like_id
+from rldrill.quiz.planning import Plan
+from rldrill.quiz.recording import Recorder
 
 
 def questions(
@@ -18,7 +21,7 @@ def questions(
     Raises:
         UsageError: a name is neither a topic, a family, an ID nor a file.
     """
-    named = [name for name in names if looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")]
+    named = [name for name in names if is_problem(name)]
     if named and len(named) == len(names):
         return iter([load(name) for name in named]), len(named)
     rest = [name for name in names if name not in named]
@@ -28,6 +31,25 @@ def questions(
     return _both(first, islice(drawn, max(0, number - len(first)))), max(number, len(first))
 
 
+def is_problem(name: str) -> bool:
+    """Whether a name is that of one problem: an ID or a file."""
+    return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")
+
+
 def _both(first: list[Exercise], drawn: Iterator[Exercise]) -> Iterator[Exercise]:
     yield from first
     yield from drawn
+
+
+def planned(plan: Plan, recorder: Recorder, now: Callable[[], datetime], seed: Callable[[], int]) -> Iterator[Exercise]:
+    """What the plan asks, each a fresh variant, chosen when the one before is answered; without end."""
+    while True:
+        plan.learn(recorder.attempts)
+        skill = plan.next(now())
+        yield draw(skill.family, skill.level, seed())
+
+
+def timed(exercises: Iterator[Exercise], minutes: float, recorder: Recorder) -> Iterator[Exercise]:
+    """The exercises that are begun within so many minutes."""
+    while recorder.elapsed < 60 * minutes and (exercise := next(exercises, None)) is not None:
+        yield exercise

@@ -1,34 +1,28 @@
 """The quiz in the terminal: one problem after the other, part by part."""
 
+import re
 from collections.abc import Iterable
 from enum import Enum
 
-from rich.console import Console, RenderableType
+from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.identity import MAX_SEED
-from rldrill.problems.parts import Kind, Matrix, Numbers, Policy, Values
+from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
+from rldrill.quiz.ending import ending
+from rldrill.quiz.hints import ladder
+from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
 from rldrill.quiz.prompt import Ask
+from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.render.terminal import asked, render, renderable, table, words
+from rldrill.quiz.shapes import how_to_type
+from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
-from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import RULE
 
-KEYS = "h hint · w working · s skip · r restart · v variant · q quit · ? help"
-HELP = (
-    ("h", "hint: the formula that is needed, then what it means"),
-    ("w", "working: show how this part is solved, and go on"),
-    ("m", "my working: type your own, line by line, to see where it goes wrong"),
-    ("s", "skip this part"),
-    ("r", "restart: begin this problem again from its first part"),
-    ("v", "variant: another problem of the same kind"),
-    ("q", "quit, with a summary (Ctrl-C and Ctrl-D do the same)"),
-    ("?", "this help"),
-)
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
 _STYLES = {
     Outcome.RIGHT: "green",
@@ -54,6 +48,8 @@ _STANDINGS = {
     "miscalculated": ("✗", "red"),
     "unread": ("?", "yellow"),
 }
+#: The names of places that nobody types.
+_PLACES = re.compile(r"(?:row \d+, column \d+|entry \d+): ")
 
 
 class Then(Enum):
@@ -68,10 +64,12 @@ class Then(Enum):
 class Screen:
     """Runs a quiz on a console, asking through ``ask``."""
 
-    def __init__(self, console: Console, ask: Ask) -> None:
+    def __init__(self, console: Console, ask: Ask, recorder: Recorder | None = None) -> None:
         self._console = console
         self._ask = ask
+        self._recorder = recorder or Recorder()
         self._pasted: list[str] = []
+        self._keys = KEYS
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -93,40 +91,48 @@ class Screen:
         return True
 
     def _problem(self, exercise: Exercise, number: int, session: Session) -> Then:
+        record = Record.of(exercise)
         while True:
-            record = Record.of(exercise)
             session.records.append(record)
-            self._header(exercise, number, session.total)
-            self._print(render(exercise.question()))
-            for note in exercise.notes:
-                self._print(Text(f"({note})", style="dim"))
+            self._header(record.exercise, number, session)
+            self._question(record.exercise)
             then = self._parts(record)
             if then is Then.NEXT:
                 then = self._after(record)
             if then in (Then.NEXT, Then.QUIT):
                 return then
-            if not record.begun:
+            if then is Then.RESTART or not record.begun:
                 session.records.remove(record)
-            if then is Then.VARIANT:
-                exercise = variant(exercise)
+            record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
-    def _header(self, exercise: Exercise, number: int, total: int) -> None:
+    def _header(self, exercise: Exercise, number: int, session: Session) -> None:
         family = exercise.problem.family
-        done = "━" * number + "─" * (total - number) if total <= 40 else ""
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
         self._print()
-        line = Text(f"Problem {number} of {total}", style="bold")
-        line.append(f"  {done}  ", style="cyan").append(f"{family.title}{level}")
-        self._print(line)
-        self._print(Text(f"{exercise.id or 'your own problem'} · answers: {RULE}", style="dim"))
+        line = Text(f"Problem {number}", style="bold")
+        if session.total is not None:
+            done = "━" * number + "─" * (session.total - number) if session.total <= 40 else ""
+            line.append(f" of {session.total}").append(f"  {done}", style="cyan")
+        elif session.minutes is not None:
+            line.append(f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}")
+        self._print(line.append(f"  {family.title}{level}"))
+        self._print(Text(exercise.id or "your own problem", style="dim"))
         self._print()
+
+    def _question(self, exercise: Exercise) -> None:
+        self._print(render(exercise.question()))
+        for note in exercise.notes:
+            self._print(Text(f"({note})", style="dim"))
 
     def _parts(self, record: Record) -> Then:
         only = len(record.parts) == 1
         for part in record.parts:
             self._print(asked(part.part, only=only))
-            self._print(words((f"  {answer_kind(part.part.kind).how_to_type()}", "dim")))
-            self._print(words((f"  {KEYS}", "dim")))
+            shape = how_to_type(part.part.kind, record.exercise.problem.parameters)
+            self._print(words((f"  {shape}", "dim")))
+            self._print(words((f"  {self._keys}", "dim")))
+            self._keys = SHORT_KEYS
+            self._recorder.asked()
             record.exercise.diagnosing.begin()
             then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
             if then is not Then.NEXT:
@@ -153,64 +159,102 @@ class Screen:
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
         while part.state is State.OPEN:
             text = self._typed(prompt, part.part.kind).strip()
-            match text.lower():
+            match command(text, record.exercise, part.part.kind):
                 case "":
                     self._print(Text("  Type an answer, or ? for help.", style="dim"))
-                case "q" | ":q":
+                case "q":
                     return Then.QUIT
-                case "r" | ":r":
+                case "r":
                     return Then.RESTART
-                case "v" | ":v":
+                case "v":
                     return Then.VARIANT
-                case "?" | ":?" | "help":
+                case "?":
                     self._help()
-                case "h" | ":h":
+                case "p":
+                    self._question(record.exercise)
+                    self._print(asked(part.part, only=len(record.parts) == 1))
+                case "h":
                     self._hint(record, part)
-                case "m" | ":m":
+                case "m":
                     self._own_working(record)
-                case "s" | ":s":
+                case "s":
                     part.state = State.SKIPPED
-                case "w" | ":w":
+                    self._recorder.ended(record, part)
+                    self._answer(record, part)
+                case "w":
                     part.state = State.SHOWN
+                    self._recorder.ended(record, part)
                     self._working(record, part)
                 case _:
-                    verdict = record.answer(part, text).verdict
-                    if verdict is not None:
-                        self._verdict(verdict, record, part)
+                    self._judged(record, part, text)
         self._print()
         return Then.NEXT
 
+    def _judged(self, record: Record, part: PartRecord, text: str) -> None:
+        verdict = record.answer(part, text).verdict
+        if verdict is None:
+            return
+        if verdict.outcome is not Outcome.UNREADABLE:
+            self._recorder.ended(record, part)
+        self._verdict(verdict, record, part)
+        if part.state is State.DONE:
+            self._print(Text(f"  {_how(part)}", style="dim"))
+        if part.state is not State.OPEN and isinstance(part.part.kind, YesNo | Choice):
+            self._working(record, part)
+
     def _after(self, record: Record) -> Then:
-        text = self._line("Enter next · w working · v variant · r again · q quit > ").strip().lower()
-        if text == "w":
-            self._print(render(record.exercise.working()))
-            return self._after(record)
-        return {"v": Then.VARIANT, "r": Then.RESTART, "q": Then.QUIT}.get(text, Then.NEXT)
+        prompt = "Enter next · p problem · w working · v variant · r again · q quit > "
+        while True:
+            text = self._line(prompt).strip()
+            match COMMANDS.get(text.lower().removeprefix(":"), text):
+                case "" | "next" | "n":
+                    return Then.NEXT
+                case "p":
+                    self._question(record.exercise)
+                case "w":
+                    self._print(render(record.exercise.working()))
+                case "v":
+                    return Then.VARIANT
+                case "r":
+                    return Then.RESTART
+                case "q":
+                    return Then.QUIT
+                case _:
+                    self._print(words(("  All parts of this problem are done, so that was not judged: ", "dim"), text))
 
     def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
         diagnosis = record.diagnosis(part)
         explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
-        read = f"  (read as {verdict.read})" if verdict.read else ""
+        read = _read_otherwise(verdict, part)
         self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
             self._print(Text("  Your answer comes from this:", style="dim"))
             self._indented(renderable(diagnosis.wrong))
             self._print(Text("  The formula is:", style="dim"))
             self._indented(renderable(diagnosis.right))
-        if not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE and part.tries == 1:
+        counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
+        if counted and part.tries == 1 and part.state is State.OPEN:
             self._print(Text(f"  {_OR_ELSE}", style="dim"))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
-        blocks = record.exercise.hint(part.part.label)
-        equations, sentences = blocks[::2], blocks[1::2]
-        # The first hint is the formula; asked again, the hint says what to do with it.
-        self._indented(render(sentences if part.hinted else equations))
-        part.hinted = True
+        rungs = ladder(record.exercise, part.part.label)
+        if part.hints >= len(rungs):
+            self._print(Text("  That was the whole working; what it ends in is the answer.", style="dim"))
+            return
+        rung = rungs[part.hints]
+        part.hints += 1
+        self._print(Text(f"  Hint {part.hints} of {len(rungs)}: {rung.says}", style="dim"))
+        self._indented(Group(*map(renderable, rung.blocks)))
+        if part.hints == len(rungs):
+            self._print(Text("  That is the whole working.", style="dim"))
 
     def _working(self, record: Record, part: PartRecord) -> None:
         self._indented(render(record.exercise.working(part.part.label)))
+        self._answer(record, part)
+
+    def _answer(self, record: Record, part: PartRecord) -> None:
         self._print(Text("  The answer:", style="dim"))
         self._indented(renderable(record.exercise.answer(part.part)))
 
@@ -236,7 +280,7 @@ class Screen:
         for key, meaning in HELP:
             grid.add_row(Text(f"  {key}", style="bold"), Text(meaning))
         self._print(grid)
-        self._print(Text(f"  Right is {RULE}.", style="dim"))
+        self._print(Text(f"  Right is {RULE}. {COUNTS}", style="dim"))
 
     def summary(self, session: Session) -> None:
         """Print what was answered, and how."""
@@ -244,22 +288,8 @@ class Screen:
         if not parts:
             self._print("Nothing was answered. Come back soon.")
             return
-        rows = [
-            (
-                record.exercise.id or record.exercise.problem.family.name,
-                part.part.label,
-                str(part.tries),
-                _result(part),
-                f"{float(part.points):g} of {part.part.points}",
-            )
-            for record in session.records
-            if record.begun
-            for part in record.parts
-        ]
-        self._print(table(("Problem", "Part", "Tries", "Result", "Points"), rows, right=("Tries", "Points")))
-        right = sum(part.state is State.DONE for part in parts)
-        first = sum(part.first_time for part in parts)
-        self._print(Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold"))
+        for line in ending(session, self._recorder.elapsed):
+            self._print(line)
 
     def _indented(self, content: RenderableType) -> None:
         self._print(Padding(content, (0, 0, 0, 2), expand=False))
@@ -268,11 +298,22 @@ class Screen:
         self._console.print(content)
 
 
-def _result(part: PartRecord) -> str:
-    if part.state is State.OPEN:
-        outcome = part.answers[-1].outcome if part.answers else None
-        return "not answered" if outcome is None else outcome.value
-    return part.state.value + (", with a hint" if part.hinted else "")
+def _how(part: PartRecord) -> str:
+    """How a right answer came about, and what it counts."""
+    if part.first_time:
+        return "At the first try."
+    with_hints = {0: "", 1: ", with a hint"}.get(part.hints, f", with {part.hints} hints")
+    return f"At try {part.tries}{with_hints}: counts {part.share}."
+
+
+def _read_otherwise(verdict: Verdict, part: PartRecord) -> str:
+    """How an answer was read, where that is not how it was typed."""
+    read = _PLACES.sub("", verdict.read)
+    return f"  (read as {read})" if read and _signs(read) != _signs(part.answers[-1].typed) else ""
+
+
+def _signs(text: str) -> str:
+    return re.sub(r"[\s,;:\[\]()=]", "", text.lower()).replace("−", "-")
 
 
 def variant(exercise: Exercise) -> Exercise:

@@ -1,5 +1,6 @@
 """What happened in a quiz, part by part: plain data, without a clock or a terminal."""
 
+import secrets
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -8,8 +9,11 @@ from itertools import takewhile
 from rldrill.diagnosis import AT_THE_PROMPT, Diagnosis
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Part, YesNo
 from rldrill.solutions.answers.judging import Outcome
+
+#: What a wrong answer before, or a hint, takes from what the right answer earns, and what it leaves at least.
+COSTS, LEAVES = Fraction(1, 4), Fraction(1, 4)
 
 
 class State(Enum):
@@ -17,18 +21,24 @@ class State(Enum):
 
     OPEN = "open"
     DONE = "right"
+    MISSED = "wrong"
     SKIPPED = "skipped"
     SHOWN = "working shown"
 
 
 @dataclass
 class PartRecord:
-    """One part: what was tried, and how it ended."""
+    """One part: what was tried, and how it ended.
+
+    ``before`` counts the tries before the problem was begun again; ``given_up`` says that its answer was seen then.
+    """
 
     part: Part
     state: State = State.OPEN
     answers: list[GradedPart] = field(default_factory=list)
-    hinted: bool = False
+    hints: int = 0
+    before: int = 0
+    given_up: bool = False
 
     @property
     def counted(self) -> list[GradedPart]:
@@ -38,44 +48,68 @@ class PartRecord:
     @property
     def tries(self) -> int:
         """How many answers counted."""
-        return len(self.counted)
+        return self.before + len(self.counted)
+
+    @property
+    def begun(self) -> bool:
+        """Whether anything was answered, skipped or looked up."""
+        return self.state is not State.OPEN or bool(self.answers)
 
     @property
     def first_time(self) -> bool:
         """Whether it was right at the first try and without a hint."""
-        return self.state is State.DONE and self.tries == 1 and not self.hinted
+        return self.state is State.DONE and self.tries == 1 and not self.hints and not self.given_up
+
+    @property
+    def share(self) -> Fraction:
+        """What an answer counts: a quarter less for each wrong one before and for each hint, but at least a quarter."""
+        if self.given_up or self.state in (State.SKIPPED, State.SHOWN):
+            return Fraction(0)
+        return max(LEAVES, 1 - COSTS * (max(0, self.tries - 1) + self.hints))
 
     @property
     def points(self) -> Fraction:
         """The points earned: of the answer that was given last."""
-        return self.counted[-1].points if self.tries else Fraction(0)
+        return self.counted[-1].points * self.share if self.counted else Fraction(0)
+
+    def again(self) -> "PartRecord":
+        """The part from its beginning; what was tried and seen is not forgotten."""
+        seen = self.given_up or self.state not in (State.OPEN, State.DONE)
+        return PartRecord(self.part, hints=self.hints, before=self.tries, given_up=seen)
 
 
 @dataclass
 class Record:
-    """One problem of a session."""
+    """One problem of a session; ``sitting`` is its name in the history."""
 
     exercise: Exercise
     parts: list[PartRecord]
+    sitting: str = field(default_factory=lambda: secrets.token_hex(8))
 
     @classmethod
     def of(cls, exercise: Exercise) -> "Record":
         """A fresh record of an exercise."""
         return cls(exercise, [PartRecord(part) for part in exercise.parts])
 
+    def again(self) -> "Record":
+        """The problem from its beginning."""
+        return Record(self.exercise, [part.again() for part in self.parts], self.sitting)
+
     @property
     def begun(self) -> bool:
-        """Whether anything was answered, skipped or looked up."""
-        return any(record.state is not State.OPEN or record.answers for record in self.parts)
+        """Whether anything was answered, skipped or looked up, now or before the problem was begun again."""
+        return any(part.begun or part.before or part.given_up for part in self.parts)
 
     def answer(self, current: PartRecord, text: str) -> GradedPart:
         """Grade an answer to a part, going on from what was answered last to the parts before, and keep it."""
         before = takewhile(lambda record: record is not current, self.parts)
-        texts = {record.part.label: record.counted[-1].typed for record in before if record.tries}
+        texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
         current.answers.append(graded)
         if graded.accepted:
             current.state = State.DONE
+        elif isinstance(current.part.kind, YesNo) and current.counted[-1:] == [graded]:
+            current.state = State.MISSED  # there is only one other answer
         return graded
 
     def diagnosis(self, current: PartRecord) -> Diagnosis | None:
@@ -90,10 +124,19 @@ class Record:
 
 @dataclass
 class Session:
-    """A whole quiz."""
+    """A whole quiz.
 
-    total: int
+    Args:
+        total: how many problems there will be; None if the time decides.
+        records: the problems so far.
+        minutes: how long it lasts, where the time decides.
+        again: the command for another day.
+    """
+
+    total: int | None
     records: list[Record] = field(default_factory=list)
+    minutes: int | None = None
+    again: str = "rldrill quiz"
 
     @property
     def parts(self) -> list[PartRecord]:

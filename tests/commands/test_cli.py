@@ -12,7 +12,9 @@ import pytest
 import rldrill
 
 ROOT = Path(__file__).parent.parent.parent
-COMMANDS = ("quiz", "worksheet", "verify", "solve", "show", "sheet", "list", "fields", "generate", "audit")
+COMMANDS = (
+    "quiz", "history", "worksheet", "verify", "solve", "show", "sheet", "list", "fields", "generate", "audit",
+)  # fmt: skip
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:

@@ -13,9 +13,10 @@ from rich.console import Console
 
 import rldrill
 from rldrill.problems.catalogue import family
+from rldrill.quiz.keys import HELP
 from rldrill.quiz.prompt import line_editor
 from rldrill.quiz.questions import questions
-from rldrill.quiz.screen import HELP, Screen
+from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session, State
 
 RACING_CAR = Path(__file__).parent.parent.parent / "examples" / "racing-car.toml"
@@ -87,7 +88,7 @@ def test_hint_first_the_formula_then_the_sentence() -> None:
     typist, session, _ = quiz("h", "h", "w")
     formula = typist.seen.index("maxₐ Σₛ′")
     assert formula < typist.seen.index("keep the greatest")
-    assert session.parts[0].hinted
+    assert session.parts[0].hints == 2
     assert session.parts[0].state is State.SHOWN
 
 

@@ -26,7 +26,7 @@ def test_a_right_answer_is_a_first_try() -> None:
 
 def test_a_hint_spoils_the_first_try() -> None:
     fresh, first, _ = record()
-    first.hinted = True
+    first.hints = 1
     fresh.answer(first, "4")
     assert first.state is State.DONE
     assert not first.first_time
@@ -60,7 +60,7 @@ def test_the_points_are_those_of_the_answer_that_was_given_last() -> None:
     fresh.answer(part, "?!")
     assert part.points == 0
     fresh.answer(part, "s: 1, t: 6")
-    assert part.points == part.part.points
+    assert part.points == Fraction(part.part.points, 2)  # two wrong answers before take a quarter each
 
 
 def test_a_later_part_follows_the_earlier_answer_that_was_given_last() -> None:

@@ -1,0 +1,85 @@
+"""``rldrill history``."""
+
+import sys
+from enum import Enum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+NAME = "history"
+
+
+class What(Enum):
+    """What to do with the history."""
+
+    EXPORT = "export"
+    IMPORT = "import"
+    FORGET = "forget"
+
+
+def command(
+    what: Annotated[What, typer.Argument(help="Write it out, read it in, or delete it.")],
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="FILE|FAMILY", help="The file (else stdin or stdout); with forget, topics or families."),
+    ] = None,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Forget without asking.")] = False,
+) -> None:
+    """Your answers in the quiz, as JSON Lines, an answer a line; they lie on this machine only.
+
+    Examples: rldrill history export all.jsonl · rldrill history import all.jsonl · rldrill history forget bellman
+    """
+    import sqlite3
+
+    from rldrill.history.place import HistoryError, history_file
+    from rldrill.problems.errors import UsageError
+
+    path = history_file()
+    if what is not What.FORGET and len(names or ()) > 1:
+        raise UsageError(f"'rldrill history {what.value}' takes one file.")
+    try:
+        if what is What.EXPORT:
+            _export(path, Path(names[0]) if names else None)
+        elif what is What.IMPORT:
+            _import(path, Path(names[0]) if names else None)
+        else:
+            _forget(path, names or [], yes=yes)
+    except sqlite3.Error as error:
+        raise HistoryError(f"{path}: {error}.") from None
+
+
+def _export(path: Path, target: Path | None) -> None:
+    from rldrill.history.attempts import to_line
+    from rldrill.history.log import read
+
+    lines = "".join(f"{to_line(attempt)}\n" for attempt in read(path))
+    if target is None:
+        typer.echo(lines, nl=False)
+    else:
+        target.write_text(lines, encoding="utf-8")
+
+
+def _import(path: Path, source: Path | None) -> None:
+    from rldrill.history.attempts import from_lines
+    from rldrill.history.log import append
+    from rldrill.problems.errors import FileError
+
+    try:
+        text = sys.stdin.read() if source is None else source.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise FileError(f"{source or 'stdin'} is not in UTF-8.") from None
+    attempts = list(from_lines(text.split("\n"), str(source or "stdin")))
+    new = append(path, attempts)
+    typer.echo(f"{new} of {len(attempts)} answers were new.", err=True)
+
+
+def _forget(path: Path, names: list[str], *, yes: bool) -> None:
+    from rldrill.history.log import forget
+    from rldrill.problems.catalogue import selection
+
+    families = [family.name for family in selection(names)] if names else []
+    said = " and ".join(names) if names else "everything"
+    if not yes:
+        typer.confirm(f"Forget {said} that was answered, for good?", abort=True, err=True)
+    typer.echo(f"{forget(path, families)} answers are forgotten.", err=True)

@@ -1,0 +1,113 @@
+"""What is kept of an answer, and how it is written as a line of JSON."""
+
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from datetime import UTC, datetime
+from typing import Any
+
+from rldrill.problems.errors import FileError
+
+#: How a part may end without an answer.
+SKIPPED, SHOWN = "skipped", "working shown"
+#: What an answer may be; ``rldrill.solutions.answers.judging`` says what each means.
+OUTCOMES = ("right", "follow-through", "close", "misconception", "wrong", SKIPPED, SHOWN)
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One answer to one part, or that it was given up.
+
+    Args:
+        id: its own name, so that a log that is read in twice counts once.
+        time: when, with a time zone.
+        sitting: the name that all attempts at one problem share, from its first showing to its end.
+        family: what was asked.
+        level: its level; None for a problem from outside, and so are ``seed`` and ``revision``.
+        part: the letter of the part, and ``parts`` how many the problem has.
+        typed: what was typed.
+        outcome: what it is, one of ``OUTCOMES``.
+        misconceptions: the names of the mistakes that give this answer.
+        hints: how many hints were read for the part before.
+        retries: how many answers to the part counted before.
+        seconds: since the part was asked, or since the attempt before.
+        credit: the share of the part's points that it earns, 0 to 1.
+    """
+
+    id: str
+    time: datetime
+    sitting: str
+    family: str
+    level: int | None
+    seed: int | None
+    revision: int | None
+    part: str
+    parts: int
+    typed: str
+    outcome: str
+    misconceptions: tuple[str, ...]
+    hints: int
+    retries: int
+    seconds: float
+    credit: float
+
+    @property
+    def right(self) -> bool:
+        """Whether it ends the part well."""
+        return self.outcome in ("right", "follow-through")
+
+    @property
+    def first_time(self) -> bool:
+        """Whether it is right at the first try and without a hint."""
+        return self.right and not self.hints and not self.retries
+
+
+NAMES = tuple(field.name for field in fields(Attempt))
+_NUMBERS = {"level": int | None, "seed": int | None, "revision": int | None, "parts": int, "hints": int, "retries": int}
+
+
+def to_line(attempt: Attempt) -> str:
+    """The attempt as a line of JSON, without its end."""
+    data = asdict(attempt) | {"time": attempt.time.astimezone(UTC).isoformat()}
+    return json.dumps(data, ensure_ascii=False)
+
+
+def from_lines(lines: Iterable[str], where: str) -> Iterator[Attempt]:
+    """The attempts of a file in JSON Lines; blank lines are passed over.
+
+    Raises:
+        FileError: a line is none; the sentence names it.
+    """
+    for number, line in enumerate(lines, 1):
+        if line.strip():
+            try:
+                yield _attempt(json.loads(line))
+            except (ValueError, TypeError, KeyError, RecursionError) as error:
+                why = f"{error.args[0]!r} is missing" if isinstance(error, KeyError) else str(error).partition(":")[0]
+                raise FileError(f"{where}, line {number}: this is no attempt of a history: {why}.") from None
+
+
+def _attempt(data: Mapping[str, Any]) -> Attempt:
+    if not isinstance(data, dict):
+        raise TypeError("a line is an object")
+    if unknown := set(data) - set(NAMES):
+        raise ValueError(f"there is no {min(unknown)[:20]!r}")
+    kept = Attempt(**{name: data[name] for name in NAMES})
+    for name in ("id", "time", "sitting", "family", "part", "typed", "outcome"):
+        if not isinstance(data[name], str):
+            raise TypeError(f"{name!r} is a text")
+    for name, kind in _NUMBERS.items():
+        if isinstance(data[name], bool) or not isinstance(data[name], kind) or abs(data[name] or 0) > 10**15:
+            raise TypeError(f"{name!r} is a whole number")
+    for name in ("seconds", "credit"):
+        if isinstance(data[name], bool) or not isinstance(data[name], int | float) or not math.isfinite(data[name]):
+            raise TypeError(f"{name!r} is a number")
+    if data["outcome"] not in OUTCOMES:
+        raise ValueError(f"there is no outcome {data['outcome'][:20]!r}")
+    if not isinstance(data["misconceptions"], list) or not all(isinstance(m, str) for m in data["misconceptions"]):
+        raise TypeError("'misconceptions' is a list of texts")
+    time = datetime.fromisoformat(data["time"])
+    if time.tzinfo is None:
+        raise ValueError("'time' has no time zone")
+    return replace(kept, time=time.astimezone(UTC), misconceptions=tuple(data["misconceptions"]))

@@ -1,0 +1,50 @@
+"""Keeping answers as long as the disk lets us: a quiz goes on without its history, and says so once."""
+
+import sqlite3
+from collections.abc import Callable
+from pathlib import Path
+
+from rldrill.history import log
+from rldrill.history.attempts import Attempt
+from rldrill.history.place import HistoryError, history_file
+
+_TROUBLE = (sqlite3.Error, OSError, HistoryError)
+
+
+class Keeper:
+    """Writes every answer as soon as it is given.
+
+    Args:
+        say: what tells the person that answers are not kept, and why.
+        where: names the database; it may fail, as for a user without a home.
+    """
+
+    def __init__(self, say: Callable[[str], None], where: Callable[[], Path] = history_file) -> None:
+        self._say = say
+        self._where = where
+        self._waiting: list[Attempt] = []
+        self._told = False
+
+    def read(self) -> tuple[Attempt, ...]:
+        """What was answered so far; nothing where that cannot be read."""
+        try:
+            return log.read(self._where())
+        except _TROUBLE as error:
+            self._tell(error)
+            return ()
+
+    def keep(self, attempt: Attempt) -> None:
+        """Write an answer, with those before that could not be written."""
+        self._waiting.append(attempt)
+        try:
+            log.append(self._where(), self._waiting)
+        except _TROUBLE as error:
+            self._tell(error)
+        else:
+            self._waiting = []
+
+    def _tell(self, error: Exception) -> None:
+        if not self._told:
+            self._told = True
+            why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+            self._say(f"Your answers are not kept: {why.rstrip('.')}.")

@@ -1,0 +1,200 @@
+"""The log on the disk: SQLite, one transaction for every answer, nothing ever changed."""
+
+import json
+import sqlite3
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from rldrill.history.attempts import NAMES, Attempt
+from rldrill.history.place import HistoryError
+
+#: What brings the database from one version to the next; the version is how many of these were run.
+MIGRATIONS: tuple[str, ...] = (
+    """
+    CREATE TABLE attempt (
+        id TEXT PRIMARY KEY, time TEXT NOT NULL, sitting TEXT NOT NULL, family TEXT NOT NULL,
+        level INTEGER, seed INTEGER, revision INTEGER, part TEXT NOT NULL, parts INTEGER NOT NULL, typed TEXT NOT NULL,
+        outcome TEXT NOT NULL, misconceptions TEXT NOT NULL, hints INTEGER NOT NULL, retries INTEGER NOT NULL,
+        seconds REAL NOT NULL, credit REAL NOT NULL
+    );
+    CREATE INDEX attempt_time ON attempt (time);
+    CREATE TRIGGER nothing_changes BEFORE UPDATE ON attempt BEGIN SELECT RAISE(ABORT, 'the log only grows'); END;
+    """,
+)
+#: How long to wait for another quiz that is just writing, in seconds.
+_PATIENCE = 5.0
+#: Where the header of a SQLite file holds our version.
+_VERSION_IN_HEADER = slice(60, 64)
+_INSERT = f"INSERT OR IGNORE INTO attempt ({', '.join(NAMES)}) VALUES ({', '.join('?' * len(NAMES))})"
+_SELECT = f"SELECT {', '.join(NAMES)} FROM attempt ORDER BY time, rowid"
+
+
+def read(path: Path) -> tuple[Attempt, ...]:
+    """All attempts in the order of their times; none where there is no database yet.
+
+    Raises:
+        HistoryError: the database is of a newer version.
+        sqlite3.Error: it cannot be read.
+    """
+    if not path.exists():
+        return ()
+    _refuse_newer(path)
+    try:
+        with _opened(path) as database:
+            return _attempts(database)
+    except sqlite3.OperationalError:  # a folder that cannot be written: read the file as it lies there
+        with closing(sqlite3.connect(f"{path.as_uri()}?mode=ro&immutable=1", uri=True)) as database:
+            return _attempts(database)
+
+
+def append(path: Path, attempts: Iterable[Attempt]) -> int:
+    """Write attempts in one transaction, all or none; those that are there already stay as they are.
+
+    Returns:
+        How many were new.
+
+    Raises:
+        HistoryError: the database is of a newer version.
+        sqlite3.Error, OSError: it cannot be written.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    _refuse_newer(path)
+    with _opened(path) as database, _transaction(database):
+        before = database.total_changes
+        database.executemany(_INSERT, map(_row, attempts))
+        return database.total_changes - before
+
+
+def forget(path: Path, families: Sequence[str] = ()) -> int:
+    """Delete the attempts at these families, or everything, copies of older versions too.
+
+    Raises:
+        HistoryError: the database is of a newer version.
+        sqlite3.Error, OSError: it cannot be written.
+    """
+    if not path.exists():
+        return 0
+    _refuse_newer(path)
+    with _opened(path) as database:
+        database.execute("PRAGMA secure_delete = ON")
+        with _transaction(database):
+            if families:
+                marks = ", ".join("?" * len(families))
+                gone = database.execute(f"DELETE FROM attempt WHERE family IN ({marks})", families).rowcount
+            else:
+                gone = database.execute("DELETE FROM attempt").rowcount
+        database.execute("VACUUM")
+    for copy in path.parent.glob(f"{path.name}.v*"):
+        copy.unlink()
+    return gone
+
+
+def _refuse_newer(path: Path) -> None:
+    """Look into the header before anything is opened: a newer database is not touched."""
+    if not path.exists():
+        return
+    with path.open("rb") as file:
+        header = file.read(100)
+    if header.startswith(b"SQLite format 3"):
+        _refuse_version(path, int.from_bytes(header[_VERSION_IN_HEADER], "big"))
+
+
+def _refuse_version(path: Path, version: int) -> None:
+    if version > len(MIGRATIONS):
+        raise HistoryError(
+            f"{path} was written by a newer rldrill (version {version}, this one reads {len(MIGRATIONS)}); "
+            "it was left as it is. Install that rldrill again, or name another folder in RLDRILL_HOME."
+        )
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[sqlite3.Connection]:
+    """The database, brought to this version; opened for one piece of work, so that nothing is ever left half-done."""
+    with closing(sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None)) as database:
+        _write_ahead(database)
+        database.execute("PRAGMA synchronous = FULL")
+        if _version(database) != len(MIGRATIONS):
+            _migrate(database, path)
+        yield database
+
+
+def _write_ahead(database: sqlite3.Connection) -> None:
+    """Switch to the write-ahead log; SQLite does not wait by itself where two do so at once."""
+    deadline = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            if database.execute("PRAGMA journal_mode").fetchone()[0] != "wal":
+                database.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if "locked" not in str(error) or time.monotonic() > deadline:
+                raise
+            time.sleep(0.01)
+
+
+@contextmanager
+def _transaction(database: sqlite3.Connection) -> Iterator[None]:
+    database.execute("BEGIN IMMEDIATE")
+    try:
+        yield
+    except BaseException:
+        if database.in_transaction:  # a full disk has ended it already
+            database.execute("ROLLBACK")
+        raise
+    database.execute("COMMIT")
+
+
+def _version(database: sqlite3.Connection) -> int:
+    return int(database.execute("PRAGMA user_version").fetchone()[0])
+
+
+def _migrate(database: sqlite3.Connection, path: Path) -> None:
+    """Run what is missing, in one transaction; an older database is copied first."""
+    with _transaction(database):
+        version = _version(database)  # another quiz may have done it while this one waited
+        _refuse_version(path, version)
+        if 0 < version < len(MIGRATIONS):
+            copy = path.with_name(f"{path.name}.v{version}")
+            with closing(sqlite3.connect(path)) as source, closing(sqlite3.connect(copy)) as target:
+                source.backup(target)
+        for script in MIGRATIONS[version:]:
+            for statement in _statements(script):
+                database.execute(statement)
+        database.execute(f"PRAGMA user_version = {len(MIGRATIONS)}")
+
+
+def _statements(script: str) -> Iterator[str]:
+    """The statements of a script, one by one: ``executescript`` would end the transaction."""
+    begun = ""
+    for line in script.splitlines(keepends=True):
+        begun += line
+        if sqlite3.complete_statement(begun):
+            yield begun
+            begun = ""
+
+
+def _row(attempt: Attempt) -> tuple[Any, ...]:
+    values = {name: getattr(attempt, name) for name in NAMES}
+    values["time"] = attempt.time.astimezone(UTC).isoformat()
+    values["misconceptions"] = json.dumps(attempt.misconceptions, ensure_ascii=False)
+    # What no text holds (half a pair of surrogates, pasted) is not worth an answer.
+    values["typed"] = attempt.typed.encode("utf-8", "replace").decode("utf-8")
+    return tuple(values.values())
+
+
+def _attempts(database: sqlite3.Connection) -> tuple[Attempt, ...]:
+    rows = (dict(zip(NAMES, row, strict=True)) for row in database.execute(_SELECT))
+    return tuple(
+        Attempt(
+            **row
+            | {
+                "time": datetime.fromisoformat(row["time"]),
+                "misconceptions": tuple(json.loads(row["misconceptions"])),
+            }
+        )
+        for row in rows
+    )

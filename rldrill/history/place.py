@@ -1,0 +1,34 @@
+"""Where the history lies."""
+
+import os
+from pathlib import Path
+
+from rldrill.problems.errors import UserError
+
+#: The variable that names another folder.
+VARIABLE = "RLDRILL_HOME"
+
+
+class HistoryError(UserError):
+    """The history cannot be read or written (exit code 3)."""
+
+    exit_code = 3
+
+
+def history_file() -> Path:
+    """The database: in the folder that ``RLDRILL_HOME`` names, else where the system keeps a user's data.
+
+    Raises:
+        HistoryError: there is no such folder, as for a user without a home.
+    """
+    if named := os.environ.get(VARIABLE):
+        return Path(named).absolute() / "history.db"
+    from platformdirs import user_data_path
+
+    try:
+        folder = user_data_path("rldrill", appauthor=False)
+    except (RuntimeError, OSError, KeyError):
+        folder = Path()
+    if not folder.is_absolute():
+        raise HistoryError(f"There is no home folder; {VARIABLE} may name a folder for the history.")
+    return folder / "history.db"

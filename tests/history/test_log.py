@@ -1,0 +1,254 @@
+"""The log of answers: nothing is lost, nothing is changed, and nothing stops a quiz."""
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from rldrill.history import log
+from rldrill.history.attempts import Attempt, from_lines, to_line
+from rldrill.history.keeping import Keeper
+from rldrill.history.place import HistoryError, history_file
+from rldrill.problems.errors import FileError
+
+ROOT = Path(__file__).parent.parent.parent
+FIRST = Attempt(
+    id="1", time=datetime(2026, 11, 25, 8, tzinfo=UTC), sitting="one", family="td-zero", level=1, seed=7, revision=1,
+    part="a", parts=1, typed="34/5", outcome="right", misconceptions=(), hints=0, retries=0, seconds=40.5, credit=1.0,
+)  # fmt: skip
+SECOND = replace(
+    FIRST,
+    id="2",
+    time=FIRST.time + timedelta(days=1),
+    outcome="misconception",
+    misconceptions=("forgot-γ",),
+    credit=0.0,
+)
+
+#: Writes answer after answer, and says each as soon as it is written.
+WRITER = """
+import sys
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+sys.path.insert(0, {tests!r})
+from rldrill.history import log
+from rldrill.history.attempts import from_lines
+(first,) = from_lines([sys.argv[2]], "")
+for number in count() if sys.argv[4] == "endless" else range(int(sys.argv[4])):
+    name = f"{{sys.argv[3]}}-{{number}}"
+    log.append(Path(sys.argv[1]), [replace(first, id=name)])
+    print(name, flush=True)
+"""
+
+
+def writer(path: Path, name: str, number: str) -> subprocess.Popen[str]:
+    code = WRITER.format(tests=str(ROOT))
+    return subprocess.Popen(
+        [sys.executable, "-c", code, str(path), to_line(FIRST), name, number],
+        stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+
+
+def test_what_is_written_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "deep" / "history.db"
+    assert log.read(path) == ()
+    assert log.append(path, [SECOND]) == 1
+    assert log.append(path, [FIRST]) == 1
+    assert log.read(path) == (FIRST, SECOND)  # by their times
+    assert log.append(path, [FIRST, SECOND]) == 0  # what is there already counts once
+
+
+def test_nothing_is_ever_changed(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    with sqlite3.connect(path) as database, pytest.raises(sqlite3.IntegrityError, match="only grows"):
+        database.execute("UPDATE attempt SET credit = 1")
+
+
+def test_lines_of_json_are_read_again() -> None:
+    lines = [to_line(FIRST), "", to_line(SECOND)]
+    assert list(from_lines(lines, "a file")) == [FIRST, SECOND]
+
+
+@pytest.mark.parametrize(
+    ("line", "fragment"),
+    [
+        ("{", "line 1"),
+        ("[]", "an object"),
+        ("{}", "'id' is missing"),
+        (to_line(FIRST).replace('"credit"', '"credits"'), "'credits'"),
+        (to_line(FIRST).replace('"level": 1', '"level": "1"'), "'level'"),
+        (to_line(FIRST).replace("+00:00", ""), "time zone"),
+        (to_line(FIRST).replace('"right"', '"splendid"'), "splendid"),
+        (to_line(FIRST).replace("40.5", "NaN"), "'seconds'"),
+    ],
+)
+def test_a_line_that_is_no_attempt_is_named(line: str, fragment: str) -> None:
+    with pytest.raises(FileError, match=fragment):
+        list(from_lines([line], "a file"))
+
+
+def test_forgetting_takes_one_family_or_all_and_leaves_no_trace(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST, replace(SECOND, family="sarsa", typed="a very private answer")])
+    (tmp_path / "history.db.v0").touch()
+    assert log.forget(path, ["sarsa"]) == 1
+    assert log.read(path) == (FIRST,)
+    assert log.forget(path) == 1
+    assert log.read(path) == ()
+    assert not any(b"private" in file.read_bytes() for file in tmp_path.iterdir())
+    assert not (tmp_path / "history.db.v0").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+def test_no_answer_is_lost_when_the_process_is_killed(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    told: set[str] = set()
+    rounds = int(os.environ.get("KILLS", "3"))
+    for number in range(rounds):
+        process = writer(path, str(number), "endless")
+        assert process.stdout is not None
+        told.add(process.stdout.readline().strip())
+        time.sleep(0.013 * (number % 7))
+        process.send_signal(signal.SIGKILL)
+        told |= {line.strip() for line in process.stdout if line.endswith("\n")}
+        process.wait()
+        assert told <= {attempt.id for attempt in log.read(path)}
+    assert len(told) >= rounds
+
+
+def test_two_at_once_write_all(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "history.db"
+    both = [writer(path, name, "20") for name in "ab"]
+    assert [process.wait(60) for process in both] == [0, 0]
+    for process in both:
+        assert process.stdout is not None
+        process.stdout.close()
+    assert {attempt.id for attempt in log.read(path)} == {f"{name}-{number}" for name in "ab" for number in range(20)}
+
+
+def test_an_older_version_is_copied_and_brought_up_to_date(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    monkeypatch.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, "CREATE TABLE another (id TEXT);\n"))
+    assert log.read(path) == (FIRST,)
+    with sqlite3.connect(path) as new, sqlite3.connect(tmp_path / "history.db.v1") as old:
+        assert new.execute("PRAGMA user_version").fetchone() == (2,)
+        assert old.execute("PRAGMA user_version").fetchone() == (1,)
+        assert old.execute("SELECT id FROM attempt").fetchall() == [("1",)]
+
+
+def test_a_migration_that_fails_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    before = log.MIGRATIONS
+    monkeypatch.setattr(log, "MIGRATIONS", (*before, "DELETE FROM attempt;\nDROP TABLE nowhere;\n"))
+    with pytest.raises(sqlite3.OperationalError):
+        log.append(path, [SECOND])
+    monkeypatch.setattr(log, "MIGRATIONS", before)
+    assert log.read(path) == (FIRST,)
+
+
+def test_a_newer_version_is_refused_and_not_touched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "history.db"
+    with monkeypatch.context() as newer:
+        newer.setattr(log, "MIGRATIONS", (*log.MIGRATIONS, "CREATE TABLE another (id TEXT);\n"))
+        log.append(path, [FIRST])
+    before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in tmp_path.iterdir()}
+    for use in (log.read, log.forget, lambda path: log.append(path, [SECOND])):
+        with pytest.raises(HistoryError, match="newer rldrill"):
+            use(path)
+    assert {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in tmp_path.iterdir()} == before
+
+
+def test_a_quiz_that_cannot_write_says_so_once_and_goes_on(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    said: list[str] = []
+    keeper = Keeper(said.append, lambda: tmp_path / "file" / "history.db")  # a file is no folder
+    assert keeper.read() == ()
+    keeper.keep(FIRST)
+    keeper.keep(SECOND)
+    assert len(said) == 1
+    assert said[0].startswith("Your answers are not kept: ")
+
+
+def test_a_file_that_is_no_database_is_told_and_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    path.write_text("my shopping list, which is much longer than the header of a database " * 3)
+    before = path.read_bytes()
+    said: list[str] = []
+    keeper = Keeper(said.append, lambda: path)
+    keeper.keep(FIRST)
+    assert len(said) == 1
+    assert path.read_bytes() == before
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_that_cannot_be_written_is_still_read(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    tmp_path.chmod(0o500)
+    said: list[str] = []
+    keeper = Keeper(said.append, lambda: path)
+    try:
+        assert keeper.read() == (FIRST,)
+        keeper.keep(SECOND)
+    finally:
+        tmp_path.chmod(0o700)
+    assert len(said) == 1
+
+
+def test_what_a_full_disk_refused_is_written_with_the_next_answer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "history.db"
+    said: list[str] = []
+    keeper = Keeper(said.append, lambda: path)
+    with monkeypatch.context() as full:
+        full.setattr(log, "_INSERT", log._INSERT.replace("VALUES", "SELECT * FROM full_disk; --"))
+        keeper.keep(FIRST)
+    assert log.read(path) == ()
+    keeper.keep(SECOND)
+    assert log.read(path) == (FIRST, SECOND)
+    assert len(said) == 1
+
+
+def test_a_disk_that_is_full_leaves_what_was_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    opened = sqlite3.connect
+
+    def small(*arguments: object, **options: object) -> sqlite3.Connection:
+        database = opened(*arguments, **options)  # type: ignore[call-overload]
+        pages = database.execute("PRAGMA page_count").fetchone()[0]
+        database.execute(f"PRAGMA max_page_count = {pages}")
+        return database
+
+    said: list[str] = []
+    with monkeypatch.context() as full:
+        full.setattr(sqlite3, "connect", small)
+        Keeper(said.append, lambda: path).keep(replace(SECOND, typed="9" * 100_000))
+    assert said == ["Your answers are not kept: database or disk is full."]
+    assert log.read(path) == (FIRST,)
+
+
+def test_the_folder_is_the_one_that_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("RLDRILL_HOME", str(tmp_path))
+    assert history_file() == tmp_path / "history.db"
+    monkeypatch.setenv("RLDRILL_HOME", "relative")
+    assert history_file().is_absolute()
+
+
+def test_without_a_home_there_is_no_folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("RLDRILL_HOME", raising=False)
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: Path("~/.local/share/rldrill"))
+    with pytest.raises(HistoryError, match="no home"):
+        history_file()
