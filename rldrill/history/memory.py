@@ -91,7 +91,7 @@ def remembered(attempts: Iterable[Attempt], before: Mapping[Skill, Memory] | Non
 
 def _reviews(attempts: Iterable[Attempt]) -> Iterator[tuple[Skill, datetime, Rating]]:
     sittings: dict[tuple[str, Skill], list[Attempt]] = {}
-    for attempt in attempts:
+    for attempt in sorted(attempts, key=lambda attempt: (attempt.time, attempt.retries)):
         if attempt.level is not None:
             sittings.setdefault((attempt.sitting, Skill(attempt.family, attempt.level)), []).append(attempt)
     for (_, skill), sitting in sittings.items():
