@@ -167,7 +167,7 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
         if right == 0:
             return ZERO
         if isinstance(index, str) and is_zero(value_of(right, known)):
-            work.say(f"The derivative of ${index}$ by ${by}$ is $0$ here.")
+            work.step(formula, into=partial_part, right=right, i=index, **known)
             return ZERO
         into = partial if isinstance(index, int) else partial_part
         return work.step(formula, into=into, right=right, i=index, **known)
