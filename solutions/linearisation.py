@@ -24,12 +24,14 @@ from rldrill.solutions.sheet.linear_methods import (
     LINEARISE,
     PART_VALUE,
     STATE_JACOBIAN,
+    Ai,
+    Bi,
     f_value,
     part_value,
     partial,
     partial_part,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 from rldrill.solutions.zero_order_hold import ZeroOrderHold
 
 #: The derivative of an expression by a letter, with the named parts in it that depend on the letter.
@@ -183,6 +185,8 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
 def _euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
     """The matrix of the Euler step, if the system has one."""
     if given.step is None:
+        if len(value.entries()) > 1:
+            work.lines.append(Equality(Ai if formula is EULER_A else Bi, (value,)))
         return value
     letters = {"dt": exact(given.step), "Ai": value, "Bi": value, "unit": matrices.identity(len(given.state))}
     return work.step(formula, **letters)

@@ -43,7 +43,7 @@ def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatri
 
 @slip(
     "c-is-the-rates",
-    "Those are the rates at the operating point; C belongs to the step F, and what s̄ and ā contribute is taken off there.",
+    "Those are the rates at the operating point; C belongs to the step F, less what s̄ and ā contribute.",
 )
 def rates_for_c(given: Given, work: Work) -> None:
     """The rates in the place of C."""
