@@ -24,12 +24,14 @@ from rldrill.solutions.sheet.linear_methods import (
     LINEARISE,
     PART_VALUE,
     STATE_JACOBIAN,
+    Ai,
+    Bi,
     f_value,
     part_value,
     partial,
     partial_part,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 from rldrill.solutions.zero_order_hold import ZeroOrderHold
 
 #: The derivative of an expression by a letter, with the named parts in it that depend on the letter.
@@ -167,7 +169,7 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
         if right == 0:
             return ZERO
         if isinstance(index, str) and is_zero(value_of(right, known)):
-            work.say(f"The derivative of ${index}$ by ${by}$ is $0$ here.")
+            work.step(formula, into=partial_part, right=right, i=index, **known)
             return ZERO
         into = partial if isinstance(index, int) else partial_part
         return work.step(formula, into=into, right=right, i=index, **known)
@@ -183,6 +185,8 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
 def _euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
     """The matrix of the Euler step, if the system has one."""
     if given.step is None:
+        if len(value.entries()) > 1:
+            work.lines.append(Equality(Ai if formula is EULER_A else Bi, (value,)))
         return value
     letters = {"dt": exact(given.step), "Ai": value, "Bi": value, "unit": matrices.identity(len(given.state))}
     return work.step(formula, **letters)

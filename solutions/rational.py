@@ -158,3 +158,21 @@ def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     if not isinstance(value, RationalFunction) or value.parameter != parameter or value.top.degree() != 1:
         raise NoSolution(f"the equation is not linear in {parameter}; change the numbers that are given")
     return value.top[1], value.top[0]
+
+
+def without_quotients(left: Value, right: Value, parameter: str) -> tuple[Value, Value] | None:
+    """Both sides of an equation multiplied by their common denominator, in whole numbers.
+
+    None, where the parameter is in no denominator, or where the sides are then not linear in it.
+    """
+    a, b = lifted(left, parameter), lifted(right, parameter)
+    if a.bottom.degree() == b.bottom.degree() == 0:
+        return None
+    common = a.bottom * b.bottom // a.bottom.gcd(b.bottom)
+    tops = a.top * (common // a.bottom), b.top * (common // b.bottom)
+    if max(top.degree() for top in tops) > 1:
+        return None
+    scale = lcm(*(int(top.denom()) for top in tops))
+    if tops[0][tops[0].degree()] < 0:
+        scale = -scale
+    return quotient(parameter, tops[0] * scale, _ONE), quotient(parameter, tops[1] * scale, _ONE)

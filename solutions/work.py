@@ -21,7 +21,7 @@ from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
-from rldrill.solutions.rational import generator, linear
+from rldrill.solutions.rational import generator, linear, without_quotients
 from rldrill.solutions.vector import Vector
 
 
@@ -276,11 +276,17 @@ class Work:
             NoSolution: every value solves the equation, or none.
         """
         slope, constant = linear(left - right, letter)
+        cleared = without_quotients(left, right, letter)
+        if cleared:
+            slope, constant = linear(cleared[0] - cleared[1], letter)
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
         symbol = to_sympy(generator(letter))
         self.lines.append(Equality(left, (right,)))
+        if cleared:
+            self.lines.append(Equality(cleared[0], (cleared[1],)))
+            left = cleared[0]
         if slope != 1 and left != generator(letter) * slope:
             self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
         if (left, right) != (generator(letter), value):

@@ -67,6 +67,7 @@ def question(given: Given) -> Question:
         if given.second_order
         else "This is a step of iLQR: $f$ is taken as linear, so its second derivatives are left out."
     )
+    gradient, hessian = ("derivative", "second derivative") if n == 1 else ("gradient", "Hessian")
     first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
     wanted = (
         ("Q_s", first, n, 1), ("Q_a", first, m, 1), ("Q_{s s}", then, n, n), ("Q_{a s}", then, m, n),
@@ -75,7 +76,10 @@ def question(given: Given) -> Question:
     return Question(
         (
             *plan(given, given.reward),
-            Paragraph("There the gradient and the Hessian of the next state's value are"),
+            Paragraph(
+                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} by the next "
+                "state are"
+            ),
             Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
             Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),
             Paragraph(

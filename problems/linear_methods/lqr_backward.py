@@ -109,13 +109,14 @@ def question(given: Given) -> Question:
     """Gain and value matrix of every time, the last first; then the action."""
     n, m = len(given.start), given.actions
     x, u, L, P, in_costs = given.notation
+    matrix = "coefficient" if n == 1 else "matrix"
     wanted = []
     for time in given.asked:
         action = f"{u}_{{{time}}} = −{L}_{{{time}}} {x}_{{{time}}}"
         value = f"{x}^⊤ {P}_{{{time}}} {x}" if in_costs else f"V_{{{time}}}({x}) = {x}^⊤ {P}_{{{time}}} {x}"
         wanted += [
             (f"What is the gain ${L}_{{{time}}}$ of the best action ${action}$", Matrix(m, n)),
-            (f"What is the matrix ${P}_{{{time}}}$ of the {'cost-to-go' if in_costs else 'value'} ${value}$",
+            (f"What is the {matrix} ${P}_{{{time}}}$ of the {'cost-to-go' if in_costs else 'value'} ${value}$",
              Matrix(n, n)),
         ]  # fmt: skip
     wanted.append((f"What is the best first action ${u}_0$", Matrix(m, 1)))

@@ -114,7 +114,7 @@ def question(given: Given) -> Question:
         f"r(s_0, a_0) + … + r(s_{{{last}}}, a_{{{last}}})"
     )  # fmt: skip
     told = "The actions are $a_t = −L_t s_t$ at every one of these times"
-    blocks: tuple[Block, ...] = (*situation(given), Paragraph(f"{told}, the last included:"))
+    blocks: tuple[Block, ...] = (*situation(given), Paragraph(f"{told}, the last, $T = {last}$, included:"))
     total = f"What is the total reward $J = {sum_}$"
     if not given.plain:
         blocks = (*costs(given, NOTATIONS["value"]), Paragraph(f"{told} before $T$:"))

@@ -47,6 +47,9 @@ def solve(given: Given, work: Work) -> None:
         if index in given.posed:
             total = answer(total)
     if given.asked == "pose":
+        work.say(
+            "The upper left corner of 3 rows and 3 columns is the rotation, the last column above the $1$ the origin."
+        )
         work.answer(_corner(total))
         work.answer(tuple(_column(total).entries()))
 
@@ -61,6 +64,8 @@ def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) 
     outwards = given.asked == "back"
     links = tuple(known["th"])
     work.say("$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, its last column.")
+    if outwards:
+        work.say("From $p_{i−1} = R_i p_i + o_i$ follows $p_i = R_i^{−1} (p_{i−1} − o_i)$, and $R_i^{−1} = R_i^⊤$.")
     for link in links if outwards else links[::-1]:
         transform = work.step(LINK_TRANSFORM, i=link, **known)
         formula, here = (BACK_POINT, link - 1) if outwards else (FORWARD_POINT, link)

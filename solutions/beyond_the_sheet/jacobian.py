@@ -42,10 +42,26 @@ def solve(given: Given, work: Work) -> None:
         return
     _velocity(given, work, J)
     if given.square:
+        work.say(_reduced(given))
         det = work.step(SINGULAR, **arm)
         singular = is_zero(det)
         work.say(f"$det J {'=' if singular else '≠'} 0$: the configuration is {'' if singular else 'not '}singular.")
         work.answer(singular)
+
+
+def _reduced(given: Given) -> str:
+    """Why the determinant is that of the first two links."""
+    turned = "is then the vector of link $1$ turned by $90°$, and column $2$ that of link $2$"
+    if given.orientation:
+        return (
+            "Taking column $2$ off column $1$, and column $3$ off column $2$, does not change $det J$. Column $1$ "
+            f"{turned}, both with $0$ below, so by the last row $det J$ is the determinant of these two vectors; the "
+            "angle from the one to the other is $θ_2$:"
+        )
+    return (
+        f"Taking column $2$ off column $1$ does not change $det J$. Column $1$ {turned}; the angle from the one to "
+        "the other is $θ_2$:"
+    )
 
 
 def _velocity(given: Given, work: Work, J: AnyMatrix) -> None:

@@ -57,6 +57,9 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     values = dynamics.known(given)
     texts = tuple(given.dynamics.values())
     Q = {}
+    work.say(
+        "$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation; $r$ is differentiated in the same way."
+    )
     for code, by, formula, gradient in (
         ("s", names, STATE_JACOBIAN, DDP_S), ("a", actions, INPUT_JACOBIAN, DDP_A),
     ):  # fmt: skip
@@ -65,6 +68,7 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
             [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
         )
         Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
+    work.say("In second derivatives $x$ holds the state and the action: $x_j$ and $x_k$ are any two of their letters.")
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
         work.say("iLQR leaves out the sums with the second derivatives of $f$.")

@@ -19,11 +19,9 @@ from rldrill.solutions.linearisation import (
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import (
-    AFFINE_TERM,
-    AUGMENTED_A,
-    AUGMENTED_B,
     C_IS_F,
     FORGOT_IDENTITY,
+    affine_step,
 )
 from rldrill.solutions.work import Work
 
@@ -34,18 +32,18 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     f_bar = moved_point(given, work, s_bar, rates(work, given))
-    _augmented(given, work, A, B, work.step(AFFINE_TERM, fbar=f_bar, Ai=A, Bi=B, sbar=s_bar, abar=a_bar))
+    _augmented(given, work, A, B, work.step(affine_step().constant, Fbar=f_bar, Ad=A, Bd=B, sbar=s_bar, abar=a_bar))
 
 
 def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
     C = work.answer(C)
-    answered(work, given.entries, "A", work.step(AUGMENTED_A, Ai=A, Cc=C))
-    answered(work, given.entries, "B", work.step(AUGMENTED_B, Bi=B))
+    answered(work, given.entries, "A", work.step(affine_step().state, Ad=A, Cc=C))
+    answered(work, given.entries, "B", work.step(affine_step().action, Bd=B))
 
 
 @slip(
     "c-is-the-rates",
-    "Those are the rates at the operating point; C belongs to the Euler step, and A s̄ and B ā are taken off there.",
+    "Those are the rates at the operating point; C belongs to the step F, less what s̄ and ā contribute.",
 )
 def rates_for_c(given: Given, work: Work) -> None:
     """The rates in the place of C."""

@@ -34,6 +34,8 @@ def solve(given: Given, work: Work) -> None:
     if lqr.gain is LQR_GAIN:
         work.say(IN_COSTS)
     known = linear_quadratic.known(given)
+    if given.plain and not given.notation.costs:
+        work.say(f"At the last time, $T = {given.horizon}$, the best action is $0$, so $V_T(s) = −s^⊤ Q_T s$.")
     P = {given.horizon: work.step(lqr.terminal, T=given.horizon, **known)}
     start = {0: linear_quadratic.start(given)}
     if given.action is not None:

@@ -112,9 +112,12 @@ def _equation(given: Given) -> str:
     gamma, product = ("" if given.gamma == 1 else "γ "), ("(Q R − N^2)" if given.N else "Q R")
     P, sign, other = given.notation.value, "−" if given.notation.costs else "+", given.notation.costs
     bracket = f"R + {gamma}B^2 {P}" if other else f"{gamma}B^2 P − R"
+    plain = given.gamma == 1 and not given.N and not other
+    put_in = "With the gain put in, $P = −Q + A^2 P − A^2 B^2 P^2/(B^2 P − R)$. " if plain else ""
     return (
-        f"Multiplied by ${bracket}$, the scalar equation becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = 0$; the "
-        f"{'positive' if other else 'negative'} one of its roots brings the state to $0$."
+        f"{put_in}Multiplied by ${bracket}$, the scalar equation becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = "
+        f"0$; ${P}$ is the {'positive' if other else 'negative'} one of its roots, as "
+        f"{'a cost' if other else 'a value'} here is never {'negative' if other else 'positive'}."
     )
 
 

@@ -9,6 +9,7 @@ from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import exact
+from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,
@@ -33,7 +34,7 @@ MISCONCEPTIONS = (
 
 def solve(given: Given, work: Work) -> None:
     """The first reward is asked for on the way; a price that is left open is found from the total before."""
-    reward_of, total = (LQR_REWARD, LQR_TOTAL) if given.plain else rollout(crossed=given.N is not None)
+    reward_of, total = (LQR_REWARD, LQR_TOTAL) if given.plain else _rollout(given)
     known = linear_quadratic.known(given)
     known["Lt"] = {time: matrices.given(by_time(given.L, time)) for time in range(given.horizon + given.plain)}
     known["St"] = {0: linear_quadratic.start(given)}
@@ -45,14 +46,19 @@ def solve(given: Given, work: Work) -> None:
         if time < given.horizon:
             known["St"] = known["St"] | {time + 1: work.step(DYNAMICS, t=time, **known)}
     if not given.plain:
-        rewards[given.horizon] = linear_quadratic.number(work.step(at_the_end(), T=given.horizon, **known))
-    J = work.step(total, T=given.horizon, gamma=known["gamma"], rt=rewards)
+        last = linear_quadratic.number(work.step(at_the_end(), T=given.horizon, **known))
+        known["lastReward"] = {given.horizon: last}
+    J = work.step(total, T=given.horizon, rt=rewards, **known)
     if given.total is None:
         work.answer(J)
         return
     price = work.answer(work.equate("rho", J, exact(given.total)))
     known["Rt"] = dict.fromkeys(known["Rt"], matrices.matrix([[price]]))
     work.answer(linear_quadratic.number(work.step(reward_of, t=0, **known)))
+
+
+def _rollout(given: Given) -> tuple[Formula, Formula]:
+    return rollout(discounted=given.gamma != 1, crossed=given.N is not None)
 
 
 def oracle(given: Given) -> Answers:

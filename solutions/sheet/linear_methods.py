@@ -196,15 +196,21 @@ with evaluate(False):
 
 
 @cache
-def rollout(*, crossed: bool) -> tuple[Formula, Formula]:
-    """Reward and total with a discount, and perhaps with a cross term."""
+def rollout(*, discounted: bool, crossed: bool) -> tuple[Formula, Formula]:
+    """Reward and total where the last state alone is rewarded, perhaps with a discount or a cross term."""
     state, action = St(t), Ut(t)
     with evaluate(False):
         both = (2 * Transposed(state) * Nt(t) * action,) if crossed else ()
         cost = Add(Transposed(state) * Qt(t) * state, *both, Transposed(action) * Rt(t) * action)
         return (
             replace(LQR_REWARD, right=-cost, misread={}),
-            replace(LQR_TOTAL, right=SumOver(gamma**t * rt(t), t, Counting(0, T))),
+            replace(
+                LQR_TOTAL,
+                right=SumOver(gamma**t * rt(t), t, Counting(0, T - 1)) + gamma**T * last_reward(T)
+                if discounted
+                else SumOver(rt(t), t, Counting(0, T - 1)) + last_reward(T),
+                hint="Add the rewards of all times before the last, and that of the last state.",
+            ),
         )
 
 
@@ -541,7 +547,7 @@ with evaluate(False):
         hint="The state moves by Δt times its rate.",
         place=Place.WORKING,
     )
-    C_IS_F = Misconception("c-is-f", "C is what is left at s = 0 and a = 0: A s̄ and B ā are taken off f(s̄, ā).")
+    C_IS_F = Misconception("c-is-f", "C is what is left at s = 0 and a = 0: what s̄ and ā contribute is taken off.")
     AFFINE_TERM = Formula(
         "linearise-affine",
         Cc,
@@ -569,6 +575,25 @@ with evaluate(False):
         source="Siciliano et al. 2009, section 2.7: homogeneous coordinates",
         hint="The action does not change the last entry, which stays 1.",
     )
+
+
+class AffineStep(NamedTuple):
+    """The affine form of a discretised system: the constant, and the matrices for the state (s, 1)."""
+
+    constant: Formula
+    state: Formula
+    action: Formula
+
+
+@cache
+def affine_step() -> AffineStep:
+    """The affine form in the letters of a step: F for f, and its derivatives for A and B."""
+    with evaluate(False):
+        return AffineStep(
+            replace(AFFINE_TERM, right=F_bar - Ad * s_bar - Bd * a_bar, misread={C_IS_F: F_bar}),
+            replace(AUGMENTED_A, right=Blocks(2, Ad, Cc, 0, 1)),
+            replace(AUGMENTED_B, right=Blocks(2, Bd, 0)),
+        )
 
 
 @cache
@@ -669,7 +694,7 @@ def _second(line: Math, first: Math, then: Math) -> Math:
 second = quantity("secondD", _second)
 g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
-second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("s"), k) for k in by)), _POINT))
+second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("x"), k) for k in by)), _POINT))
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
@@ -691,7 +716,7 @@ with evaluate(False):
         second_at(i, j, g),
         title="Second derivatives, of the reward and for DDP also of the dynamics",
         source=_DDP,
-        hint="Differentiate twice, by every pair of letters; the order does not matter.",
+        hint="Differentiate twice, by every two entries of x, which holds the state and the action, in any order.",
         place=Place.WORKING,
     )
     DDP_S = Formula(

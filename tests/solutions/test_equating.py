@@ -33,7 +33,14 @@ def test_a_quotient_is_multiplied_out() -> None:
     # 2/(1 − γ) = 8 for γ = ¾.
     work = Work()
     assert work.equate("gamma", fmpq(2) / (1 - gamma), fmpq(8)) == fmpq(3, 4)
-    assert written(work)[-1] == "γ = 3/4"
+    assert written(work)[1:] == ["2 = 8 − 8γ", "8γ = 6", "γ = 3/4"]
+
+
+def test_quotients_on_both_sides_are_cleared_first() -> None:
+    # 4γ/(1 + 3γ) = 6/7: 28γ = 6 + 18γ, so γ = 3/5.
+    work = Work()
+    assert work.equate("gamma", 4 * gamma / (1 + 3 * gamma), fmpq(6, 7)) == fmpq(3, 5)
+    assert written(work)[1:] == ["28γ = 6 + 18γ", "10γ = 6", "γ = 3/5"]
 
 
 def test_what_is_solved_is_said_once() -> None:
