@@ -49,10 +49,11 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
     optimal = not changed and is_optimal(mdp, given.gamma, values)
+    last = f"π_{{{given.rounds - 1}}}"
     if changed:
-        work.say("The last improvement changed the policy, so another round could change it again: this is no proof.")
+        work.say(f"The last improvement gave a better policy, so ${last}$ is not optimal.")
     elif optimal:
-        work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
+        work.say(f"The last improvement changed nothing: ${last}$ is greedy for its own values, so it is optimal.")
     else:
         work.say(ONLY_GREEDY)
     work.answer(optimal)
