@@ -65,7 +65,7 @@ def question(given: Given) -> Question:
         of = f"V^{{{before}}}"
         parts += [
             Part(f"What is ${of}(s)$, the value of every state?", Values(of, states)),
-            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions)),
+            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions, after)),
         ]
     return Question(
         blocks,
