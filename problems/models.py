@@ -425,11 +425,26 @@ def draw_letter(
     return [row._replace(probability=next(open_)) if row[:2] == pair else row for row in rows], gamma, letter
 
 
+_PARTLY_LISTED = "The policy $π$ is given by this table; actions that are not listed are never taken."
+
+
+def open_chance(given: ModelAndPolicy) -> str:
+    """The sentence that says which probability of the model or the policy is left open, or asked for."""
+    rows = (
+        *(row.probability for row in given.mdp.transitions),
+        *(p for row in given.chances.values() for p in row.values()),
+    )
+    letters = dict.fromkeys(shown(Parameter(row.symbol)) for row in rows if isinstance(row, Parameter))
+    told = "left open" if given.parameters() else "not known"
+    return "".join(f" The probability ${p}$ is {told}, $0 < {p} < 1$." for p in letters)
+
+
 def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
     """The policy as a question gives it; nothing where there is nothing to choose."""
     if all(len(actions) == 1 for actions in given.mdp.actions.values()):
         return ()
-    return (Paragraph("The policy $π$ is:"), policy_table(given.chances))
+    listed = all(set(actions) == set(given.chances[state]) for state, actions in given.mdp.actions.items())
+    return (Paragraph("The policy $π$ is:" if listed else _PARTLY_LISTED), policy_table(given.chances))
 
 
 def transitions_table(model: Dynamics) -> Table:

@@ -48,9 +48,10 @@ class Values:
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """An action for every state; ``actions`` holds the states, and what is possible in each."""
+    """An action for every state; ``actions`` holds the states, and what is possible in each, ``of`` its letter."""
 
     actions: Mapping[str, tuple[str, ...]]
+    of: str = "π"
     name: ClassVar[str] = "policy"
 
 

@@ -12,16 +12,26 @@ from rldrill.problems.models import Model, Transition
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """A world: what it is about, its states, the one in which it ends, and the actions.
+    """A world: what it is about, its states, the one in which it ends, and the actions; what to add where it ends.
 
     ``moves`` holds for each action how many states further it can lead, below 0 how many back, the most usual first.
     """
 
     story: str
+    ending: str
     states: tuple[str, ...]
     terminal: str
     actions: tuple[str, ...]
     moves: tuple[tuple[int, ...], ...]
+
+    def told(self, terminal: tuple[str, ...]) -> str:
+        """What the world is about, with its ending if there is a terminal state."""
+        return f"{self.story}{self.ending if terminal else ''}."
+
+    @property
+    def onward(self) -> tuple[str, ...]:
+        """The actions that can lead on."""
+        return tuple(action for action, moves in zip(self.actions, self.moves, strict=True) if max(moves) > 0)
 
     def reached(self, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
         """Where an action can lead from a state, the most usual first; it goes no further than to the outer places.
@@ -42,6 +52,7 @@ def settings() -> tuple[Setting, ...]:
     return tuple(
         Setting(
             world["story"],
+            world.get("ending", ""),
             tuple(world["states"]),
             world["terminal"],
             tuple(world["actions"]),
@@ -123,4 +134,4 @@ def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
             if not ends and state == states[-1] and targets == (state,):  # nobody stays there for ever
                 targets = (states[0],)
             rows += draw_outcomes(rng, state, action, targets, shape)
-    return Model(story=setting.story, transitions=tuple(rows), terminal=ends)
+    return Model(story=setting.told(ends), transitions=tuple(rows), terminal=ends)

@@ -124,7 +124,8 @@ def draw_worth(
 
     Those that are called sure have one outcome each.
     """
-    places = (*setting.states[: shape.states], *((setting.terminal,) if shape.ends else ()))
+    ends = (setting.terminal,) if shape.ends else ()
+    places = (*setting.states[: shape.states], *ends)
     rows = [
         row
         for pair, worth in worths.items()
@@ -132,7 +133,7 @@ def draw_worth(
             rng, setting, places, pair, worth, values, gamma, replace(shape, branches=1) if pair in sure else shape
         )
     ]
-    return Model(story=setting.story, transitions=tuple(rows), terminal=places[shape.states :])
+    return Model(story=setting.told(ends), transitions=tuple(rows), terminal=ends)
 
 
 def draw_paying(

@@ -6,7 +6,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
-from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, policy_blocks
+from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, open_chance, policy_blocks
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
@@ -44,7 +44,7 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The model and the policy; the values of states, then of states with actions."""
     return Question(
-        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
+        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(f"{discount(given.gamma)}{open_chance(given)}")),
         (
             Part(f"What is $V^π(s)$ for every state{in_open(given)}?", Values("V^π", given.mdp.states)),
             Part(

@@ -18,6 +18,7 @@ from rldrill.problems.models import (
     Transition,
     model_blocks,
     never_left,
+    open_chance,
     policy_blocks,
 )
 from rldrill.problems.parts import Number, Part, Values
@@ -107,7 +108,7 @@ def _recurrent(rng: Draws, setting: Setting) -> Given:
         onward = states[(index + 1) % len(states)]
         targets = tuple(dict.fromkeys((state, onward) if rng.chance(Fraction(3, 4)) else (onward,)))
         rows += draw_outcomes(rng, state, ALONE, targets, Shape(len(states), 1, 2, reward=8, denominators=(2, 4, 5)))
-    return Given(mdp=Model(story=setting.story, transitions=tuple(rows)), gamma=Fraction(1), average=True)
+    return Given(mdp=Model(story=setting.told(()), transitions=tuple(rows)), gamma=Fraction(1), average=True)
 
 
 def _left_open(rng: Draws, setting: Setting) -> Given:
@@ -133,11 +134,12 @@ def _left_open(rng: Draws, setting: Setting) -> Given:
         name = ALONE
         rows = [Transition(first, name, first, stay, rewards[0]), Transition(first, name, second, leave, rewards[1])]
     rows += [Transition(second, name, target, even, rewards[2 + i]) for i, target in enumerate(after)]
+    ends = (setting.terminal,) if setting.terminal in after else ()
     return Given(
         mdp=Model(
-            story=setting.story,
+            story=setting.told(ends),
             transitions=tuple(rows),
-            terminal=(setting.terminal,) if setting.terminal in after else (),
+            terminal=ends,
         ),
         policy=policy or None,
         gamma=Parameter("gamma") if letter == "gamma" else rng.fraction("1/2", "2/3"),
@@ -150,7 +152,7 @@ def question(given: Given) -> Question:
         return _in_the_long_run(given)
     values = "V^π" if given.mdp.chooses else "V"
     return Question(
-        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(discount(given.gamma))),
+        (*model_blocks(given.mdp), *policy_blocks(given), Paragraph(f"{discount(given.gamma)}{open_chance(given)}")),
         (Part(f"What is ${values}(s)$ for every state{in_open(given)}?", Values(values, given.mdp.states)),),
     )
 
@@ -161,7 +163,7 @@ def _in_the_long_run(given: Given) -> Question:
         (
             *model_blocks(given.mdp),
             *policy_blocks(given),
-            Paragraph("The process never ends, and nothing is discounted."),
+            Paragraph(f"The process never ends, and nothing is discounted.{open_chance(given)}"),
         ),
         (
             Part(

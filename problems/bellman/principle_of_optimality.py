@@ -135,7 +135,8 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph(
             f"{given.story} The moves are deterministic: each takes one of these edges and earns its "
-            f"reward{negative}. The return is the undiscounted sum of the rewards up to {given.goal}.".strip()
+            f"reward{negative}. The return is the undiscounted sum of the rewards up to "
+            f'{given.goal}, where the path ends: $V^*("{given.goal}") = 0$.'.strip()
         ),
         Table(
             header=("$s$", "$s'$", "$R_{s s'}$"),

@@ -103,12 +103,14 @@ def _back(rng: Draws) -> Given:
 
 
 def _other_row(rng: Draws, row: Mapping[str, Fraction], unit: int) -> dict[str, Fraction]:
-    """New values for the same actions, with another action as the best one."""
+    """New values for the same actions, with another action as the best one, and another value of the best one."""
     best = max(row, key=row.__getitem__)
     other = draw_rows(rng, ("here",), tuple(row), unit)["here"]
     top = max(other, key=other.__getitem__)
     instead = rng.choice([action for action in row if action != best])
-    return other if top != best else other | {best: other[instead], instead: other[best]}
+    if top == best:
+        other |= {best: other[instead], instead: other[best]}
+    return other if other[best] != row[best] else _other_row(rng, row, unit)
 
 
 def question(given: Given) -> Question:

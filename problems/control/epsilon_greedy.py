@@ -122,7 +122,7 @@ def question(given: Given) -> Question:
         action_values_table({given.state: given.values}),
         Paragraph(
             "It acts ε-greedily: with probability $1 − ε$ it takes the greedy action, with probability $ε$ one of all "
-            f"its actions, each with the same probability. {exploration(given.epsilon)}{tied}"
+            f"its actions, each equally likely. {exploration(given.epsilon)}{tied}"
         ),
     )
     where = f'"{given.state}"'

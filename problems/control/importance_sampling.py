@@ -183,7 +183,10 @@ def question(given: Given) -> Question:
             blocks,
             (
                 Part(f"What is the importance sampling ratio $ρ_1$ of the episode{in_open(given)}?", Number()),
-                Part(f"What is the ordinary estimate of {value} from this episode{in_open(given)}?", Number()),
+                Part(
+                    f"What is the ordinary importance sampling estimate of {value} from this episode{in_open(given)}?",
+                    Number(),
+                ),
             ),
         )
     ratios = f"What are the importance sampling ratios {_listed(entries)} of the episodes, in this order"

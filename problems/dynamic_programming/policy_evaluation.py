@@ -16,7 +16,8 @@ from rldrill.problems.models import (
     Process,
     Transition,
     model_blocks,
-    policy_table,
+    open_chance,
+    policy_blocks,
 )
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
@@ -65,7 +66,7 @@ def draw(level: int, rng: Draws) -> Given:
             while not tells_apart(found, start, gamma):
                 found = _even(rng, setting, places, state, actions, shape)
             rows += found
-    mdp = Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,))
+    mdp = Model(story=setting.told((setting.terminal,)), transitions=tuple(rows), terminal=(setting.terminal,))
     open_gamma = level == 3 and (alone or rng.chance(Fraction(1, 2)))
     policy: PolicyField | None = None
     if not alone:
@@ -107,11 +108,12 @@ def _even(
 def question(given: Given) -> Question:
     """The model, the policy and the kind of sweep; the values after the last sweep are asked for."""
     k = given.sweeps
+    sweeps = in_place(given.mdp.states) if given.in_place else SYNCHRONOUS
     blocks: tuple[Block, ...] = (
         *model_blocks(given.mdp),
-        *((Paragraph("The policy $π$ is:"), policy_table(given.chances)) if given.mdp.chooses else ()),
+        *policy_blocks(given),
         *begin(given, "Policy evaluation"),
-        Paragraph(f"{discount(given.gamma)} {in_place(given.mdp.states) if given.in_place else SYNCHRONOUS}"),
+        Paragraph(f"{discount(given.gamma)}{open_chance(given)} {sweeps}"),
     )
     ask = f"What is $V_{{{k}}}(s)$, the value of every state after {counted(k)}{in_open(given)}?"
     return Question(blocks, (Part(ask, Values(f"V_{{{k}}}", given.mdp.states)),))

@@ -65,15 +65,17 @@ def draw(level: int, rng: Draws) -> Given:
     shape = Shape(states=states, actions=2, branches=min(level, 2), denominators=(2, 4) if level < 3 else (2,))
     others = (1, 4) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 4)) else (-4, 4)
     forked: Literal["all", "others"] = "all" if level == 3 else "others"
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked=forked)
+    setting = draw_setting(rng)
+    mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
     kept = rng.choice(mdp.states) if level > 1 and rng.chance(Fraction(1, 2)) else None
     other = {
         state: policy[state] if state == kept else next(action for action in actions if action != policy[state])
         for state, actions in mdp.actions.items()
     }
     rows = tuple(row for row in mdp.transitions if row.action in (policy[row.state], other[row.state]))
+    ends = tuple(end for end in mdp.terminal if _reached(rows, end))
     return Given(
-        mdp=Model(story=mdp.story, transitions=rows, terminal=tuple(e for e in mdp.terminal if _reached(rows, e))),
+        mdp=Model(story=setting.told(ends), transitions=rows, terminal=ends),
         policy=policy,
         other=other,
         values=None if level == 3 else values,

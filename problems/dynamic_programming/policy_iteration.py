@@ -61,15 +61,16 @@ def question(given: Given) -> Question:
     )
     parts = []
     for number in range(given.rounds):
-        of, after = f"V^{{π_{{{number}}}}}", f"π_{{{number + 1}}}"
+        before, after = f"π_{{{number}}}", f"π_{{{number + 1}}}"
+        of = f"V^{{{before}}}"
         parts += [
             Part(f"What is ${of}(s)$, the value of every state?", Values(of, states)),
-            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions)),
+            Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions, after)),
         ]
     return Question(
         blocks,
         (
             *parts,
-            Part(f"Does the last round show that ${after}$ is optimal?", YesNo()),
+            Part(f"Is ${before}$ an optimal policy?", YesNo()),
         ),
     )

@@ -19,13 +19,14 @@ from rldrill.problems.models import (
     check_keys,
     check_sum,
     model_blocks,
+    open_chance,
     policy_blocks,
 )
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked
 from rldrill.problems.runs import readable
-from rldrill.problems.settings import Setting, draw_setting
+from rldrill.problems.settings import Setting, settings
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
@@ -111,7 +112,7 @@ _FIRST_TREE: tuple[Tree, tuple[int, ...]] = (((0, 0, (1,)), (0, 1, (3,)), (1, 0,
 
 def draw(level: int, rng: Draws) -> Given:
     """Two starts and a choice of two actions; then branches of chance; then a probability left open or asked for."""
-    setting = draw_setting(rng)
+    setting = rng.choice(tuple(setting for setting in settings() if len(setting.onward) > 1))
     tree, starts = _FIRST_TREE if level == 1 else rng.choice(_TREES)
     gamma = rng.fraction("1/2") if level == 1 else rng.fraction("1/2", "4/5")
     given = _given(level, rng, setting, tree, starts, gamma)
@@ -142,8 +143,8 @@ def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[i
         unit = gamma if targets == (3,) else Fraction(1)
         for target, chance in zip(targets, chances, strict=True):
             reward = _reward(rng, unit)
-            rows.append(Transition(named[state], setting.actions[action], named[target], chance, reward))
-    mdp = Model(story=setting.story, transitions=tuple(rows), terminal=(setting.terminal,))
+            rows.append(Transition(named[state], setting.onward[action], named[target], chance, reward))
+    mdp = Model(story=setting.told((setting.terminal,)), transitions=tuple(rows), terminal=(setting.terminal,))
     first = rng.split(len(starts), (2, 4)) if len(starts) > 1 else (Fraction(1),)
     policy = _policy(mdp, rng.split(2, (2,) if quarters else (4,)))
     return Given(
@@ -206,7 +207,12 @@ def question(given: Given) -> Question:
                 rows=(("$Pr(s_0 = s)$", *(f"${shown(chance)}$" for chance in given.start.values())),),
             ),
         ]
-    blocks = (*model_blocks(given.mdp), *start, *policy_blocks(given), Paragraph(discount(given.gamma)))
+    blocks = (
+        *model_blocks(given.mdp),
+        *start,
+        *policy_blocks(given),
+        Paragraph(f"{discount(given.gamma)}{open_chance(given)}"),
+    )
     if given.known is not None:
         told = Paragraph(f"The expected return is $𝔼_π(R_0) = {shown(given.known)}$.")
         return Question((*blocks, told), (letter_asked(given),))

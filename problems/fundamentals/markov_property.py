@@ -133,6 +133,8 @@ def draw(level: int, rng: Draws) -> Given:
     shapes = {1: ((2, 1, 2),), 2: ((2, 2, 2), (3, 2, 2), (2, 2, 3)), 3: ((2, 2, 3), (3, 2, 2))}
     count = (2 + rng.below(2), 2, 2) if finding else rng.choice(shapes[level])
     befores, nows, nexts = (rng.sample(setting.states, number) for number in count)
+    while set(befores) & set(nows) and not set(nows) <= set(nexts):  # or a history would have probability 0
+        befores, nows, nexts = (rng.sample(setting.states, number) for number in count)
     histories = tuple(product(befores, nows))
     if level == 3 and not finding:  # probabilities over 100, every history a multiple of 5/100
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
@@ -153,7 +155,7 @@ def draw(level: int, rng: Draws) -> Given:
     if finding:
         place = rng.choice([place for place, row in enumerate(table) if row.now not in matters])
         table = (*table[:place], table[place]._replace(weight=Parameter("x")), *table[place + 1 :])
-    return Given(table=table, asked=rng.choice(nexts), story=setting.story)
+    return Given(table=table, asked=rng.choice(nexts), story=setting.told(()))
 
 
 def _where_it_matters(rng: Draws, nows: tuple[str, ...]) -> tuple[str, ...]:

@@ -55,7 +55,11 @@ def draw(level: int, rng: Draws) -> Given:
         length = rng.choice((2, 2, 3)) if gamma == Fraction(1, 2) else 2
         first = _first(rng, rng.below(3))
         unit = Fraction(1, gamma.denominator if len(first) < 2 else 1)
-        return Given(first=first, repeated=_round(rng, length, gamma, unit), gamma=gamma)
+        repeated = _round(rng, length, gamma, unit)
+        rewards = (*first, *repeated)
+        if first and _from_start(rewards, len(first), gamma) == _from_start(repeated, 0, gamma):
+            return draw(level, rng)
+        return Given(first=first, repeated=repeated, gamma=gamma)
     kind = rng.below(3)
     if kind == 0:
         return Given(first=_first(rng, 1 + rng.below(2)), repeated=_first(rng, 2), gamma=Parameter("gamma"))

@@ -127,7 +127,7 @@ def question(given: Given) -> Question:
     tail = in_open(given, several=len(given.states) > 1)
     key = Values("V", given.states)
     what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
-    ask = f"To what {'does' if len(given.states) == 1 else 'do'} {what} converge with the updates of"
+    ask = f"To which {'value does' if len(given.states) == 1 else 'values do'} {what} converge with the updates of"
     return Question(
         blocks,
         (

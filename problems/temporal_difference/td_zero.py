@@ -64,7 +64,7 @@ def draw(level: int, rng: Draws) -> Given:
     a, b, c = rng.shuffled(setting.states)[:3]
     end = setting.terminal
     if level == 1:
-        return _run(rng, (a, rng.choice((b, b, end))))
+        return _run(rng, (a, b))
     if level == 2:
         tour = rng.choice(((a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, a, a)))
         run = _run(rng, tour, end)

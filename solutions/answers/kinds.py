@@ -14,7 +14,6 @@ from rldrill.problems.mathematics import (
     mathematics,
     name,
     row,
-    variable,
     word,
 )
 from rldrill.solutions.answers.text import (
@@ -280,7 +279,8 @@ class PolicyAnswer(Answer[parts.Policy]):
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
         return [
-            (row(variable("π"), Fence(name(state))), name(" or ".join(value[state]))) for state in self.kind.actions
+            (row(mathematics(self.kind.of), Fence(name(state))), name(" or ".join(value[state])))
+            for state in self.kind.actions
         ]
 
     def how_to_type(self) -> str:

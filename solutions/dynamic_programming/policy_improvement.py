@@ -4,7 +4,9 @@ from typing import Any
 
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement import Given
+from rldrill.problems.mathematics import mathematics
 from rldrill.solutions import knowns
+from rldrill.solutions.formula.notation import conditioned, quantity
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
 from rldrill.solutions.oracle import (
     Answers,
@@ -25,6 +27,9 @@ from rldrill.solutions.sheet.dynamic_programming import (
 )
 from rldrill.solutions.work import Work
 
+#: The greedy policy, beside the one that is given.
+_Improved = quantity("pi", conditioned(mathematics("π'")))
+
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """The policy's values if they are not given, the greedy actions, and whether they are the policy's own."""
@@ -37,7 +42,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         values = knowns.state_values(given.values, mdp.terminal)
     if given.action_values:
         work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
-    greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, **known) for s in mdp.states})
+    greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, into=_Improved, **known) for s in mdp.states})
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
     better = [state for state in mdp.states if not set(taken[state]) <= set(greedy[state])]
     stable = not better

@@ -11,6 +11,7 @@ from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.notation import numbered, pi
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
 from rldrill.solutions.oracle import (
     Answers,
@@ -44,15 +45,19 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         values = evaluation(work, POLICY_ITERATION, mdp, known | {"pi": policy, "V": values})
         values |= work.answer(of_states(mdp, values))
         work.say(f"Improvement to $π_{{{number + 1}}}$:")
-        best = {state: work.step(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+        improved_to = numbered(pi, number + 1)
+        best = {
+            state: work.step(POLICY_IMPROVEMENT, s=state, V=values, into=improved_to, **known) for state in mdp.states
+        }
         improved = work.answer(_improved(policy, best))
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
     optimal = not changed and is_optimal(mdp, given.gamma, values)
+    last = f"π_{{{given.rounds - 1}}}"
     if changed:
-        work.say("The last improvement changed the policy, so another round could change it again: this is no proof.")
+        work.say(f"The last improvement gave a better policy, so ${last}$ is not optimal.")
     elif optimal:
-        work.say("The last improvement changed nothing: the policy is greedy for its own values, so it is optimal.")
+        work.say(f"The last improvement changed nothing: ${last}$ is greedy for its own values, so it is optimal.")
     else:
         work.say(ONLY_GREEDY)
     work.answer(optimal)

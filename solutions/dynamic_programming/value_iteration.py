@@ -51,6 +51,7 @@ def solve(
     if given.tie:
         _tie(given.tie, work, known | {"V": values})
         return
+    work.say(f"For $V_{{{given.sweeps}}}$, which need not be $V^*$ yet, the formula gives the greedy policy $π$:")
     work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
@@ -76,6 +77,7 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
             (s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
+    work.say(f"For $Q_{{{given.sweeps}}}$, which need not be $Q^*$ yet, the formula gives the greedy policy $π$:")
     work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, into=pi, **known) for state in mdp.states})
 
 

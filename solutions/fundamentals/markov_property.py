@@ -28,6 +28,7 @@ def solve(given: Given, work: Work) -> None:
     whole = _completed(given, work)
     chances = _chances(whole, work)
     work.recall(MARKOV_PROPERTY)
+    work.say("For the states alone: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
     matters = _matters(whole, chances)
     for now in whole.present:
         _compare(whole, work, now, chances, differs=now in matters)
