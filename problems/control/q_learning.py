@@ -57,7 +57,9 @@ def draw(level: int, rng: Draws) -> Given:
         return Separate(**found if rng.chance(Fraction(3, 4)) else found | {"outcome": None})
     if level == 2 and rng.chance(Fraction(1, 3)):
         return AlongRun(**draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma"))))
-    return AlongRun(**draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead))
+    found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
+    best = [max(row.values()) for row in found["values"].values()]
+    return AlongRun(**found) if len(set(best)) == len(best) else draw(level, rng)
 
 
 def _ahead(row: Mapping[str, Fraction], _: str) -> Fraction:

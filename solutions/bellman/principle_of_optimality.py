@@ -75,7 +75,8 @@ def _path(start: str, best: Mapping[str, tuple[str, ...]]) -> str:
 def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value], work: Work) -> Value:
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
     work.say(
-        f"The part up to {through} must be optimal, too. $W(s)$ is the greatest return of a path from $s$ to {through}:"
+        f"The part up to {through} must be optimal. $W(s)$ is the greatest return of a path from $s$ to {through}, "
+        f'so $W("{through}") = 0$, and $W$ follows from the same equation with $W$ in place of $V^*$:'
     )
     before = given.backwards[given.backwards.index(through) + 1 :]
     there = _totals(through, before, given.onward, R, work, Head)
