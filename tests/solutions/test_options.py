@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from rldrill.audit import Finding, examine
+from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError

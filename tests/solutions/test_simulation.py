@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from asking import solved
-from rldrill.exercise import draw
+from rldrill.exercise import Exercise, draw
 
 Array = NDArray[np.float64]
 RUNS = 100_000
@@ -33,26 +33,33 @@ def walked(rows: Array, states: NDArray[np.int64], rng: np.random.Generator) -> 
     return (rng.random((len(states), 1)) > rows.cumsum(axis=1)[states]).sum(axis=1)
 
 
-@pytest.mark.parametrize(("level", "seed"), CASES)
+def drawn(family: str, level: int, seed: int, fits: Callable[[Any], bool]) -> Exercise:
+    """The first problem from that seed on whose givens fit, with no letter in them."""
+    exercises = (draw(family, level, 1000 * seed + more) for more in range(300))
+    return next(each for each in exercises if "Parameter" not in repr(each.problem.given) and fits(each.problem.given))
+
+
+@pytest.mark.parametrize(("level", "seed"), CASES[:4])
 def test_a_robot_that_moves_and_senses_is_where_the_filter_believes(level: int, seed: int) -> None:
-    exercise = draw("bayes-filter", level, seed)
+    exercise = drawn("bayes-filter", level, seed, lambda given: all(each.measurement for each in given.run))
     given: Any = exercise.problem.given
     names = tuple(given.belief)
     rng = np.random.default_rng(seed)
     robots = rng.choice(len(names), size=RUNS, p=np.array([float(p) for p in given.belief.values()]))
     for event, belief in zip(given.run, exercise.solve().values(), strict=True):
-        motion = given.motion[event.action]
-        rows = np.array([[float(motion[state].get(after, 0)) for after in names] for state in names])
-        robots = walked(rows, robots, rng)
+        if event.action is not None:
+            motion = given.motion[event.action]
+            rows = np.array([[float(motion[state].get(after, 0)) for after in names] for state in names])
+            robots = walked(rows, robots, rng)
         likely = np.array([float(given.likelihood[event.measurement][state]) for state in names])
         robots = robots[rng.random(len(robots)) < likely[robots]]  # only what reads as the robot did
         for index, name in enumerate(names):
             assert_close((robots == index).astype(float), float(belief[name]))
 
 
-@pytest.mark.parametrize(("level", "seed"), CASES)
+@pytest.mark.parametrize(("level", "seed"), CASES[:4])
 def test_features_add_up_along_simulated_episodes(level: int, seed: int) -> None:
-    exercise = draw("feature-expectations-policy", level, seed)
+    exercise = drawn("feature-expectations-policy", level, seed, lambda given: given.start)
     given: Any = exercise.problem.given
     names = (*given.states, *given.terminal)
     rows = np.eye(len(names))
@@ -78,17 +85,21 @@ def test_features_add_up_along_simulated_episodes(level: int, seed: int) -> None
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_evidence_is_the_average_likelihood_of_coins_from_the_prior(seed: int) -> None:
-    exercise = draw("model-comparison", 3, seed)
+    exercise = drawn("model-comparison", 2, seed, lambda given: given.odds is None)
     given: Any = exercise.problem.given
     rng = np.random.default_rng(seed)
     for name, model in given.models.items():
-        coins = np.full(RUNS, float(model.theta)) if model.theta is not None else rng.beta(model.a, model.b, RUNS)
+        if model.thetas is not None:
+            values, chances = (np.array([float(each) for each in column]) for column in zip(*model.thetas, strict=True))
+            coins = rng.choice(values, RUNS, p=chances)
+        else:
+            coins = np.full(RUNS, float(model.theta)) if model.theta is not None else rng.beta(model.a, model.b, RUNS)
         assert_close(coins**given.heads * (1 - coins) ** given.tails, float(exercise.solve()["a"][name]))
 
 
 @pytest.mark.parametrize(("level", "seed"), CASES[:4])
 def test_a_robot_on_a_line_is_where_the_kalman_filter_believes(level: int, seed: int) -> None:
-    exercise = draw("kalman-filter", level, seed)
+    exercise = drawn("kalman-filter", level, seed, lambda given: all(each.u and each.z for each in given.steps))
     given: Any = exercise.problem.given
     mean, variance, process, sensor = (
         float(m[0][0]) for m in (given.mean, given.covariance, given.process, given.sensor)
