@@ -36,8 +36,8 @@ def test_a_policy_agrees_if_all_tied_actions_do() -> None:
 def _found(monkeypatch: pytest.MonkeyPatch, **changed: Any) -> Finding:
     for name, value in changed.items():
         monkeypatch.setattr(audit, name, value)
-    finding = Finding(family("td-zero"), 2)
-    examine(draw("td-zero", 2, 7), finding)
+    finding = Finding(family("td-zero"), 1)
+    examine(draw("td-zero", 1, 7), finding)
     return finding
 
 
@@ -57,7 +57,7 @@ def test_a_wrong_oracle_is_a_disagreement(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_an_answer_that_is_not_judged_right_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     finding = _found(monkeypatch, judge=lambda *given: replace(judge(*given), outcome=Outcome.WRONG))
-    assert finding.refused == ["td-zero/2/7@1 (a)"]
+    assert finding.refused == [f"td-zero/1/7@{family('td-zero').revision} (a)"]
     assert not finding.clean
 
 
@@ -70,8 +70,7 @@ def test_a_mistake_that_is_not_recognised_is_told(monkeypatch: pytest.MonkeyPatc
 
 def test_open_parameters_are_compared_where_the_oracle_has_them() -> None:
     assert audit.as_float(fmpq(1, 4)) == 0.25
-    gamma = draw("return-infinite", 3, 0)
-    assert gamma.problem.parameters
+    gamma = next(each for seed in range(50) if (each := draw("return-infinite", 3, seed)).problem.parameters)
     value = audit.as_float(next(iter(gamma.answers.values())))
     assert value == pytest.approx(float(np.ravel(solver(gamma.problem.family).oracle(gamma.problem.given)[0])[0]))
     assert Fraction(7, 19) == audit.OPEN

@@ -29,6 +29,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     fields: {"json": (False, None, None)},
     generate: {
         "number": (10, 1, 10**6), "level": (None, 1, 3), "seed": (None, 0, None), "answers": (False, None, None),
+        "more": (None, None, None),
     },
     audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "json": (False, None, None)},
 }  # fmt: skip
