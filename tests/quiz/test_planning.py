@@ -1,0 +1,156 @@
+"""What is asked next: the sheet's order, what is earned, what is forgotten, and all of it before the exam."""
+
+from collections import Counter
+from collections.abc import Callable
+from datetime import UTC, date, datetime, timedelta
+from itertools import count, pairwise
+
+import pytest
+
+from rldrill.history.attempts import Attempt
+from rldrill.history.memory import Skill
+from rldrill.problems.catalogue import topics
+from rldrill.problems.errors import UsageError
+from rldrill.quiz.planning import Plan, skills
+
+NOW = datetime(2026, 11, 25, 8, tzinfo=UTC)
+DAY, MINUTE = timedelta(days=1), timedelta(minutes=1)
+TOPIC = {family: topic for topic, names in topics().items() for family in names}
+ORDER = skills()
+_numbers = count()
+
+
+def answered(skill: Skill, when: datetime, outcome: str = "right", mistake: str = "") -> Attempt:
+    name = str(next(_numbers))
+    mistakes = (mistake,) if mistake else ()
+    return Attempt(name, when, name, skill.family, skill.level, 7, 1, "a", 1, "", outcome, mistakes, 0, 0, 60.0, 0.0)
+
+
+def studied(
+    order: tuple[Skill, ...],
+    days: int,
+    number: int,
+    *,
+    exam: date | None = None,
+    outcome: Callable[[Skill], str] = lambda _: "right",
+) -> list[Attempt]:
+    """Somebody who does so many problems every day."""
+    log: list[Attempt] = []
+    for day in range(days):
+        now = NOW + day * DAY
+        plan, today = Plan(order, log, number, now, exam), list[Attempt]()
+        for _ in range(number):
+            skill = plan.next(now)
+            now += 3 * MINUTE
+            today.append(answered(skill, now, outcome(skill)))
+            plan.learn(today)
+        log += today
+    return log
+
+
+def test_the_first_problem_is_of_level_1_and_of_the_first_topic() -> None:
+    first = Plan(ORDER, [], 10, NOW).next(NOW)
+    assert first.level == 1
+    assert TOPIC[first.family] == "fundamentals"
+
+
+def test_topics_are_mixed_and_nothing_comes_twice_on_the_first_day() -> None:
+    asked = [Skill(attempt.family, attempt.level or 0) for attempt in studied(ORDER, 1, 8)]
+    assert len(set(asked)) == 8
+    assert all(TOPIC[one.family] != TOPIC[two.family] for one, two in pairwise(asked))
+    assert {skill.level for skill in asked} == {1}
+
+
+def test_a_level_comes_after_the_one_below_went_well() -> None:
+    mastered: set[Skill] = set()
+    log = studied(ORDER, 30, 12, outcome=lambda skill: "right" if len(skill.family) % 3 else "wrong")
+    for attempt in log:
+        assert attempt.level is not None
+        below = Skill(attempt.family, attempt.level - 1)
+        assert attempt.level == 1 or below in mastered
+        if attempt.right:
+            mastered.add(Skill(attempt.family, attempt.level))
+    assert {skill.level for skill in mastered} == {1, 2, 3}
+
+
+def test_what_is_due_comes_before_what_is_new_but_something_is_new_each_day() -> None:
+    log = [answered(skill, NOW - 60 * DAY) for skill in ORDER[:30]]
+    plan = Plan(ORDER, log, 10, NOW)
+    asked = [plan.next(NOW) for _ in range(10)]
+    assert sum(skill in ORDER[:30] for skill in asked) == 8
+
+
+def test_the_least_remembered_comes_first() -> None:
+    one, two = Skill("td-zero", 1), Skill("policy-value", 1)
+    log = [answered(one, NOW - 40 * DAY), answered(two, NOW - 30 * DAY)]
+    assert Plan((one, two), log, 10, NOW).due(NOW) == [one, two]
+    assert Plan((two, one), log, 10, NOW).due(NOW) == [one, two]
+
+
+def test_what_goes_wrong_twice_is_asked_a_level_lower() -> None:
+    easy, hard = Skill("td-zero", 1), Skill("td-zero", 2)
+    log = [answered(easy, NOW - 9 * DAY), answered(hard, NOW - 2 * DAY, "wrong")]
+    assert Plan(ORDER, log, 10, NOW).due(NOW)[0] == hard
+    log.append(answered(hard, NOW - DAY, "wrong"))
+    assert Plan(ORDER, log, 10, NOW).due(NOW)[0] == easy
+    log.append(answered(easy, NOW - DAY + MINUTE))
+    assert Plan(ORDER, log, 10, NOW).due(NOW)[0] == hard
+
+
+def test_what_goes_wrong_comes_again_ten_minutes_later() -> None:
+    plan = Plan(ORDER, [], 10, NOW)
+    wrong = plan.next(NOW)
+    plan.learn([answered(wrong, NOW, "wrong")])
+    assert plan.next(NOW + 3 * MINUTE) != wrong
+    assert wrong in plan.due(NOW + 11 * MINUTE)
+
+
+@pytest.mark.parametrize("hours", [8, 23])
+@pytest.mark.parametrize(("days", "number"), [(21, 15), (10, 20)])
+def test_everything_is_seen_and_seen_again_before_the_exam(days: int, number: int, hours: int) -> None:
+    order = skills([*topics()["bellman"], *topics()["dynamic_programming"]])  # 48 skills
+    exam = (NOW.replace(hour=hours) + days * DAY).date()
+    log = studied(order, days, number, exam=exam)
+    seen = Counter(Skill(attempt.family, attempt.level or 0) for attempt in log)
+    last = {Skill(attempt.family, attempt.level or 0): attempt.time for attempt in log}
+    assert set(seen) == set(order)
+    assert min(seen.values()) >= 2
+    assert all(exam - when.date() <= timedelta(days=8) for when in last.values())
+
+
+def test_without_an_exam_intervals_are_longer() -> None:
+    skill = Skill("td-zero", 1)
+    log = [answered(skill, NOW - day * DAY) for day in (60, 50, 30, 0)]
+    exam = (NOW + 12 * DAY).date()
+    assert Plan(ORDER, log, 10, NOW).due_at(skill) > NOW + 20 * DAY
+    assert Plan(ORDER, log, 10, NOW, exam).due_at(skill).date() < exam
+
+
+def test_an_exam_that_is_over_is_refused() -> None:
+    for day in (NOW.date(), NOW.date() - DAY):
+        with pytest.raises(UsageError, match="not ahead"):
+            Plan(ORDER, [], 10, NOW, day)
+
+
+def test_the_first_line_says_what_and_why() -> None:
+    value, td = Skill("policy-value", 1), Skill("td-zero", 1)
+    log = [
+        answered(value, NOW - 25 * DAY, "wrong", "forgot-gamma"),
+        answered(value, NOW - 20 * DAY, "wrong", "forgot-gamma"),
+    ]
+    assert Plan(ORDER, [], 10, NOW).says().startswith("Your first quiz: 10 problems")
+    assert Plan(ORDER, log, 10, NOW).says() == (
+        "1 due, 9 new; first policy-value, level 1, because of “forgot gamma”, twice."
+    )
+    log.append(answered(td, NOW - 30 * DAY))
+    said = Plan(ORDER, log, 10, NOW, (NOW + 9 * DAY).date()).says()
+    assert said.startswith("2 due, 8 new; 9 days to the exam; first policy-value")
+
+
+def test_the_order_is_that_of_the_sheet_with_higher_levels_later() -> None:
+    place = {skill: number for number, skill in enumerate(ORDER)}
+    assert len(ORDER) == len(set(ORDER))
+    for skill in ORDER:
+        if skill.level > 1:
+            assert place[Skill(skill.family, skill.level - 1)] < place[skill]
+    assert skills(["td-zero"]) == (Skill("td-zero", 1), Skill("td-zero", 2), Skill("td-zero", 3))
