@@ -135,14 +135,12 @@ def test_an_exam_that_is_over_is_refused() -> None:
 def test_the_first_line_says_what_and_why() -> None:
     value, td = Skill("policy-value", 1), Skill("td-zero", 1)
     log = [
-        answered(value, NOW - 40 * DAY, "wrong", "forgot-gamma"),
+        answered(value, NOW - 25 * DAY, "wrong", "forgot-gamma"),
         answered(value, NOW - 20 * DAY, "wrong", "forgot-gamma"),
     ]
     assert Plan(ORDER, [], 10, NOW).says().startswith("Your first quiz: 10 problems")
     assert Plan(ORDER, log, 10, NOW).says() == (
-        "1 due, 9 new; first policy-value, level 1, because of “forgot gamma”, once."
-        if NOW - log[0].time > 30 * DAY
-        else ""
+        "1 due, 9 new; first policy-value, level 1, because of “forgot gamma”, twice."
     )
     log.append(answered(td, NOW - 30 * DAY))
     said = Plan(ORDER, log, 10, NOW, (NOW + 9 * DAY).date()).says()
