@@ -114,7 +114,7 @@ class Record:
 
     def diagnosis(self, current: PartRecord) -> Diagnosis | None:
         """What the last answer to a part comes from, if it counts and is wrong."""
-        answered = {record.part.label: record.counted[-1] for record in self.parts if record.tries}
+        answered = {record.part.label: record.counted[-1] for record in self.parts if record.counted}
         last = answered.get(current.part.label)
         if last is None or last.verdict is None or last.accepted or last is not current.answers[-1]:
             return None

@@ -169,8 +169,10 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
     real = solution.solver
     from dataclasses import replace
 
+    import numpy as np
+
     def broken(family):  # type: ignore[no-untyped-def]
-        return replace(real(family), oracle=lambda given: [[1e9] * len(each) for each in real(family).oracle(given)])
+        return replace(real(family), oracle=lambda given: [np.add(each, 1e9) for each in real(family).oracle(given)])
 
     monkeypatch.setattr("rldrill.audit.checking.solver", broken)
     (finding, *_) = audit(["td-zero"], number=2)

@@ -12,7 +12,10 @@ from rldrill.commands.arguments import complete_families, complete_ids, complete
 
 #: For every option its default, and the least and most that it takes.
 OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
-    quiz: {"number": (10, 1, 1000), "level": (None, 1, 3), "seed": (None, 0, None)},
+    quiz: {
+        "number": (None, 1, 1000), "level": (None, 1, 3), "seed": (None, 0, None), "exam_date": (None, None, None),
+        "minutes": (None, 1, 600),
+    },
     worksheet: {
         "count": (8, 1, 100), "level": (None, 1, 3), "seed": (None, 0, None), "versions": (1, 1, 200),
         "paper": ("a4", None, None), "output": (Path("worksheet.pdf"), None, None), "title": (None, None, None),
