@@ -48,7 +48,7 @@ def seconds_of(lines: Iterable[Line]) -> Fraction:
         if isinstance(line, Step):
             seconds += STEP + _seconds(line.put_in)
             unknowns += line.value is None
-        elif isinstance(line, Result | Elimination):
+        elif isinstance(line, Result | Elimination) and unknowns:
             # Elimination: about n³/3 operations, each written down, on numbers that grow to three or four digits.
             size = LETTER if any(map(parameters, line.values)) else 3
             seconds += (2 * OPERATION + size * DIGIT) * Fraction(unknowns**3 + 3 * unknowns**2, 3)

@@ -553,6 +553,7 @@ def test_the_examples_say_what_their_comments_say() -> None:
         ("n-step-return/2/7", "b", "right"),
         ("bayes-rule/1/7", "a", "right"),
         ("return/2/7", "a", "wrong"),
+        ("return/2/7", "b", "right"),
     ]
     verdicts = [row.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
     assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]

@@ -43,6 +43,8 @@ class Given(BackRun):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.watkins and self.outcome is not None:
+            raise ValueError("outcome: with watkins no letter is found from it; leave one of them out")
         if not self.watkins:
             self.demand_last_action("Sarsa(λ)")
         elif self.parameters():

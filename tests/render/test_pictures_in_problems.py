@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
+from itertools import product
 
 import pytest
 from flint import fmpq
@@ -20,8 +21,9 @@ def pictures(document: Document) -> Iterator[Picture]:
             yield from pictures(block.blocks)
 
 
-@pytest.mark.parametrize("family", ["forward-kinematics", "jacobian"])
-@pytest.mark.parametrize("level", [1, 2, 3])
+@pytest.mark.parametrize(
+    ("family", "level"), [*product(["jacobian"], [1, 2, 3]), *product(["forward-kinematics"], [1, 2])]
+)
 def test_an_arm_is_drawn_with_its_lengths_and_angles(family: str, level: int) -> None:
     exercise = draw(family, level, seed=3)
     (arm,) = pictures(exercise.question())

@@ -19,6 +19,7 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                             "alpha": 1, "gamma": 1, "lam": 1, "replacing": True}),
     ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
     ("bandit", {"pulls": [["x", 2], ["x", 4], ["y", 1]], "between": ["x", "y"]}),
+    ("lqr-backward", {"A": 1, "B": 1, "Q": 1, "R": 2, "start": [1], "horizon": 1, "convention": "cost-to-go"}),
     ("epsilon-greedy", {"values": {"x": 1, "y": 1}, "epsilon": "1/2"}),
     ("sarsa-lambda", {"trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
                       "values": {"a": {"x": 1}, "b": {"x": 2}}, "alpha": 1, "gamma": 1, "lam": 1, "watkins": True,

@@ -64,6 +64,13 @@ OPTIONS: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
+#: What drawn problems ask in other ways than the options do.
+_NOT_WITH = {
+    "sarsa-lambda": ("outcome",),
+    "denavit-hartenberg": ("asked", "point"),
+}
+
+
 @pytest.mark.parametrize(
     ("name", "changed"), OPTIONS, ids=[f"{name}: {', '.join(changed)}" for name, changed in OPTIONS]
 )
@@ -74,6 +81,7 @@ def test_both_ways_to_solve_it_agree(name: str, changed: dict[str, Any]) -> None
         for number in range(4):
             given = family.draw(level, Draws(f"options {level} {number}")).model_dump(mode="json", exclude_none=True)
             given = {field: value for field, value in (given | changed).items() if value is not None}
+            given = {field: value for field, value in given.items() if field not in _NOT_WITH.get(name, ())}
             try:
                 solution = solve(Problem(family, family.read(given)))
             except (FileError, NoSolution):

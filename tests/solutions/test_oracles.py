@@ -50,12 +50,12 @@ def test_the_average_reward_where_two_states_take_turns() -> None:
     ("criterion", "given", "criteria", "winner"),
     [
         # A model that is certain of the data has the log-likelihood 0, and pays for its parameters only.
-        ("AIC", {"sure": {"log_likelihood": 0, "k": 3}, "poor": {"log_likelihood": -4, "k": 0}}, [6, 8], "a"),
+        ("AIC", {"sure": {"log_likelihood": 0, "k": 3}, "poor": {"log_likelihood": -4, "k": 0}}, [6, 8], "A"),
         (
             "AIC",
             {"sure": {"likelihood": 1, "k": 3}, "poor": {"likelihood": "1/2", "k": 1}},
             [6, 2 + 2 * np.log(2)],
-            "b",
+            "B",
         ),
     ],
 )
