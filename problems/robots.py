@@ -186,16 +186,6 @@ def values_of(rng: Draws, robot: Robot) -> dict[str, Any]:
     }
 
 
-def refuse_held(system: System) -> None:
-    """Complain where single entries are asked for of a system that is held over its step.
-
-    Raises:
-        ValueError: they are.
-    """
-    if system.discretisation == "zero-order hold":
-        raise ValueError("entries: with a zero-order hold the whole matrices are asked for; leave entries out")
-
-
 class Entries(Givens):
     """Which entries of A and of B are asked for, each as its row and column, counted from 1."""
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from flint import arb, arb_mat, ctx, fmpq, fmpz
+from flint import arb, arb_mat, ctx, fmpq
 
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import Value, enclosure
@@ -99,5 +99,6 @@ class ZeroOrderHold:
 
 def _short(number: arb) -> fmpq:
     """A number rounded to twelve decimals."""
-    whole: fmpz = (number.mid() * _DECIMALS + 0.5).floor().unique_fmpz()
-    return fmpq(whole, _DECIMALS)
+    mantissa, exponent = number.mid().man_exp()
+    middle = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    return fmpq((middle * _DECIMALS + fmpq(1, 2)).floor(), _DECIMALS)

@@ -66,8 +66,6 @@ OPTIONS: list[tuple[str, dict[str, Any]]] = [
 
 #: What drawn problems ask in other ways than the options do.
 _NOT_WITH = {
-    "linearise": ("entries", "deviation"),
-    "linearise-affine": ("entries",),
     "sarsa-lambda": ("outcome",),
     "denavit-hartenberg": ("asked", "point"),
 }
