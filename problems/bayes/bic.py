@@ -146,7 +146,7 @@ def _drawn(level: int, rng: Draws) -> Given:
             criterion=criterion,
             data=Data(tosses=dict(zip(("red", "blue", "gold"), counts, strict=False)), models=(models[0], models[1])),
         )
-    names = ("line", "parabola", "cubic")[: 3 if level == 2 else 2]
+    names = ("small", "medium", "large") if level == 2 else ("small", "large")
     numbers = sorted(rng.distinct(len(names), 1, 6))
     if kind == "border":
         base, more = rng.choice((2, 3)), int(numbers[1] - numbers[0])
