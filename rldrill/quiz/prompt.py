@@ -1,6 +1,7 @@
 """Typing at the prompt: line editing, the history of what was typed, and pasted lines, where the system has them."""
 
 import contextlib
+import signal
 import sys
 from collections.abc import Callable
 
@@ -13,6 +14,8 @@ _PASTED = 0.03
 
 def line_editor() -> Ask:
     """``input`` with line editing; importing readline is what makes it edit."""
+    if is_interactive():  # whoever sits there may press Ctrl-C, though a script that started us may have ignored it
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     with contextlib.suppress(ImportError):  # Windows' own console edits lines by itself
         import readline
 
