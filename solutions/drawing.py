@@ -100,9 +100,7 @@ def flaws(solution: Solution) -> Iterator[str]:
             yield f"({part.label}) has tied best actions"
     for misconception in solution.applicable:
         answers = solution.answers_with(misconception)
-        if answers is None:
-            yield f"{misconception.name} leads to no answer"
-        elif not distinguishable(solution, answers):
+        if answers is not None and not distinguishable(solution, answers):
             yield f"{misconception.name} gives the right answer"
 
 

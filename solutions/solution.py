@@ -63,6 +63,10 @@ def _demanded(module: ModuleType, name: str) -> Any:
         raise BrokenFamily(f"{module.__file__}: a solver must have {name}; add it.") from None
 
 
+#: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
+_MOST_LINES = 2000
+
+
 @dataclass(frozen=True)
 class Solution:
     """The solution of one problem; ``attempts`` says how many draws it took to find a good one."""
@@ -94,11 +98,16 @@ class Solution:
 
     @cached_property
     def mistakes(self) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
-        """Every misconception that applies here and leads to an answer, with the answers that it gives."""
+        """Every misconception that applies here and leads to an answer, with the answers that it gives.
+
+        None are looked for where the working is so long that nobody does it by hand: each takes a solution of its own.
+        """
         return self.mistaken({})
 
     def mistaken(self, carried: Mapping[str, Any]) -> tuple[tuple[Misconception, Mapping[str, Any]], ...]:
         """The same, going on from a person's own answers to earlier parts."""
+        if len(self.work.lines) > _MOST_LINES:
+            return ()
         made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
         return tuple((misconception, answers) for misconception, answers in made if answers is not None)
 

@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, action_values_table, draw_action_ru
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -69,7 +69,11 @@ def draw(level: int, rng: Draws) -> Given:
     """One transition with a trace from before; then two, also back to a pair; then λ left open, or asked back for."""
     if level == 3 and rng.chance(Fraction(2, 3)):
         return _back(rng)
-    visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: ("aba.", "abab", "abac", "aab")}[level]
+    replacing = level == 2 and rng.chance(Fraction(1, 4))
+    again = ("aba.", "abab", "abac")  # the first pair's trace decays, and is visited again
+    visits = (
+        again if replacing else {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
+    )
     trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, same=level > 1)
     gamma, lam = map(Fraction, rng.choice(_DECAYS[:level]))
     traces = None
@@ -78,7 +82,6 @@ def draw(level: int, rng: Draws) -> Given:
         traces = {
             state: {action: Fraction((state, action) == traced) for action in row} for state, row in values.items()
         }
-    comes_back = len(set(trajectory.states[:-1])) < len(trajectory.states) - 1
     return Given(
         trajectory=trajectory,
         values=draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), 4 if level == 2 else 2),
@@ -86,7 +89,7 @@ def draw(level: int, rng: Draws) -> Given:
         gamma=Fraction(1) if level == 3 else gamma,
         lam=Parameter("lambda") if level == 3 else lam,
         traces=traces,
-        replacing=level == 2 and comes_back and rng.chance(Fraction(1, 2)),
+        replacing=replacing,
     )
 
 

@@ -1,4 +1,6 @@
-"""Pin problems with their answers, their pages, and the minutes of the levels: of the families named, or of all.
+"""Pin problems with their answers, their pages, the limits of their fields, and the minutes of the levels.
+
+Of the families named, or of all:
 
     python tests/golden/write.py [FAMILY …]
 
@@ -14,6 +16,7 @@ from statistics import median
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
+from limits import limits
 from printing import page
 from rldrill.audit.checking import agrees
 from rldrill.exam.expected import FILE as MINUTES
@@ -24,6 +27,7 @@ from rldrill.solutions.solution import solver
 
 PAGES = Path(__file__).with_name("pages")
 PROBLEMS = Path(__file__).with_name("problems.json")
+FIELDS = Path(__file__).with_name("fields.json")
 PINNED = range(2)
 MEASURED = range(15)
 
@@ -59,5 +63,6 @@ times = {
 }
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
+rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for known in chosen:
     (PAGES / f"{known.name}.txt").write_text(page(known), encoding="utf-8")

@@ -4,12 +4,14 @@ import json
 import typing
 from collections.abc import Iterator
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 from pydantic import BaseModel, create_model
 
 import rldrill
+from limits import limits
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Givens
@@ -28,6 +30,7 @@ def models(annotation: Any, seen: set[type[BaseModel]]) -> Iterator[type[BaseMod
 
 
 ALL = [*families()]
+PINNED = Path(__file__).parents[1] / "golden" / "fields.json"
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -155,3 +158,11 @@ def test_the_average_reward_needs_no_discount_by_the_schema() -> None:
 def test_the_form_over_actions_has_an_example_with_actions() -> None:
     actions = [json.loads(field.example) for field in rldrill.fields("monte-carlo") if field.path == "trajectory"]
     assert [run.get("actions") for run in actions] == [None, ["left", "right"]]
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_limits_and_defaults_of_the_fields_are_those_that_were_agreed(name: str) -> None:
+    pinned = json.loads(PINNED.read_text(encoding="utf-8"))
+    assert limits(family(name)) == pinned.get(name), (
+        f"What a file of {name} may hold has changed; where that is meant, run 'python tests/golden/write.py {name}'."
+    )

@@ -30,6 +30,7 @@ one, two = number(1), number(2)
     [
         ("a", a),
         ("ab", word("ab")),
+        ("xy\u0304", Accent(word("xy"), "bar")),
         ("a b", row(a, b)),
         ('"a"', a),
         ('"smoking hot"', word("smoking hot")),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
+from rldrill.problems.exact import Parameter
 from rldrill.problems.parts import YesNo
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.formula.compiling import value_of
@@ -118,3 +119,15 @@ def test_a_product_over_a_finite_set() -> None:
     assert value_of(ProductOver(i, i, Counting(1, 0)), {}) == 1
     assert latex(typeset(product)).startswith(r"\prod_{i = 1}^{3}")
     assert put_in(product, {}).args == tuple(put_in(i + 1, {"i": number}) for number in (1, 2, 3))
+
+
+def test_two_drawn_episodes_that_pay_the_same_do_so_at_a_discount_between_0_and_1() -> None:
+    compared = [
+        given
+        for given in (rldrill.draw("return", 3, seed).problem.given for seed in range(80))
+        if hasattr(given, "others") and isinstance(given.gamma, Parameter)
+    ]
+    assert len(compared) > 8
+    for given in compared:
+        (now, later), (other, after) = given.rewards, given.others
+        assert 0 < Fraction(now - other, after - later) < 1
