@@ -74,7 +74,9 @@ def draw(level: int, rng: Draws) -> Given:
     visits = (
         again if replacing else {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
     )
-    trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, same=level > 1)
+    trajectory, values = draw_action_run(
+        rng, rng.choice(again if replacing else visits), 2 if level == 1 else 3, same=level > 1
+    )
     gamma, lam = map(Fraction, rng.choice(_DECAYS[:level]))
     traces = None
     if level == 1:

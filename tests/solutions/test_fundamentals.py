@@ -123,11 +123,11 @@ def test_a_product_over_a_finite_set() -> None:
 
 def test_two_drawn_episodes_that_pay_the_same_do_so_at_a_discount_between_0_and_1() -> None:
     compared = [
-        given
-        for given in (rldrill.draw("return", 3, seed).problem.given for seed in range(80))
-        if hasattr(given, "others") and isinstance(given.gamma, Parameter)
+        episodes
+        for episodes in (rldrill.draw("return", 3, seed).problem.given for seed in range(80))
+        if hasattr(episodes, "others") and isinstance(episodes.gamma, Parameter)
     ]
     assert len(compared) > 8
-    for given in compared:
-        (now, later), (other, after) = given.rewards, given.others
+    for episodes in compared:
+        (now, later), (other, after) = episodes.rewards, episodes.others
         assert 0 < Fraction(now - other, after - later) < 1
