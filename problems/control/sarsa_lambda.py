@@ -71,12 +71,9 @@ def draw(level: int, rng: Draws) -> Given:
         return _back(rng)
     replacing = level == 2 and rng.chance(Fraction(1, 4))
     again = ("aba.", "abab", "abac")  # the first pair's trace decays, and is visited again
-    visits = (
-        again if replacing else {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
-    )
-    trajectory, values = draw_action_run(
-        rng, rng.choice(again if replacing else visits), 2 if level == 1 else 3, same=level > 1
-    )
+    visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
+    shape = rng.choice(again if replacing else visits)
+    trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
     gamma, lam = map(Fraction, rng.choice(_DECAYS[:level]))
     traces = None
     if level == 1:
