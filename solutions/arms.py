@@ -2,12 +2,11 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.arms import PlanarArm
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
-from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.beyond_the_sheet import LINK_ANGLE
 from rldrill.solutions.work import Work
 

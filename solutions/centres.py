@@ -3,12 +3,11 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.centres import Centred
 from rldrill.problems.exact import Scalar
 from rldrill.solutions.exact import NoSolution, Value, exact, told
-from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.function_approximation import DISTANCE, LINEAR_STATE_VALUE
 from rldrill.solutions.softmax import by_number
 from rldrill.solutions.work import Work

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache, lru_cache
 
-import numpy as np
 import sympy
 from sympy import Expr
 
@@ -14,7 +13,8 @@ from rldrill.problems.mathematics import Fraction, row, variable
 from rldrill.problems.robots import System
 from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
 from rldrill.solutions.formula.notation import letter
-from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import at
 
 _FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt, "exp": sympy.exp}
 _NUMERIC = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp}

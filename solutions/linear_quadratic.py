@@ -4,14 +4,13 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import Misconception, slip
-from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.linear_methods import LQR_SOLVED, Quadratic
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work

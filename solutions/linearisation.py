@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
 from sympy import Expr
 
 from rldrill.problems.angles import Angle
@@ -15,7 +14,7 @@ from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
 from rldrill.solutions.matrices import AnyMatrix
-from rldrill.solutions.oracle import Array
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.sheet.linear_methods import (
     EULER_A,
     EULER_B,

@@ -6,7 +6,6 @@ from fractions import Fraction
 from itertools import chain
 from typing import NoReturn
 
-import numpy as np
 from flint import fmpq, fmpq_mat
 
 from rldrill.problems.document import joined
@@ -14,6 +13,7 @@ from rldrill.problems.models import Model
 from rldrill.problems.recurrence import Ways, end_components, loop_through, predecessors, ranks
 from rldrill.solutions.endless import Loop, no_value
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.work import Work
 
 #: The effort that the sweeps may take by which it is found out whether value iteration comes to the optimal values.

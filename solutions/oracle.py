@@ -9,16 +9,13 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rldrill.problems.exact import Logarithm, Parameter, Weight
 from rldrill.problems.models import Dynamics, Model, ModelAndPolicy, Policy
+from rldrill.solutions.numerics import Array, np
 
 #: Answers in floating point, in the order of the parts; tables and vectors in the order of the part's keys, policies by
 #: state.
 Answers: TypeAlias = Sequence[Any]
-Array: TypeAlias = NDArray[np.float64]
 
 #: The number at which expressions in an open parameter are compared.
 OPEN = Fraction(7, 19)

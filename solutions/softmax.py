@@ -3,13 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.features import ActionFeatures, FeatureVector
 from rldrill.problems.softmax import SoftmaxRun
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, simplest
-from rldrill.solutions.oracle import Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import at
 from rldrill.solutions.sheet.policy_gradient import PREFERENCE, RETURN_FROM_A_STEP, SCORE_FUNCTION, SOFTMAX_POLICY
 from rldrill.solutions.vector import Vector
 from rldrill.solutions.work import Work

@@ -4,12 +4,11 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.bellman import (

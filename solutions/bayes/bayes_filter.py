@@ -4,13 +4,12 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import BAYES, PREDICT, SUM_OF_JOINT, p
 from rldrill.solutions.work import Work

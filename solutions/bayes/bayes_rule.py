@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.nodes.sets import LONG
-from rldrill.solutions.oracle import OPEN, Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import OPEN, Answers, at
 from rldrill.solutions.sheet.bayes import (
     BASE_RATE_IGNORED,
     BAYES,

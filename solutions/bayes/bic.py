@@ -4,13 +4,13 @@ from functools import reduce
 from string import ascii_uppercase
 from typing import Any
 
-import numpy as np
 import sympy
 
 from rldrill.problems.bayes.bic import Data, Fitted, Given
 from rldrill.problems.document import joined
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     BIC,

@@ -4,14 +4,13 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.matrices import AnyMatrix, identity, matrix
 from rldrill.solutions.matrices import given as given_matrix
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     GAIN_ON_PREDICTION,
     KALMAN_COVARIANCE,

@@ -2,11 +2,10 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bayes.model_comparison import CoinModel, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     BEST_FIT,

@@ -3,12 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import Formula, slip
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     COIN_MAP,
     COIN_ML,

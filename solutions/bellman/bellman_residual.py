@@ -5,13 +5,12 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
 from rldrill.solutions.policy_values import ONE_ACTION, evaluated

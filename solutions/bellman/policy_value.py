@@ -3,11 +3,10 @@
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bellman.policy_value import Given
 from rldrill.problems.recurrence import predecessors
 from rldrill.solutions import knowns
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, chances, swept, tensors
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
 from rldrill.solutions.sheet.bellman import (

@@ -4,11 +4,10 @@ from collections import defaultdict
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.bellman.value_from_action_values import Given
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.solutions.exact import ONE, ZERO, Value, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import OPEN, Answers, at, root
 from rldrill.solutions.sheet.bellman import (
     MAX_FOR_MEAN,

@@ -2,15 +2,14 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.beyond_the_sheet.denavit_hartenberg import Given, Link
 from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.matrices import AnyMatrix
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     BACK_POINT,
     CHAIN,

@@ -3,14 +3,13 @@
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
 from rldrill.solutions import arms
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import settled
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import ABSOLUTE_ANGLES, FORWARD_X, FORWARD_Y, LINK_ANGLE, poses
 from rldrill.solutions.slips import right_answers

@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.beyond_the_sheet.jacobian import Given
 from rldrill.solutions import arms, matrices
 from rldrill.solutions.exact import ONE, NoSolution, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.beyond_the_sheet import (
     ABSOLUTE_ANGLES,

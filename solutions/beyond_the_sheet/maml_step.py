@@ -2,11 +2,10 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.beyond_the_sheet.maml_step import Given
 from rldrill.problems.exact import shown
 from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.beyond_the_sheet import (

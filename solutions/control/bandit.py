@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
 from rldrill.solutions.exact import Value, decimal, exact
 from rldrill.solutions.formula.compiling import arg_max
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     ALL_PULLS_COUNTED,
     ARM_ESTIMATE,

@@ -3,14 +3,13 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     DOUBLE_Q_ACTION,

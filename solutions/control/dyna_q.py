@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.dyna_q import Entry, Given
 from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     MEAN_FOR_MAX,

@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.epsilon_greedy import Given
 from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import epsilon_greedy
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import V_FROM_Q
 from rldrill.solutions.sheet.control import (

@@ -1,13 +1,12 @@
 """Expected Sarsa along a run: the policy in the next state, then the update, with the values then current."""
 
-import numpy as np
-
 from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.greedy import epsilon_greedy
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     EXPECTED_FORGOT_GAMMA,
     EXPECTED_SARSA,

@@ -2,11 +2,10 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.importance_sampling import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     IMPORTANCE_RATIO,

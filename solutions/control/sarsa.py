@@ -1,11 +1,10 @@
 """Sarsa along a run: each update with the values then current."""
 
-import numpy as np
-
 from rldrill.problems.control.sarsa import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import Value
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import MAX_FOR_TAKEN, SARSA, SARSA_FORGOT_GAMMA, SARSA_TD_ERROR, STATE_FOR_NEXT
 from rldrill.solutions.work import Work

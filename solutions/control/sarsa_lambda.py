@@ -6,13 +6,12 @@ Watkins's Q(λ) goes step by step, since its traces depend on the values.
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, on_a_line
 from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     ACCUMULATING_ACTION_TRACE,

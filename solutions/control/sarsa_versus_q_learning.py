@@ -3,12 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.control.sarsa_versus_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     Q_LEARNING_TARGET,

@@ -3,13 +3,12 @@
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import Value, exact, largest, parameters
 from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
 from rldrill.solutions.rational import generator

@@ -2,13 +2,12 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, tensors
 from rldrill.solutions.policy_values import ONE_ACTION
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAX_FOR_MEAN

@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.policy_improvement_theorem import Given
 from rldrill.problems.valued import deterministic
@@ -13,6 +11,7 @@ from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.endless import Loop
 from rldrill.solutions.exact import NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_sweep
 from rldrill.solutions.sheet.bellman import BELLMAN_Q

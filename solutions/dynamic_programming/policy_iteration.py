@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.dynamic_programming.policy_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.problems.valued import deterministic
@@ -12,6 +10,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import numbered, pi
+from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
 from rldrill.solutions.oracle import (
     Answers,

@@ -4,8 +4,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
@@ -13,6 +11,7 @@ from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered, pi
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,

@@ -2,8 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-
 from rldrill.problems.exact import Parameter
 from rldrill.problems.function_approximation.linear_value import Bumps, Given
 from rldrill.solutions.centres import distances, measured
@@ -11,7 +9,8 @@ from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import greedy
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.function_approximation import (
     GREEDY_LINEAR,

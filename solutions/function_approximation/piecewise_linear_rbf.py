@@ -1,11 +1,10 @@
 """The distance from every centre, then its triangular bump; or backwards, from known features."""
 
-import numpy as np
-
 from rldrill.problems.function_approximation.piecewise_linear_rbf import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
 from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
     DISTANCE_FROM_TENT,

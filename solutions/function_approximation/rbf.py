@@ -2,12 +2,11 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.function_approximation.rbf import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.centres import distances, found, measured, nearest, value_of_state
 from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.function_approximation import (
     DISTANCE_FROM_RBF,

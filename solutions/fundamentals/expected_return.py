@@ -2,11 +2,10 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.fundamentals.expected_return import Episode, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, tensors
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import (

@@ -3,13 +3,12 @@
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.document import joined
 from rldrill.problems.fundamentals.markov_property import Given, Seen, where
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_rational, sign
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import (
     HISTORY_LEFT_OUT,

@@ -3,10 +3,9 @@
 from importlib import import_module
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.runs import per_step
 from rldrill.solutions.exact import ONE, ZERO, Value, exact, sign, to_sympy
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import (

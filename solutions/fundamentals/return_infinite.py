@@ -4,11 +4,10 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Scalar
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.fundamentals import (

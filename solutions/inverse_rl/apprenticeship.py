@@ -3,14 +3,13 @@
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.apprenticeship import Given
 from rldrill.solutions.exact import NoSolution, decimal, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
     DISTANCE,

@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.feature_expectations import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     FEATURE_EXPECTATIONS,
     FEATURES_EARLY,

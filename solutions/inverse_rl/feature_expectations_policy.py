@@ -5,14 +5,13 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.inverse_rl.feature_expectations_policy import Given
 from rldrill.problems.recurrence import end_components
 from rldrill.solutions import knowns
 from rldrill.solutions.endless import Loop, no_expectation
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, is_zero
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import FEATURES_FROM, FEATURES_FROM_START, START_IGNORED, mu_of
 from rldrill.solutions.work import Work

@@ -2,13 +2,13 @@
 
 from typing import Any
 
-import numpy as np
 from flint import fmpq
 
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact, largest, sign
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import MAX_MARGIN, REWARD_OF_FEATURES, SLACK, SUM_FOR_MAXIMUM
 from rldrill.solutions.work import Work

@@ -3,14 +3,13 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     DDP,
     DDP_A,

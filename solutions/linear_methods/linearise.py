@@ -1,12 +1,11 @@
 """Every derivative in letters, then at the operating point; sines and cosines stay exact."""
 
-import numpy as np
-
 from rldrill.problems.linear_methods.linearise import Given
 from rldrill.solutions import dynamics
 from rldrill.solutions.exact import exact
 from rldrill.solutions.linearisation import Linearised, after, answered, chosen, held_numerically, linearised, slips
 from rldrill.solutions.matrices import column
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import FORGOT_IDENTITY, deviation
 from rldrill.solutions.work import Work

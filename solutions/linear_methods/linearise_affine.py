@@ -1,7 +1,5 @@
 """A, B and f at the operating point, then what is left over, then the matrices with one more dimension."""
 
-import numpy as np
-
 from rldrill.problems.linear_methods.linearise_affine import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.formula.formula import slip
@@ -17,6 +15,7 @@ from rldrill.solutions.linearisation import (
     slips,
 )
 from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.sheet.linear_methods import (
     C_IS_F,

@@ -4,14 +4,13 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
     FORGOT_R_IN_COSTS,

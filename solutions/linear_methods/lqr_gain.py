@@ -3,14 +3,13 @@
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic
 from rldrill.solutions.exact import exact
 from rldrill.solutions.matrices import column, matrix
 from rldrill.solutions.matrices import given as given_matrix
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import FORGOT_R, IN_COSTS, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, quadratic
 from rldrill.solutions.work import Work
 

@@ -4,13 +4,13 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
-import numpy as np
 from flint import fmpq
 
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational
 from rldrill.solutions.matrices import AnyMatrix
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.riccati import Regulator, stationary

@@ -3,13 +3,12 @@
 from dataclasses import replace
 from fractions import Fraction
 
-import numpy as np
-
 from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,

@@ -3,12 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.policy_gradient.actor_critic import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     ACTOR_CRITIC,

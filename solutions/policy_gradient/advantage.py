@@ -2,8 +2,6 @@
 
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Parameter
 from rldrill.problems.policy_gradient.advantage import (
     AlongRun,
@@ -16,6 +14,7 @@ from rldrill.problems.policy_gradient.advantage import (
 )
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import BELLMAN_Q, V_FROM_Q
 from rldrill.solutions.sheet.policy_gradient import (

@@ -3,13 +3,12 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Parameter
 from rldrill.problems.policy_gradient.linear_policy import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import greedy
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import LINEAR_ACTION_VALUE, LINEAR_POLICY, WEIGHTS_FORGOTTEN
 from rldrill.solutions.slips import right_answers

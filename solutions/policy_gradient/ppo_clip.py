@@ -4,13 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Weight
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.ratios import new_chance, old_chance, outside
 from rldrill.solutions.sheet.policy_gradient import (

@@ -1,9 +1,8 @@
 """Returns backwards in time, the scores, their weighted sum, and a step along it."""
 
-import numpy as np
-
 from rldrill.problems.policy_gradient.reinforce import Given
 from rldrill.solutions.exact import exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     DESCENT,

@@ -1,10 +1,9 @@
 """As REINFORCE, each return relative to the state's baseline."""
 
-import numpy as np
-
 from rldrill.problems.policy_gradient.reinforce_baseline import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import (
     BASELINE,

@@ -3,11 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.policy_gradient.score_function import Component, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, value_at
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.policy_gradient import EXPECTED_ADDED, FEATURES_ALONE
 from rldrill.solutions.softmax import action_features, by_number, chances, log_gradient, score

@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import sympy
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
 from rldrill.solutions.exact import Value, digits, exact, to_sympy
 from rldrill.solutions.exponentials import rational_function
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.policy_gradient import (

@@ -3,12 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.temporal_difference.batch_td_and_mc import Given, Observed, run_text
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.fundamentals import RETURN_RECURSIVE
 from rldrill.solutions.sheet.temporal_difference import BATCH_MONTE_CARLO, BATCH_TD

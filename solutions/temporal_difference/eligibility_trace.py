@@ -3,11 +3,10 @@
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 
-import numpy as np
-
 from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.eligibility_trace import Given
 from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
 from rldrill.solutions.sheet.temporal_difference import (

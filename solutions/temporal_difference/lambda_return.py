@@ -3,14 +3,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Scalar
 from rldrill.problems.runs import Trajectory, per_step
 from rldrill.problems.temporal_difference.lambda_return import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.fundamentals import RETURN, RETURN_STEP_BY_STEP, STEP_UNDISCOUNTED
 from rldrill.solutions.sheet.temporal_difference import (

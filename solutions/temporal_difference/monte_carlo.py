@@ -3,13 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.monte_carlo import Given, OfActions, OfStates
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.control import TOWARDS_TARGET

@@ -1,11 +1,10 @@
 """The incremental mean, visit by visit; or with a constant step size the weighted sum of all returns."""
 
-import numpy as np
-
 from rldrill.problems.temporal_difference.sample_average import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
-from rldrill.solutions.oracle import Answers, Array, at
+from rldrill.solutions.numerics import Array, np
+from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
 from rldrill.solutions.sheet.temporal_difference import (
     CONSTANT_STEP_SIZE,

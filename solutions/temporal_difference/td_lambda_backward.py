@@ -2,13 +2,12 @@
 
 from collections.abc import Callable
 
-import numpy as np
-
 from rldrill.problems.exact import Scalar
 from rldrill.problems.temporal_difference.td_lambda_backward import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.temporal_difference import (
