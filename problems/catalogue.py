@@ -1,11 +1,16 @@
 """The catalogue is the tree: every file in a topic's folder is a family."""
 
 import difflib
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rldrill.problems.errors import UsageError
-from rldrill.problems.family import Family
+from rldrill.problems.headers import Header, header
+
+if TYPE_CHECKING:
+    from rldrill.problems.family import Family
 
 _ROOT = Path(__file__).parent
 
@@ -46,32 +51,57 @@ def families() -> tuple[str, ...]:
 
 
 @cache
-def family(name: str) -> Family:
+def family(name: str) -> "Family":
     """The family of that name (``td-zero`` or ``td_zero``).
 
     Raises:
         UsageError: there is none.
     """
-    wanted = name.strip().lower().replace("_", "-")
-    for topic, names in topics().items():
-        if wanted in names:
-            return Family.load(topic, wanted)
-    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; rldrill.families() and 'rldrill list' tell.")
+    from rldrill.problems.family import Family
+
+    return Family.load(*_place(name))
 
 
-def selection(names: tuple[str, ...] | list[str]) -> tuple[Family, ...]:
+def headers(names: Sequence[str] = ()) -> tuple[Header, ...]:
+    """What is said of the families that topics and families name, in the order of the catalogue; of all without names.
+
+    Raises:
+        UsageError: a name is neither a topic nor a family.
+    """
+    return tuple(header(*_place(name)) for name in chosen(names))
+
+
+def selection(names: Sequence[str]) -> tuple["Family", ...]:
     """The families that topics and families name, in the order of the catalogue; all where none is named.
 
     Raises:
         UsageError: a name is neither a topic nor a family.
     """
+    return tuple(family(name) for name in chosen(names))
+
+
+def chosen(names: Sequence[str]) -> tuple[str, ...]:
+    """Their names alone.
+
+    Raises:
+        UsageError: a name is neither a topic nor a family.
+    """
     if not names:
-        return tuple(family(name) for name in families())
-    chosen: set[str] = set()
+        return families()
+    wanted: set[str] = set()
     for name in names:
         topic = name.strip().lower().replace("-", "_")
-        chosen.update(topics()[topic] if topic in topics() else (family(name).name,))
-    return tuple(family(name) for name in families() if name in chosen)
+        wanted.update(topics()[topic] if topic in topics() else (_place(name)[1],))
+    return tuple(name for name in families() if name in wanted)
+
+
+def _place(name: str) -> tuple[str, str]:
+    """The topic and the name of the family so called."""
+    wanted = name.strip().lower().replace("_", "-")
+    for topic, names in topics().items():
+        if wanted in names:
+            return topic, wanted
+    raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; rldrill.families() and 'rldrill list' tell.")
 
 
 def _similar(wanted: str) -> str:

@@ -23,9 +23,9 @@ def command(
 
     from rldrill.commands.output import print_json
     from rldrill.exam.expected import minutes
-    from rldrill.problems.catalogue import selection
+    from rldrill.problems.catalogue import headers
 
-    families = selection(tuple(names or ()))
+    families = headers(names or ())
     if json:
         rows = [
             {"topic": family.topic, "family": family.name, "title": family.title, "levels": list(family.levels),

@@ -110,7 +110,7 @@ def test_a_broken_family_is_a_sentence_to_its_author(
     from rldrill.problems.catalogue import family
     from rldrill.problems.fundamentals import expected_return
 
-    monkeypatch.setattr(sys, "argv", ["rldrill", "list", "expected-return"])
+    monkeypatch.setattr(sys, "argv", ["rldrill", "show", "expected-return/1/1"])
     monkeypatch.delattr(expected_return, "TITLE")
     family.cache_clear()
     with pytest.raises(SystemExit) as caught:
