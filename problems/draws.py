@@ -4,10 +4,16 @@ import hashlib
 import random
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise
 from typing import TypeVar
 
 Item = TypeVar("Item")
+
+
+#: The same numbers are drawn over and over, and making a Fraction takes longer than drawing it.
+_whole: Callable[[int], Fraction] = lru_cache(maxsize=2048)(Fraction)
+_read: Callable[[str], Fraction] = lru_cache(maxsize=2048)(Fraction)
 
 
 class Draws:
@@ -29,7 +35,7 @@ class Draws:
 
     def whole(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high``, both included."""
-        return Fraction(low + self.below(high - low + 1))
+        return _whole(low + self.below(high - low + 1))
 
     def nonzero(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0."""
@@ -39,7 +45,7 @@ class Draws:
 
     def fitting(self, low: int, high: int, fits: Callable[[Fraction], bool]) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0 and fits; where none does, any of them."""
-        numbers = [Fraction(number) for number in range(low, high + 1) if number]
+        numbers = [_whole(number) for number in range(low, high + 1) if number]
         return self.choice([number for number in numbers if fits(number)] or numbers)
 
     def choice(self, items: Sequence[Item]) -> Item:
@@ -48,7 +54,7 @@ class Draws:
 
     def fraction(self, *texts: str) -> Fraction:
         """One of the given fractions, written ``"1/2"``."""
-        return Fraction(self.choice(texts))
+        return _read(self.choice(texts))
 
     def chance(self, probability: Fraction) -> bool:
         """True with the given probability."""
@@ -66,7 +72,7 @@ class Draws:
 
     def distinct(self, count: int, low: int, high: int) -> tuple[Fraction, ...]:
         """``count`` different whole numbers from ``low`` to ``high``."""
-        return tuple(Fraction(number) for number in self.shuffled(range(low, high + 1))[:count])
+        return tuple(_whole(number) for number in self.shuffled(range(low, high + 1))[:count])
 
     def split(self, parts: int, denominators: Sequence[int]) -> tuple[Fraction, ...]:
         """Positive probabilities that sum to 1, over one of the denominators that is large enough."""

@@ -30,6 +30,8 @@ _PRECISIONS = (64, 256, 1024)  # in bits
 
 def exact(number: Weight | int) -> Value:
     """A given's number as a value to compute with."""
+    if type(number) is Fraction:
+        return fmpq(*number.as_integer_ratio())
     if isinstance(number, Logarithm):
         return sympy.log(to_sympy(exact(number.of)))
     if isinstance(number, Root):
@@ -48,17 +50,16 @@ def simplest(value: Any) -> Any:
 
 simplest.register(bool, lambda value: value)
 simplest.register(int, fmpq)
-simplest.register(Fraction, lambda value: fmpq(value.numerator, value.denominator))
+simplest.register(Fraction, lambda value: fmpq(*value.as_integer_ratio()))
 simplest.register(sympy.Rational, fraction)
 
 
-@singledispatch
 def tidy(value: Any) -> Any:
     """A number of square roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
-    return value
-
-
-tidy.register(sympy.Expr, lambda value: value if (surd := surds.read(value)) is None else surds.write(surd))
+    if not isinstance(value, sympy.Expr):
+        return value
+    surd = surds.read(value)
+    return value if surd is None else surds.write(surd)
 
 
 @singledispatch

@@ -1,8 +1,10 @@
 """How long the numbers of a working may be: what is longer nobody writes, and it would take too long."""
 
-from collections.abc import Iterator, ValuesView
+from collections.abc import Iterator
 from math import log2
 from typing import Any, TypeVar
+
+from flint import fmpq
 
 from rldrill.solutions.exact import TooLong, length, terms
 from rldrill.solutions.matrices import is_matrix
@@ -25,26 +27,38 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    if any(length(number) > _LONGEST for number in _numbers(value)):
-        raise TooLong(
-            f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
-            "give shorter numbers, or fewer steps, sweeps or rewards"
-        )
-    if any(terms(number) > MOST_TERMS for number in _numbers(value)):
-        raise TooLong(
-            f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most that "
-            "are written; give the parameter a value, or fewer steps, sweeps or rewards"
-        )
+    if type(value) is fmpq:
+        if value.height_bits() > _LONGEST:
+            raise _too_many_digits()
+        return value
+    for number in _numbers(value):
+        if length(number) > _LONGEST:
+            raise _too_many_digits()
+        if terms(number) > MOST_TERMS:
+            raise TooLong(
+                f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
+                "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
+            )
     return value
 
 
+def _too_many_digits() -> TooLong:
+    return TooLong(
+        f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
+        "give shorter numbers, or fewer steps, sweeps or rewards"
+    )
+
+
 def _numbers(value: Any) -> Iterator[Any]:
-    if isinstance(value, dict):
-        value = value.values()
-    elif is_matrix(value):
-        value = value.entries()
-    if isinstance(value, tuple | list | Vector | ValuesView):
+    if type(value) is fmpq:
+        yield value
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from _numbers(item)
+    elif isinstance(value, tuple | list | Vector):
         for item in value:
             yield from _numbers(item)
+    elif is_matrix(value):
+        yield from value.entries()
     else:
         yield value
