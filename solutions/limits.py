@@ -27,7 +27,7 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    if type(value) is fmpq:
+    if isinstance(value, fmpq):
         if value.height_bits() > _LONGEST:
             raise _too_many_digits()
         return value
