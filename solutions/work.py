@@ -54,6 +54,10 @@ class Step:
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
+        return self._equation
+
+    @cached_property
+    def _equation(self) -> Equation:
         written = self.put_in
         rights = [typeset(self.right)] if self.own else []
         rights.append(typeset(_alone(written)))

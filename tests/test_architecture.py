@@ -29,10 +29,11 @@ MAY_IMPORT = {
     "exam": {"problems", "solutions", "library"},
     "print": {"problems", "solutions", "library", "render", "exam"},
     "grading": {"problems", "solutions", "library"},
+    "generation": {"problems", "solutions", "library", "render"},
     "history": {"problems"},
     "quiz": {"problems", "solutions", "library", "render", "exam", "history"},
     "audit": {"problems", "solutions", "exam"},
-    "commands": {"problems", "library", "render", "exam", "print", "grading", "history", "quiz", "audit"},
+    "commands": {"problems", "library", "render", "exam", "print", "grading", "generation", "history", "quiz", "audit"},
 }
 
 

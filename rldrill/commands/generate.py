@@ -1,42 +1,157 @@
 """``rldrill generate``."""
 
+import re
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from enum import Enum
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rldrill.commands.arguments import Level, Names, Seed
 
+if TYPE_CHECKING:
+    from rldrill.generation.lots import Lot
+    from rldrill.generation.records import Extra
+
 NAME = "generate"
-#: So many wrong answers are printed for every part.
-_MISTAKES = 8
+_SHARD = re.compile(r"([0-9]{1,6})/([0-9]{1,6})")
 
 
-class Extra(Enum):
-    """What can be printed besides."""
+class Form(Enum):
+    """How a folder holds problems."""
 
-    MISTAKES = "mistakes"
+    JSONL = "jsonl"
+    PARQUET = "parquet"
+
+
+class Seeds(Enum):
+    """Which seeds are drawn; no problem of one is in the other, and quizzes and worksheets draw none of them."""
+
+    TRAIN = "train"
+    HELD_OUT = "held-out"
 
 
 def command(
     names: Names = None,
-    number: Annotated[int, typer.Option("--number", "-n", min=1, max=1_000_000, help="How many problems.")] = 10,
+    number: Annotated[int, typer.Option("--number", "-n", min=1, max=10**8, help="How many problems.")] = 10,
     level: Level = None,
     seed: Seed = None,
     answers: Annotated[bool, typer.Option("--answers", help="With exact answers and steps.")] = False,
-    more: Annotated[list[Extra] | None, typer.Option("--with", help="With wrong answers and their causes.")] = None,
+    more: Annotated[
+        str, typer.Option("--with", metavar="A,B", help="With answers, working, hints, mistakes; latex writes them so.")
+    ] = "",
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="A file for each family and level there.")
+    ] = None,
+    form: Annotated[Form, typer.Option("--format", help="Of the files in the folder.")] = Form.JSONL,
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, max=256, help="Draw in so many processes.")] = 1,
+    shard: Annotated[str, typer.Option("--shard", metavar="i/k", help="Only the i-th of k shares of the files.")] = "",
+    dask: Annotated[
+        str | None, typer.Option("--dask", metavar="ADDRESS", help="Draw on a cluster: tcp://… of its scheduler.")
+    ] = None,
+    split: Annotated[Seeds, typer.Option("--split", help="Problems of one split are in no other.")] = Seeds.TRAIN,
 ) -> None:
-    """Print problems as JSON Lines, one problem a line.
+    """Print problems as JSON Lines, or fill a folder with millions of them.
 
-    Examples: rldrill generate -n 100 --answers > problems.jsonl · rldrill generate td-zero -n 5 --with mistakes
+    The same arguments give the same problems, whatever the jobs, shards or machines; no problem comes twice. In a
+    folder a file appears when it is complete: the same command goes on where an earlier run was ended.
+
+    Examples:
+
+        rldrill generate -n 100 --answers > problems.jsonl
+
+        rldrill generate td-zero -n 5 --with answers,mistakes
+
+        rldrill generate -n 1000000 --with answers,working,latex -o problems/ --jobs 8
     """
-    from itertools import islice
+    from rldrill.exam.selection import announced_seed
+    from rldrill.generation.folder import Folder
+    from rldrill.generation.lots import Split, lots
+    from rldrill.generation.running import drawn, workers
+    from rldrill.problems.errors import UsageError
 
-    import rldrill
-    from rldrill.commands.output import print_json
-    from rldrill.exam.selection import announced_seed, sequence
+    extras = _extras(more, answers=answers)
+    index, shards = _shares(shard)
+    if output is None and form is Form.PARQUET:
+        raise UsageError("Parquet is written to a folder; name one with --output.")
+    chosen = announced_seed(seed)
+    every = lots(names or (), level, number, chosen, Split(split.value))[index - 1 :: shards]
+    about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form.value}
+    about |= {"with": [extra.value for extra in extras], "split": split.value}
+    folder = None if output is None else Folder(output, form.value, about)
+    with workers(jobs, dask) as executor, _progress(every) as advance:
+        missing = [lot for lot in every if folder is None or not folder.has(lot)]
+        advance(sum(lot.count for lot in every) - sum(lot.count for lot in missing))
+        for lot, lines in drawn(missing, extras, executor, 4 * jobs if dask is None else 64):
+            counted = _counted(lines, advance)
+            found = _print(counted) if folder is None else folder.write(lot, counted)
+            if found < lot.count:
+                typer.echo(f"rldrill: {lot.family} has only {found} different problems at level {lot.level}", err=True)
 
-    for family, wanted, own_seed in islice(sequence(names or (), level, announced_seed(seed)), number):
-        exercise = rldrill.draw(family.name, wanted, own_seed)
-        wrong = _MISTAKES if Extra.MISTAKES in (more or ()) else 0
-        print_json(exercise.data(answers=answers, mistakes=wrong), indent=None)
+
+def _extras(text: str, *, answers: bool) -> "tuple[Extra, ...]":
+    from rldrill.generation.records import Extra
+    from rldrill.problems.errors import UsageError
+
+    wanted = [word.strip() for word in text.split(",") if word.strip()] + ["answers"] * answers
+    known = {extra.value: extra for extra in Extra}
+    for word in wanted:
+        if word not in known:
+            raise UsageError(f"--with {word[:30]} is not known; it takes {', '.join(known)}, with commas between them.")
+    return tuple(extra for extra in Extra if extra.value in wanted)
+
+
+def _shares(text: str) -> tuple[int, int]:
+    from rldrill.problems.errors import UsageError
+
+    match = _SHARD.fullmatch(text or "1/1")
+    if match is None or not 1 <= int(match[1]) <= int(match[2]):
+        raise UsageError(f"--shard {text[:30]} is not a share; write 3/16 for the third of sixteen.")
+    return int(match[1]), int(match[2])
+
+
+def _counted(lines: Iterable[str], advance: Callable[[int], None]) -> Iterator[str]:
+    for line in lines:
+        yield line
+        advance(1)
+
+
+def _print(lines: Iterable[str]) -> int:
+    import json
+    import sys
+
+    from rldrill.render.encodable import shows_all
+
+    plain = shows_all(sys.stdout.encoding)
+    number = 0
+    for number, line in enumerate(lines, 1):  # noqa: B007 (the last number is how many there are)
+        typer.echo(line if plain else json.dumps(json.loads(line)))
+    return number
+
+
+@contextmanager
+def _progress(lots: Iterable["Lot"]) -> Iterator[Callable[[int], None]]:
+    """How many problems are drawn, how fast, and how long it takes still; nothing where nobody looks."""
+    import sys
+
+    from rldrill.render.terminal import console
+
+    screen = console(stderr=True)
+    if not screen.is_terminal or sys.stdout.isatty():  # what is printed to the terminal shows the progress itself
+        yield lambda _: None
+        return
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TaskProgressColumn,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (BarColumn(), MofNCompleteColumn(), TaskProgressColumn(show_speed=True), TextColumn("left"))
+    with Progress(*columns, TimeRemainingColumn(), console=screen, transient=True) as progress:
+        task = progress.add_task("", total=sum(lot.count for lot in lots))
+        yield lambda number: progress.advance(task, number)

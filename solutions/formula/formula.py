@@ -3,11 +3,13 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 from sympy import Expr
 
 from rldrill.problems.document import Equation
+from rldrill.problems.mathematics import Math
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.typesetting import typeset
 
@@ -106,10 +108,15 @@ class Formula:
         return self._written(self.also if self.hidden else (*self.also, self.right))
 
     def _written(self, sides: tuple[Expr, ...]) -> Equation:
-        return Equation(
-            typeset(self.left), tuple(map(typeset, sides)), (self.sign, *["="] * (len(sides) - 1)), self.key
-        )
+        left, *rights = _typeset(self.left, *sides)
+        return Equation(left, tuple(rights), (self.sign, *["="] * (len(sides) - 1)), self.key)
 
     def value(self, known: Mapping[str, Any]) -> Any:
         """The exact value for known quantities."""
         return value_of(self.right, known)
+
+
+@lru_cache(maxsize=1024)
+def _typeset(*sides: Expr) -> tuple[Math, ...]:
+    """The sides of a formula; the same formulas are written again and again."""
+    return tuple(map(typeset, sides))

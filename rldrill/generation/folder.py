@@ -1,0 +1,140 @@
+"""A folder of problems in bulk: a file for every lot, written whole or not at all, so that a run can go on."""
+
+import json
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from rldrill import __version__
+from rldrill.generation.lots import Lot
+from rldrill.problems.errors import FileError, UsageError
+
+_ABOUT = "generate.json"
+#: Rows that Parquet keeps together.
+_ROWS = 2000
+
+
+class Folder:
+    """Where the lots of one run are written.
+
+    Args:
+        path: the folder; it is made.
+        ending: ``jsonl`` or ``parquet``.
+        about: the arguments of the run; a folder that was begun with others is refused.
+
+    Raises:
+        UsageError: it holds something else, or Parquet is asked for and pyarrow is not installed.
+        FileError: what it says of itself cannot be read.
+        OSError: it cannot be made.
+    """
+
+    def __init__(self, path: Path, ending: str, about: dict[str, Any]) -> None:
+        self._path, self._ending = path, ending
+        if ending == "parquet":
+            _pyarrow()
+        path.mkdir(parents=True, exist_ok=True)
+        own = path / _ABOUT
+        told = json.dumps({"rldrill": __version__, **about}, indent=1) + "\n"
+        if own.exists():
+            try:
+                same = json.loads(own.read_text(encoding="utf-8")) == json.loads(told)
+            except ValueError:
+                raise FileError(f"{own} is not what rldrill wrote there; take another folder.") from None
+            if not same:
+                raise UsageError(f"{path} was begun with other arguments ({own} has them); take another folder.")
+        elif any(path.iterdir()):
+            raise UsageError(f"{path} holds other files already; take an empty folder, or a new one.")
+        else:
+            own.write_text(told, encoding="utf-8")
+
+    def has(self, lot: Lot) -> bool:
+        """Whether a lot was written already."""
+        return self._file(lot).exists()
+
+    def write(self, lot: Lot, lines: Iterable[str]) -> int:
+        """Write a lot; the file appears when it is complete.
+
+        Returns:
+            How many problems it has.
+
+        Raises:
+            OSError: it cannot be written; ``filename`` says which.
+        """
+        handle, temporary = tempfile.mkstemp(dir=self._path, prefix=f".{lot.name}.")
+        os.close(handle)
+        unfinished = Path(temporary)
+        try:
+            number = _WRITERS[self._ending](unfinished, lines)
+            unfinished.chmod(0o644)
+            unfinished.replace(self._file(lot))
+        except OSError as error:
+            raise OSError(error.errno, error.strerror or str(error), str(self._file(lot))) from error
+        finally:
+            unfinished.unlink(missing_ok=True)
+        return number
+
+    def _file(self, lot: Lot) -> Path:
+        return self._path / f"{lot.name}.{self._ending}"
+
+
+def _jsonl(path: Path, lines: Iterable[str]) -> int:
+    number = 0
+    with path.open("w", encoding="utf-8") as file:
+        for number, line in enumerate(lines, 1):  # noqa: B007 (the last number is how many there are)
+            file.write(line + "\n")
+        file.flush()
+        os.fsync(file.fileno())
+    return number
+
+
+def _parquet(path: Path, lines: Iterable[str]) -> int:
+    """Columns to select by, the question and the answers as text, and the whole record as JSON."""
+    pyarrow, parquet = _pyarrow()
+    names = ("id", "family", "level", "question", "answers", "record")
+    schema = pyarrow.schema([(name, pyarrow.int8() if name == "level" else pyarrow.string()) for name in names])
+    number = 0
+    with parquet.ParquetWriter(path, schema) as writer:
+        for rows in _groups(map(_row, lines), _ROWS):
+            number += len(rows)
+            writer.write_table(pyarrow.Table.from_pylist(rows, schema=schema))
+    return number
+
+
+def _row(line: str) -> dict[str, Any]:
+    data = json.loads(line)
+    question = data["question"] if isinstance(data["question"], str) else "\n\n".join(data["question"])
+    asked = (f"({part['part']}) {part['ask']}" for part in data["parts"])
+    answers = {part["part"]: part["answer"] for part in data["parts"] if "answer" in part}
+    return {
+        "id": data["id"],
+        "family": data["family"],
+        "level": data["level"],
+        "question": "\n\n".join((question, *asked)),
+        "answers": json.dumps(answers, ensure_ascii=False),
+        "record": line,
+    }
+
+
+def _groups(rows: Iterator[dict[str, Any]], size: int) -> Iterator[list[dict[str, Any]]]:
+    group: list[dict[str, Any]] = []
+    for row in rows:
+        group.append(row)
+        if len(group) == size:
+            yield group
+            group = []
+    if group:
+        yield group
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise UsageError("Parquet needs pyarrow; install rldrill[parquet], or take --format jsonl.") from None
+    return pyarrow, parquet
+
+
+_WRITERS: dict[str, Callable[[Path, Iterable[str]], int]] = {"jsonl": _jsonl, "parquet": _parquet}

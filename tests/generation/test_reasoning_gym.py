@@ -1,0 +1,42 @@
+"""The dataset for reasoning-gym, with the real package."""
+
+import pytest
+
+reasoning_gym = pytest.importorskip("reasoning_gym", reason="an extra; CI has it")
+import rldrill.generation.reasoning_gym  # noqa: E402, F401
+
+
+def test_the_answers_of_the_dataset_earn_everything_and_others_their_share() -> None:
+    dataset = reasoning_gym.create_dataset("rldrill", names=("bellman", "td-zero"), seed=3, size=8)
+    for entry in dataset:
+        assert dataset.score_answer(entry["answer"], entry) == 1
+        assert dataset.score_answer("I do not know.", entry) == 0
+        assert dataset.score_answer(None, entry) == 0
+
+
+def test_a_part_earns_its_share_and_mistakes_are_wrong() -> None:
+    # return/1: (a) and (b) are worth a point each.
+    dataset = reasoning_gym.create_dataset("rldrill", names=("return",), level=1, seed=3, size=5)
+    for entry in dataset:
+        first, _ = entry["answer"].splitlines()
+        assert dataset.score_answer(first, entry) == 0.5
+        for wrong in entry["metadata"]["mistakes"]["a"]:
+            assert dataset.score_answer(f"(a) {wrong['answer']}", entry) == 0
+
+
+def test_an_index_is_the_same_problem_again_and_the_splits_differ() -> None:
+    train, again, held_out = (
+        reasoning_gym.create_dataset("rldrill", names=("return",), seed=3, size=9, split=split)
+        for split in ("train", "train", "held-out")
+    )
+    assert train[7] == again[7]
+    assert {entry["metadata"]["id"] for entry in train}.isdisjoint(entry["metadata"]["id"] for entry in held_out)
+    with pytest.raises(IndexError):
+        train[9]
+
+
+def test_what_does_not_exist_is_refused() -> None:
+    with pytest.raises(AssertionError, match="There is no family 'no-such'"):
+        reasoning_gym.create_dataset("rldrill", names=("no-such",))
+    with pytest.raises(AssertionError, match="neither train nor held-out"):
+        reasoning_gym.create_dataset("rldrill", split="tests")
