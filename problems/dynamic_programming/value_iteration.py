@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.models import Model, Name, model_blocks
-from rldrill.problems.parts import Number, Part, Policy, Values
+from rldrill.problems.parts import Choice, Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Setting, Shape, draw_model, draw_setting
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
@@ -18,7 +18,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Sweeps):
@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
     are even, so that the numbers stay small.
     """
     setting = draw_setting(rng)
-    if level == 3 and rng.chance(Fraction(1, 2)):
+    if level == 3 and rng.chance(Fraction(1, 4)):
         return _to_tie(rng, setting)
     over_actions = level == 2 and rng.chance(Fraction(1, 2))
     states = 2 if over_actions else 3 if level != 2 else 2 + rng.below(2)
@@ -110,9 +110,18 @@ def _decided(mdp: Model, gamma: Fraction) -> bool:
 
 
 def _to_tie(rng: Draws, setting: Setting) -> Given:
-    """Two actions in one state that are both greedy for the values of the first sweep, with the right discount."""
-    mdp = draw_model(rng, setting, Shape(states=2 + rng.below(2), actions=2, branches=1, reward=8))
-    return Given(mdp=mdp, gamma=Parameter("gamma"), sweeps=1, tie=rng.choice(mdp.states))
+    """Two actions in one state that are both greedy for the values of the first sweep, with a discount below 1."""
+    while True:
+        mdp = draw_model(rng, setting, Shape(states=3, actions=2, branches=1, reward=8))
+        first = {
+            state: max(worth(mdp, (state, a), {}, Fraction(0)) for a in mdp.actions[state]) for state in mdp.states
+        }
+        for tie in rng.shuffled(mdp.states):
+            one, other = (next(row for row in mdp.transitions if row[:2] == (tie, a)) for a in mdp.actions[tie])
+            gain = Fraction(one.reward) - Fraction(other.reward)
+            later = first.get(other.next, Fraction(0)) - first.get(one.next, Fraction(0))
+            if later and 0 < gain / later < 1:
+                return Given(mdp=mdp, gamma=Parameter("gamma"), sweeps=1, tie=tie)
 
 
 def question(given: Given) -> Question:
@@ -129,7 +138,9 @@ def question(given: Given) -> Question:
     if given.tie:
         both = " and ".join(given.mdp.actions[given.tie])
         ask = f"For which $γ$ are {both} both greedy for $V_{{{k}}}$ in {given.tie}?"
-        return Question(blocks, (values, Part(ask, Number())))
+        options = dict(zip("AB", given.mdp.actions[given.tie], strict=True))
+        smaller = Part("Which of the two is greedy there if $γ$ is smaller than that?", Choice(options))
+        return Question(blocks, (values, Part(ask, Number()), smaller))
     return Question(
         blocks, (values, Part(f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)))
     )

@@ -7,7 +7,7 @@ from typing import Any
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign
+from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered, pi
@@ -55,13 +55,19 @@ def solve(
 
 
 def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
-    """The discount with which both actions of a state are worth the same."""
-    worth = [work.step(Q_OF_VALUES, s=state, a=action, **known) for action in known["actions"][state]]
+    """The discount with which both actions of a state are worth the same, and which is worth more below it."""
+    actions = known["actions"][state]
+    worth = [work.step(Q_OF_VALUES, s=state, a=action, **known) for action in actions]
     work.say("Both are greedy where these are equal:")
     gamma = work.equate("gamma", *worth)
-    if sign(gamma) < 0 or sign(ONE - gamma) < 0:
+    if sign(gamma) <= 0 or sign(ONE - gamma) < 0:
         raise NoSolution(f"with no discount from 0 to 1 are both actions in {state!r} greedy; change a reward")
-    work.answer(gamma)
+    below = work.answer(gamma) / 2
+    work.say(f"With a smaller discount, such as $γ = {to_sympy(below)}$:")
+    first, second = (work.step(Q_OF_VALUES, s=state, a=action, **known | {"gamma": below}) for action in actions)
+    letter = "A" if sign(first - second) > 0 else "B"
+    work.say(f"So {actions['AB'.index(letter)]} is greedy then.")
+    work.answer(letter)
 
 
 def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping[str, Value]) -> None:
@@ -135,5 +141,5 @@ def oracle(given: Given) -> Answers:
     if given.tie:
         line, gains = states.index(given.tie), [lookahead(P, R, V, gamma) for gamma in (0.0, 1.0)]
         first, last = ((gain[line] * [1, -1]).sum() for gain in gains)
-        return (V[:n], first / (first - last))
+        return (V[:n], first / (first - last), "A" if first > 0 else "B")
     return (V[:n], best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n]))

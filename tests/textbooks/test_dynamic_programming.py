@@ -192,7 +192,7 @@ def test_sweeps_start_with_0_in_a_terminal_state() -> None:
 
 def test_numbers_that_are_found_by_hand() -> None:
     # y earns x + 1/2·4, the other action 6; go is worth 2 + 1/2·4 = 4, stay for ever 1/(1 − 1/2) = 2; after one
-    # sweep a is worth 2 and b 4, and 1 + 4γ = 2.
+    # sweep a is worth 2 and b 4, and 1 + 4γ = 2; with a smaller γ it is y that pays more.
     missing = {"transitions": [["a", "y", "b", 1, "x"]]}
     tied = solved("optimal-policy-from-q", values={"a": {"z": 6}, "b": {"z": 4}}, missing=missing, gamma="1/2")
     assert tied == {"a": 4, "b": {"b": ("z",)}}
@@ -201,4 +201,4 @@ def test_numbers_that_are_found_by_hand() -> None:
     assert found == {"a": 4, "b": {"a": ("go",), "b": ("go",)}}
     mdp = {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 2], ["b", "x", "end", 1, 4]]}
     tie = solved("value-iteration", mdp=mdp, gamma="gamma", sweeps=1, tie="a")
-    assert tie == {"a": {"a": 2, "b": 4}, "b": fmpq(1, 4)}
+    assert tie == {"a": {"a": 2, "b": 4}, "b": fmpq(1, 4), "c": "B"}
