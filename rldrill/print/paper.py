@@ -72,3 +72,16 @@ def pdf(source: str) -> bytes:
 
     result: bytes = typst.compile(source.encode(), ignore_system_fonts=True, timestamp=_TIMESTAMP)
     return result
+
+
+def png_of_svg(svg: bytes) -> bytes:
+    """A picture as pixels.
+
+    Args:
+        svg: the picture; its type is set in Typst's fonts.
+    """
+    import typst
+
+    source = f'#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes({quoted(svg.decode())}), format: "svg")'
+    result: bytes = typst.compile(source.encode(), format="png", ppi=144, ignore_system_fonts=True)
+    return result

@@ -1,0 +1,132 @@
+"""How progress looks: bars, a calendar, and the mistakes with the command that drills them."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from datetime import date, timedelta
+
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from rldrill.history.progress import Day, Mistake, Progress
+from rldrill.render.terminal import words
+
+#: How wide a picture of it is, in columns.
+WIDTH = 92
+_BAR = 20
+#: So many weeks are on the calendar, and so many of the last days have a line of their own.
+_WEEKS, _LINES = 12, 7
+_SHADES, _ASCII = "·░▒▓█", ".-+x#"
+#: From so many answers on a day is as dark as it gets.
+_FULL = 20
+_DAY = timedelta(days=1)
+
+
+def shown(progress: Progress) -> RenderableType:
+    """The whole of it, for a terminal of any width from 60 columns."""
+    if not progress.answers:
+        return words("There are no answers yet: 'rldrill quiz' asks the first questions.")
+    return Group(*(item for section in _sections(progress) for item in (*section, Text(""))))
+
+
+def _sections(progress: Progress) -> Iterator[tuple[RenderableType, ...]]:
+    parts, right = (sum(getattr(day, name) for day in progress.days) for name in ("parts", "right"))
+    yield (
+        words(
+            f"{_counted(progress.answers, 'answer')} on {_counted(len(progress.days), 'day')}; "
+            f"{_percent(right, parts)} of the questions right at the first try"
+            + (f"; {progress.streak} days in a row." if progress.streak > 1 else ".")
+        ),
+    )
+    yield _headed("What you would get right today"), _shares(progress)
+    yield _headed("Due"), words(_due(progress.due))
+    yield (
+        _headed("Day by day"),
+        _days(progress.days[-_LINES:]),
+        Text(""),
+        _Calendar({day.day: day.answers for day in progress.days}),
+    )
+    if progress.mistakes:
+        yield _headed("Your mistakes"), *_mistakes(progress.mistakes)
+
+
+def _headed(text: str) -> RenderableType:
+    return words((text, "bold"))
+
+
+def _plain_table(*right: bool) -> Table:
+    table = Table.grid(padding=(0, 2))
+    for each in right:
+        table.add_column(justify="right" if each else "left", no_wrap=True)
+    return table
+
+
+def _bar(share: float) -> ProgressBar:
+    return ProgressBar(total=1.0, completed=share, width=_BAR, complete_style="green", finished_style="green")
+
+
+def _shares(progress: Progress) -> Table:
+    table = _plain_table(False, False, True, True, True)
+    for each in progress.shares:
+        time = "" if each.seconds is None else _time(each.seconds)
+        of = f"{each.seen}/{each.of} seen"
+        table.add_row(words(each.name), _bar(each.mastery), f"{round(100 * each.mastery)} %", of, time)
+    return table
+
+
+def _days(days: Iterable[Day]) -> Table:
+    table = _plain_table(False, False, True, True, True)
+    for day in days:
+        share = day.right / day.parts if day.parts else 0.0
+        answers = _counted(day.answers, "answer")
+        table.add_row(f"{day.day:%a %d %b}", _bar(share), f"{round(100 * share)} %", answers, _time(day.seconds))
+    return table
+
+
+@dataclass(frozen=True)
+class _Calendar:
+    """A line for each day of the week, a column for each week; the more answers, the darker."""
+
+    answers: Mapping[date, int]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        shades = _SHADES if options.encoding.startswith("utf") else _ASCII
+        last = max(self.answers)
+        monday = last - last.weekday() * _DAY - 7 * (_WEEKS - 1) * _DAY
+        for weekday in range(7):
+            days = (monday + (weekday + 7 * week) * _DAY for week in range(_WEEKS))
+            cells = (_shade(shades, self.answers.get(day, 0)) if day <= last else " " for day in days)
+            yield Text(f"{monday + weekday * _DAY:%a}  {' '.join(cells)}")
+
+
+def _shade(shades: str, answers: int) -> str:
+    return shades[0 if not answers else min(len(shades) - 1, 1 + answers * (len(shades) - 2) // _FULL)]
+
+
+def _mistakes(mistakes: tuple[Mistake, ...]) -> Iterator[RenderableType]:
+    table = _plain_table(True, False, False)
+    for each in mistakes:
+        table.add_row(f"{each.times} ×", words(each.name.replace("-", " ")), words((each.family, "dim")))
+    yield table
+    families = dict.fromkeys(each.family for each in mistakes[:3])
+    yield words(("To drill these: ", "dim"), f"rldrill quiz {' '.join(families)}")
+
+
+def _due(due: tuple[int, ...]) -> str:
+    now, tomorrow, *later = due
+    if not any(due):
+        return "Nothing in the next days; new problems wait."
+    return f"{now} now, {tomorrow} more tomorrow, {sum(later)} more in the days after, up to a week."
+
+
+def _percent(part: int, whole: int) -> str:
+    return f"{round(100 * part / whole)} %" if whole else "none"
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _time(seconds: float) -> str:
+    return f"{round(seconds)} s" if seconds < 90 else f"{round(seconds / 60)} min"

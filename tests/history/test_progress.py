@@ -1,0 +1,82 @@
+"""Progress: what is worked out from the log, and how it looks."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+from typer.testing import CliRunner
+
+from rldrill.cli import app
+from rldrill.history.attempts import Attempt
+from rldrill.history.log import append
+from rldrill.history.memory import Skill
+from rldrill.history.progress import Mistake, progress
+from rldrill.quiz.progress import shown
+
+NOW = datetime(2026, 11, 25, 8, tzinfo=UTC)
+DAY = timedelta(days=1)
+GROUPS = {"bellman": [Skill("policy-value", 1), Skill("policy-value", 2)], "td": [Skill("td-zero", 1)]}
+
+
+def log() -> Iterator[Attempt]:
+    """Yesterday policy-value/1 at once, td-zero/1 at the second try; three days ago td-zero/1 given up."""
+    first = Attempt(
+        "1", NOW - DAY, "x", "policy-value", 1, 7, 1, "a", 1, "3", "right", (), hints=0, retries=0, seconds=30, credit=1
+    )
+    yield first
+    td = replace(first, sitting="y", family="td-zero", time=NOW - DAY + timedelta(minutes=5))
+    yield replace(td, id="2", outcome="misconception", misconceptions=("forgot-gamma",), credit=0, seconds=50)
+    yield replace(td, id="3", retries=1, time=td.time + timedelta(minutes=1), seconds=10)
+    yield replace(td, id="4", sitting="z", time=NOW - 3 * DAY, outcome="skipped", credit=0, seconds=90)
+    yield replace(first, id="5", sitting="w", family="bandit", time=NOW - 9 * DAY)  # not among the groups
+
+
+def test_what_is_worked_out() -> None:
+    found = progress(tuple(log()), GROUPS, NOW)
+    bellman, td = found.shares
+    assert (bellman.seen, bellman.of, bellman.answers, bellman.right, bellman.parts) == (1, 2, 1, 1, 1)
+    # One of two skills was asked, and would be right with a probability between 1/2 and 1.
+    assert 0.25 < bellman.mastery < 0.5
+    assert (td.seen, td.of, td.answers, td.right, td.parts, td.seconds) == (1, 1, 3, 0, 2, 50)
+    assert [(day.day, day.answers, day.right, day.parts) for day in found.days] == [
+        (date(2026, 11, 22), 1, 0, 1),
+        (date(2026, 11, 24), 3, 1, 2),
+    ]
+    assert found.mistakes == (Mistake("forgot-gamma", "td-zero", 1),)
+    assert found.streak == 1
+    assert sum(found.due) == 2
+
+
+def test_a_streak_ends_with_a_day_without_answers() -> None:
+    attempts = [replace(next(log()), id=str(days), time=NOW - days * DAY) for days in (0, 1, 2, 4)]
+    assert progress(attempts, GROUPS, NOW).streak == 3
+    assert progress(attempts, GROUPS, NOW + DAY).streak == 3
+    assert progress(attempts, GROUPS, NOW + 2 * DAY).streak == 0
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_it_fits_the_terminal(width: int) -> None:
+    screen = Console(width=width, record=True, markup=False, highlight=False)
+    screen.print(shown(progress(tuple(log()), GROUPS, NOW)))
+    text = screen.export_text()
+    assert max(map(len, text.splitlines())) <= width
+    for piece in ("bellman", "1/2 seen", "33 % of the questions right", "1 ×  forgot gamma", "rldrill quiz td-zero"):
+        assert piece in text
+
+
+def stats(folder: Path, *arguments: str) -> str:
+    return CliRunner().invoke(app, ["stats", *arguments], env={"RLDRILL_HOME": str(folder)}).output
+
+
+def test_the_command(tmp_path: Path) -> None:
+    assert "There are no answers yet: 'rldrill quiz' asks the first questions." in stats(tmp_path)
+    append(tmp_path / "history.db", log())
+    assert '"answers": 5' in stats(tmp_path, "--json")
+    assert "policy-value" in stats(tmp_path, "bellman")
+    heads = {".svg": b"<svg", ".png": b"\x89PNG", ".html": b"<!DOCTYPE html>", ".txt": b"5 answers on 3 days"}
+    for ending, head in heads.items():
+        stats(tmp_path, "-o", str(tmp_path / f"progress{ending}"))
+        assert (tmp_path / f"progress{ending}").read_bytes().startswith(head)
