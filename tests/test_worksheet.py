@@ -19,7 +19,6 @@ from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exam.manifest import manifest
 from rldrill.exam.planning import plan, version_code
 from rldrill.print.exam_files import write
-from rldrill.print.files import write_bytes_atomically
 from rldrill.print.key import key_source
 from rldrill.print.paper import PAPERS, paper_of, pdf
 from rldrill.print.worksheet import worksheet_source
@@ -29,6 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
+from rldrill.writing import write_bytes_atomically
 
 A4, LETTER = PAPERS["a4"], PAPERS["letter"]
 MARGIN = 2 * 72 / 2.54 - 1
@@ -223,7 +223,7 @@ def test_an_old_file_stays_when_the_new_one_fails(tmp_path: Path, monkeypatch: p
     def full(_: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("rldrill.print.files.os.fsync", full)
+    monkeypatch.setattr("rldrill.writing.os.fsync", full)
     with pytest.raises(OSError, match="No space left") as caught:
         write_bytes_atomically(path, b"new")
     assert caught.value.filename == str(path)

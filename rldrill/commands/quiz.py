@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from itertools import islice
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -45,6 +46,14 @@ def command(
     minutes: Annotated[
         int | None, typer.Option("--minutes", "-m", min=1, max=600, help="End after so many minutes.")
     ] = None,
+    exam: Annotated[
+        Path | None,
+        typer.Option("--exam", metavar="FILE", help="Sit an exam: its blueprint or manifest."),
+    ] = None,
+    version: Annotated[str | None, typer.Option("--version", help="Which version of the exam.")] = None,
+    answers: Annotated[
+        Path | None, typer.Option("--answers", metavar="FILE.toml", help="Where the answers to the exam are kept.")
+    ] = None,
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 
@@ -60,6 +69,9 @@ def command(
             "The quiz needs a terminal; without one use 'rldrill verify FILE' to grade answers, "
             "'rldrill worksheet' to print problems or 'rldrill generate' to get them as data."
         )
+    if exam is not None:
+        _sit(exam, version, answers, seed)
+        return
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
@@ -90,6 +102,37 @@ def command(
     )
     session = Session(total if number or not minutes else None, minutes=minutes, again=again)
     if not Screen(console(), line_editor(), recorder).run(exercises, session):
+        raise typer.Exit(130)
+
+
+def _sit(source: Path, version: str | None, answers: Path | None, seed: int | None) -> None:
+    """Sit an exam, or go on with it."""
+    from rldrill.exam.blueprint import read_blueprint
+    from rldrill.exam.manifest import manifest, read_manifest, written
+    from rldrill.exam.planning import plan
+    from rldrill.problems.errors import UsageError
+    from rldrill.quiz.prompt import line_editor
+    from rldrill.quiz.recording import utc_now
+    from rldrill.quiz.sitting import Sitting, version_of
+    from rldrill.quiz.sitting_screen import SittingScreen
+    from rldrill.render.terminal import console
+    from rldrill.writing import write_bytes_atomically
+
+    path = answers or Path(f"{source.stem}-answers.toml")
+    if path.suffix.lower() != ".toml":
+        raise UsageError(f"{path} does not end in .toml, as files of answers do.")
+    saved = path.with_suffix(".json")
+    if source.suffix.lower() == ".json":
+        planned = read_manifest(source)
+    elif saved.exists():
+        planned = read_manifest(saved)
+    else:
+        planned = plan(read_blueprint(source).but(seed=seed, versions=1))
+        write_bytes_atomically(saved, written(manifest(planned)))
+    sitting = Sitting(planned, version_of(planned, version), path, utc_now())
+    if path.exists():
+        sitting.resume()
+    if not SittingScreen(console(), line_editor(), utc_now).run(sitting):
         raise typer.Exit(130)
 
 

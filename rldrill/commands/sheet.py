@@ -47,10 +47,10 @@ def command(
     if output is None:
         _print(names or [], as_latex=latex, workings=workings)
         return
-    from rldrill.print.files import write_bytes_atomically
     from rldrill.print.formula_sheet import markdown, sheet_source
     from rldrill.print.paper import pdf
     from rldrill.problems.errors import UsageError
+    from rldrill.writing import write_bytes_atomically
 
     if output.is_dir():
         raise UsageError(f"{output} is a folder; give the name of a file, such as {output / 'sheet.pdf'}.")

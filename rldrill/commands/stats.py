@@ -67,8 +67,8 @@ def _write(found: "Progress", output: Path) -> None:
 
     from rich.console import Console
 
-    from rldrill.print.files import write_bytes_atomically
     from rldrill.quiz.progress import WIDTH, shown
+    from rldrill.writing import write_bytes_atomically
 
     screen = Console(
         file=StringIO(), record=True, width=WIDTH, highlight=False, markup=False, force_terminal=True,

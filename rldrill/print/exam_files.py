@@ -6,11 +6,11 @@ from pathlib import Path
 
 from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import is_manifest, manifest, written
-from rldrill.print.files import write_bytes_atomically
 from rldrill.print.key import key_source
 from rldrill.print.paper import Paper, pdf
 from rldrill.print.worksheet import worksheet_source
 from rldrill.problems.errors import UsageError
+from rldrill.writing import write_bytes_atomically
 
 
 def check_output(output: Path) -> None:

@@ -1,0 +1,190 @@
+"""Sitting an exam: what was typed so far, kept as a file of answers that 'verify' grades; nothing is judged before."""
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from rldrill.exam.exam import Exam, Version
+from rldrill.exercise import Exercise
+from rldrill.graded import Graded
+from rldrill.problems.errors import FileError, UsageError
+from rldrill.problems.parts import Part
+from rldrill.writing import write_bytes_atomically
+
+_BEGUN, _HANDED_IN = "# begun: ", "# handed in: "
+_MOMENT = re.compile(rf"^(?:{_BEGUN}|{_HANDED_IN})(\S+)$", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A part of a problem: the index of the problem, and of the part in it."""
+
+    problem: int
+    part: int
+
+
+@dataclass
+class Sitting:
+    """One version of an exam, and what somebody has typed.
+
+    Args:
+        exam: the exam.
+        version: the version that is sat.
+        path: the file of answers; it is written after every answer.
+        begun: when it began.
+        answers: what was typed, by place.
+        handed_in: when it was handed in, if it was.
+    """
+
+    exam: Exam
+    version: Version
+    path: Path
+    begun: datetime
+    answers: dict[Place, str] = field(default_factory=dict)
+    handed_in: datetime | None = None
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """All parts of all problems, in order."""
+        return tuple(
+            Place(problem, part)
+            for problem, exercise in enumerate(self.version.exercises)
+            for part in range(len(exercise.parts))
+        )
+
+    def exercise(self, place: Place) -> Exercise:
+        """The problem at a place."""
+        return self.version.exercises[place.problem]
+
+    def part(self, place: Place) -> Part:
+        """The part at a place."""
+        return self.exercise(place).parts[place.part]
+
+    @property
+    def end(self) -> datetime | None:
+        """When time is up; None where the exam has no duration."""
+        duration = self.exam.head.duration
+        return None if duration is None else self.begun + timedelta(minutes=duration)
+
+    def left(self, now: datetime) -> timedelta | None:
+        """How much time there is still."""
+        return None if self.end is None else max(timedelta(0), self.end - now)
+
+    def answer(self, place: Place, text: str) -> None:
+        """Take in what was typed, and write it down.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        if text.strip():
+            self.answers[place] = text
+        else:
+            self.answers.pop(place, None)
+        self.save()
+
+    def hand_in(self, now: datetime) -> None:
+        """End the sitting.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        self.handed_in = now
+        self.save()
+
+    def save(self) -> None:
+        """Write the file of answers, whole or not at all.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        lines = [f"# {' '.join(self.exam.head.title.split())}, version {self.version.code}"]
+        lines.append(f"{_BEGUN}{self.begun.isoformat()}")
+        if self.handed_in is not None:
+            lines.append(f"{_HANDED_IN}{self.handed_in.isoformat()}")
+        for number, exercise in enumerate(self.version.exercises):
+            lines.append(f"\n[{json.dumps(self._name(number), ensure_ascii=False)}]")
+            lines += [
+                f"{part.label} = {json.dumps(text, ensure_ascii=False)}"
+                for index, part in enumerate(exercise.parts)
+                if (text := self.answers.get(Place(number, index))) is not None
+            ]
+        write_bytes_atomically(self.path, ("\n".join(lines) + "\n").encode())
+
+    def _name(self, problem: int) -> str:
+        """What the file calls a problem: its ID, or its number where it has none."""
+        return self.version.exercises[problem].id or str(problem + 1)
+
+    def resume(self) -> None:
+        """Take in what the file holds already.
+
+        Raises:
+            FileError: it is not the file of a sitting of this version.
+        """
+        try:
+            text = self.path.read_text(encoding="utf-8")
+            data: Mapping[str, Any] = tomllib.loads(text)
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError):
+            raise FileError(f"{self.path} is not the file of a sitting; name another with --answers.") from None
+        moments = [_moment(found) for found in _MOMENT.findall(text)]
+        names = [self._name(number) for number in range(len(self.version.exercises))]
+        if not moments or None in moments or list(data) != names:
+            raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
+        self.begun = moments[0] or self.begun
+        self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
+        for place in self.places:
+            typed = data[self._name(place.problem)].get(self.part(place).label)
+            if typed is not None:
+                self.answers[place] = str(typed)
+
+    def graded(self) -> tuple[Graded, ...]:
+        """The judgement of every problem, with follow-through and the exam's points."""
+        return tuple(
+            exercise.grade(
+                {
+                    part.label: self.answers[place]
+                    for index, part in enumerate(exercise.parts)
+                    if (place := Place(number, index)) in self.answers
+                }
+            )
+            for number, exercise in enumerate(self.version.exercises)
+        )
+
+
+def version_of(exam: Exam, code: str | None) -> Version:
+    """The version with a code; the first, if none is given.
+
+    Raises:
+        UsageError: there is none.
+    """
+    if code is None:
+        return exam.versions[0]
+    for version in exam.versions:
+        if version.code.lower() == code.strip().lower():
+            return version
+    raise UsageError(
+        f"The exam has no version {code[:20]!r}; it has {', '.join(version.code for version in exam.versions)[:100]}."
+    )
+
+
+def by_topic(sitting: Sitting, graded: tuple[Graded, ...]) -> dict[str, tuple[Fraction, int]]:
+    """Points reached, and to be had, topic by topic."""
+    found: dict[str, tuple[Fraction, int]] = {}
+    for exercise, result in zip(sitting.version.exercises, graded, strict=True):
+        topic = exercise.problem.family.topic.replace("_", "-")
+        points, of = found.get(topic, (Fraction(0), 0))
+        found[topic] = points + result.points, of + result.of
+    return found
+
+
+def _moment(text: str) -> datetime | None:
+    try:
+        moment = datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    return moment if moment.tzinfo else None

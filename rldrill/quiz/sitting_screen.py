@@ -1,0 +1,249 @@
+"""An exam in the terminal: part after part, back and forth, and a report once it is handed in."""
+
+import re
+from collections.abc import Callable, Sequence
+from datetime import datetime, timedelta
+from fractions import Fraction
+
+from rich.console import Console, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from rldrill.graded import GradedPart
+from rldrill.quiz.prompt import Ask
+from rldrill.quiz.shapes import how_to_type
+from rldrill.quiz.sitting import Place, Sitting, by_topic
+from rldrill.render.terminal import asked, render, renderable, words
+from rldrill.solutions.answers.kinds import Unreadable, answer_kind
+from rldrill.solutions.answers.rule import RULE
+
+_WORDS = "Enter goes on · back · go 3b · overview · problem · clear · hand in · leave"
+_HELP = (
+    ("an answer", "is kept; nothing is judged before the exam is handed in"),
+    ("Enter", "on to the next part"),
+    ("back", "to the part before"),
+    ("go 3b", "to part (b) of problem 3"),
+    ("overview", "what is answered, and what is not"),
+    ("problem", "show this problem again"),
+    ("clear", "take the answer to this part back"),
+    ("hand in", "end the exam, and see how it went"),
+    ("leave", "go on another time: the same command takes it up; the clock does not stop"),
+)
+_GO = re.compile(r"go\s+(\d{1,3})\s*\(?([a-z])?\)?")
+
+
+class SittingScreen:
+    """Runs an exam on a console.
+
+    Args:
+        console: where it is shown.
+        ask: asks for a line.
+        now: the time.
+    """
+
+    def __init__(self, console: Console, ask: Ask, now: Callable[[], datetime]) -> None:
+        self._console = console
+        self._ask = ask
+        self._now = now
+
+    def run(self, sitting: Sitting) -> bool:
+        """Sit the exam, from the first part without an answer on.
+
+        Returns:
+            Whether it was handed in.
+
+        Raises:
+            OSError: an answer cannot be written.
+        """
+        if sitting.handed_in is None:
+            self._head(sitting)
+            if not self._parts(sitting):
+                self._print(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
+                return False
+            sitting.hand_in(self._now())
+        self._report(sitting)
+        return True
+
+    def _head(self, sitting: Sitting) -> None:
+        head = sitting.exam.head
+        self._print(words((head.title, "bold"), f", version {sitting.version.code}"))
+        for line in filter(None, (head.course, head.date, head.instructions)):
+            self._print(words(line))
+        problems = len(sitting.version.exercises)
+        time = "" if head.duration is None else f", {head.duration} minutes"
+        count = "1 problem" if problems == 1 else f"{problems} problems"
+        self._print(words(f"{count}, {sitting.version.points} points{time}. Right is {RULE}."))
+        self._print(words((f"{_WORDS} · ? help", "dim")))
+
+    def _parts(self, sitting: Sitting) -> bool:
+        """Ask until it is handed in; False where it is left."""
+        places = sitting.places
+        at = next((index for index, place in enumerate(places) if place not in sitting.answers), 0)
+        shown: int | None = None
+        while True:
+            if at == len(places):
+                at, over = self._at_the_end(sitting)
+                if over is not None:
+                    return over
+                shown = None
+            place = places[at]
+            if shown != place.problem:
+                self._problem(sitting, place.problem)
+                shown = place.problem
+            self._part(sitting, place)
+            try:
+                text = self._ask(self._prompt(sitting, place)).strip()
+            except EOFError:
+                self._print()
+                return False
+            except KeyboardInterrupt:
+                self._print()
+                text = self._interrupted()
+            if sitting.end is not None and self._now() > sitting.end:
+                self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
+                return True
+            if text == "leave":
+                return False
+            if text == "hand in":
+                at = len(places)
+            elif text == "problem":
+                shown = None
+            elif text == "overview":
+                self._overview(sitting)
+            elif text in ("?", "help"):
+                self._help()
+            elif text == "clear":
+                sitting.answer(place, "")
+            elif text in ("", "next"):
+                at += 1
+            elif text == "back":
+                at = max(0, at - 1)
+            elif match := _GO.fullmatch(text):
+                at = self._found(places, match, at)
+            else:
+                sitting.answer(place, text)
+                at += self._is_read(sitting, place, text)
+
+    def _at_the_end(self, sitting: Sitting) -> tuple[int, bool | None]:
+        """Ask whether to hand in: where to go on if not, and whether it is over."""
+        self._overview(sitting)
+        missing = len(sitting.places) - len(sitting.answers)
+        open_ = f"{missing} of {len(sitting.places)} parts have no answer. " if missing else ""
+        while True:
+            try:
+                text = self._ask(f"{open_}Hand in? yes, no or leave > ").strip().lower()
+            except (EOFError, KeyboardInterrupt):
+                self._print()
+                return 0, False
+            if text in ("yes", "y", "hand in"):
+                return 0, True
+            if text == "leave":
+                return 0, False
+            if text in ("no", "n", "back"):
+                first = next((i for i, place in enumerate(sitting.places) if place not in sitting.answers), 0)
+                return first, None
+            if match := _GO.fullmatch(text):
+                return self._found(sitting.places, match, 0), None
+
+    def _interrupted(self) -> str:
+        try:
+            text = self._ask("Hand in, leave, or go on? hand in/leave/Enter > ").strip().lower()
+        except (EOFError, KeyboardInterrupt):
+            return "leave"
+        return text if text in ("hand in", "leave") else "problem"
+
+    def _found(self, places: Sequence[Place], match: re.Match[str], at: int) -> int:
+        place = Place(int(match[1]) - 1, "abcdefghijklmnopqrstuvwxyz".index(match[2] or "a"))
+        if place in places:
+            return places.index(place)
+        self._print(words((f"  There is no part {match[1]}{match[2] or ''}.", "yellow")))
+        return at
+
+    def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
+        """Whether an answer can be read, which is said if not; what it is worth is not."""
+        problem, part = sitting.exercise(place).problem, sitting.part(place)
+        try:
+            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+        except Unreadable as error:
+            self._print(words(("  ? Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message))
+            return False
+        return True
+
+    def _problem(self, sitting: Sitting, number: int) -> None:
+        exercise = sitting.version.exercises[number]
+        points = sum(part.points for part in exercise.parts)
+        title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
+        self._print()
+        self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
+        self._print()
+        self._print(render(exercise.question()))
+
+    def _part(self, sitting: Sitting, place: Place) -> None:
+        exercise, part = sitting.exercise(place), sitting.part(place)
+        self._print(asked(part, only=len(exercise.parts) == 1))
+        shape = how_to_type(part.kind, exercise.problem.parameters)
+        self._print(words((f"  {shape}", "dim")))
+        if place in sitting.answers:
+            self._print(words(("  your answer so far: ", "dim"), sitting.answers[place]))
+
+    def _prompt(self, sitting: Sitting, place: Place) -> str:
+        left = sitting.left(self._now())
+        time = "" if left is None else f"[{_clock(left)} left] "
+        return f"{time}{place.problem + 1}{sitting.part(place).label} > "
+
+    def _overview(self, sitting: Sitting) -> None:
+        table = Table.grid(padding=(0, 2))
+        for place in sitting.places:
+            typed = sitting.answers.get(place)
+            name = f"  {place.problem + 1}{sitting.part(place).label}"
+            short = "–" if typed is None else " ".join(typed.split())[:40]
+            table.add_row(name, sitting.exercise(place).problem.family.title, words(short))
+        self._print(table)
+
+    def _help(self) -> None:
+        table = Table.grid(padding=(0, 2))
+        for key, meaning in _HELP:
+            table.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+        self._print(table)
+
+    def _report(self, sitting: Sitting) -> None:
+        graded = sitting.graded()
+        reached, of = sum((each.points for each in graded), Fraction(0)), sum(each.of for each in graded)
+        self._print()
+        self._print(words((f"{_number(reached)} of {of} points", "bold")))
+        table = Table.grid(padding=(0, 2))
+        for topic, (points, most) in by_topic(sitting, graded).items():
+            table.add_row(f"  {topic}", f"{_number(points)} of {most}")
+        self._print(table)
+        for number, (exercise, result) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
+            for part in result.parts:
+                self._graded(f"{number}{part.part}", part)
+                if not part.accepted:
+                    own = next(each for each in exercise.parts if each.label == part.part)
+                    self._indented(render(exercise.working(part.part)))
+                    self._print(words(("  The answer:", "dim")))
+                    self._indented(renderable(exercise.answer(own)))
+        self._print(words(f"Your answers are in {sitting.path}; 'rldrill verify {sitting.path}' grades them again."))
+
+    def _graded(self, name: str, part: GradedPart) -> None:
+        says = "not answered" if part.verdict is None else part.verdict.says
+        mark, style = ("✓", "green") if part.accepted else ("✗", "red")
+        typed = "" if part.verdict is None else f"{' '.join(part.typed.split())[:60]}  "
+        points = f"{_number(part.points)} of {part.of}"
+        self._print(words((f"{mark} {name}", f"bold {style}"), f"  {points}  ", (typed, "bold"), says))
+
+    def _indented(self, content: RenderableType) -> None:
+        self._print(Padding(content, (0, 0, 0, 2), expand=False))
+
+    def _print(self, content: RenderableType = "") -> None:
+        self._console.print(content)
+
+
+def _clock(left: timedelta) -> str:
+    minutes = -(-int(left.total_seconds()) // 60)
+    return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
+
+
+def _number(points: Fraction) -> str:
+    return f"{float(points):g}"

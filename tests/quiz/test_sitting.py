@@ -1,0 +1,164 @@
+"""Sitting an exam: back and forth, nothing judged before the end, and the same points as verify gives."""
+
+from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.exam import Exam
+from rldrill.exam.manifest import manifest, read_manifest, written
+from rldrill.exam.planning import plan
+from rldrill.grading.verification import verify
+from rldrill.problems.errors import FileError, UsageError
+from rldrill.quiz.sitting import Place, Sitting, by_topic, version_of
+from rldrill.quiz.sitting_screen import SittingScreen
+
+START = datetime(2026, 11, 26, 9, tzinfo=UTC)
+
+#: return/1: (a) and (b), a point each; td-zero/1: one point.
+PROBLEMS = (Entry(id="return/1/7"), Entry(id="td-zero/1/7"))
+
+
+def exam(**more: object) -> Exam:
+    return plan(Blueprint(problems=PROBLEMS, seed=1, title="Midterm").but(**more))
+
+
+class Hand:
+    """Somebody who types these lines; an exception is raised in place of a line. Every line takes a minute."""
+
+    def __init__(self, *lines: str | type[BaseException]) -> None:
+        self._lines: Iterator[str | type[BaseException]] = iter(lines)
+        self.prompts: list[str] = []
+        self.time = START
+
+    def ask(self, prompt: str) -> str:
+        self.prompts.append(prompt)
+        self.time += timedelta(minutes=1)
+        line = next(self._lines, EOFError)
+        if not isinstance(line, str):
+            raise line
+        return line
+
+    def now(self) -> datetime:
+        return self.time
+
+
+def sit(sitting: Sitting, *lines: str | type[BaseException], width: int = 100) -> tuple[bool, str, Hand]:
+    hand = Hand(*lines)
+    console = Console(width=width, record=True, markup=False, highlight=False, quiet=False)
+    handed_in = SittingScreen(console, hand.ask, hand.now).run(sitting)
+    return handed_in, console.export_text(), hand
+
+
+@pytest.fixture
+def sitting(tmp_path: Path) -> Sitting:
+    planned = exam()
+    return Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+
+
+def right(sitting: Sitting) -> list[str]:
+    answers = (sitting.exercise(place).answers()[sitting.part(place).label] for place in sitting.places)
+    return [str(next(iter(answer.values()))) if isinstance(answer, dict) else str(answer) for answer in answers]
+
+
+def test_right_answers_earn_everything(sitting: Sitting) -> None:
+    handed_in, text, hand = sit(sitting, *right(sitting), "yes")
+    assert handed_in
+    assert "3 of 3 points" in text
+    assert [prompt.split(" >")[0] for prompt in hand.prompts[:3]] == ["1a", "1b", "2a"]
+    assert by_topic(sitting, sitting.graded()) == {
+        "fundamentals": (Fraction(2), 2),
+        "temporal-difference": (Fraction(1), 1),
+    }
+
+
+def test_nothing_is_judged_before_it_is_handed_in(sitting: Sitting) -> None:
+    _, text, _ = sit(sitting, "99999", "clear", "0", "overview", "leave")
+    assert "✗" not in text
+    assert "✓" not in text
+    assert "Not right" not in text
+    assert "Kept in" in text
+
+
+def test_back_and_change_and_go_to_a_part(sitting: Sitting) -> None:
+    a, b, last = right(sitting)
+    handed_in, text, _ = sit(sitting, "1", "2", "back", b, "go 1a", a, "go 9", "go 2", last, "yes")
+    assert handed_in
+    assert "There is no part 9." in text
+    assert "your answer so far: 2" in text
+    assert "3 of 3 points" in text
+
+
+def test_what_cannot_be_read_is_said_and_asked_again(sitting: Sitting) -> None:
+    _, text, hand = sit(sitting, "banana", "1", "leave")
+    assert "Kept, but it cannot be read and would count as wrong" in text
+    assert [prompt[:2] for prompt in hand.prompts] == ["1a", "1a", "1b"]
+
+
+def test_ctrl_c_asks(sitting: Sitting) -> None:
+    a, b, last = right(sitting)
+    assert not sit(sitting, a, KeyboardInterrupt, "leave")[0]
+    assert not sit(sitting, KeyboardInterrupt, KeyboardInterrupt)[0]
+    handed_in, _, _ = sit(sitting, KeyboardInterrupt, "", b, last, KeyboardInterrupt, EOFError)
+    assert not handed_in
+    assert sit(sitting, KeyboardInterrupt, "hand in", "yes")[0]
+
+
+def test_it_goes_on_from_the_file_and_stays_handed_in(sitting: Sitting) -> None:
+    a, b, last = right(sitting)
+    sit(sitting, a, EOFError)
+    later = Sitting(sitting.exam, sitting.version, sitting.path, START + timedelta(days=1))
+    later.resume()
+    assert later.begun == START
+    assert later.answers == {Place(0, 0): a}
+    _, _, hand = sit(later, b, last, "yes")
+    assert hand.prompts[0].startswith("1b")
+    again = Sitting(sitting.exam, sitting.version, sitting.path, START)
+    again.resume()
+    assert again.handed_in is not None
+    assert "3 of 3 points" in sit(again)[1]
+
+
+def test_time_is_up(tmp_path: Path) -> None:
+    planned = exam(duration=2)
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START)
+    a, b, last = right(sitting)
+    handed_in, text, hand = sit(sitting, a, b, last)
+    assert hand.prompts[0].startswith("[2 min left]")
+    assert handed_in
+    assert "Time is up. What was typed after that does not count." in text
+    assert "2 of 3 points" in text
+
+
+@pytest.mark.parametrize("typed", [("0", "0", "0"), ("1/2",), ("right", "right", "0"), ()])
+def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) -> None:
+    own = right(sitting)
+    sit(sitting, *(own[index] if text == "right" else text for index, text in enumerate(typed)), "hand in", "yes")
+    points = sum((graded.points for graded in sitting.graded()), Fraction(0))
+    if typed:
+        assert verify([sitting.path]).score.points == points
+    else:
+        assert points == 0
+
+
+def test_the_manifest_makes_the_same_exam(sitting: Sitting, tmp_path: Path) -> None:
+    sit(sitting, "5", "leave")
+    path = tmp_path / "exam.json"
+    path.write_bytes(written(manifest(sitting.exam)))
+    read = read_manifest(path)
+    again = Sitting(read, version_of(read, "a"), sitting.path, START)
+    again.resume()
+    assert again.answers == {Place(0, 0): "5"}
+
+
+def test_the_file_of_something_else_is_refused(sitting: Sitting) -> None:
+    for text in ('["return/1/8@2"]\na = "3"\n', "no toml", f"# begun: {START.isoformat()}\n[x]\n"):
+        sitting.path.write_text(text)
+        with pytest.raises(FileError, match="name another"):
+            sitting.resume()
+    with pytest.raises(UsageError, match="The exam has no version 'Z'; it has A"):
+        version_of(sitting.exam, "Z")
