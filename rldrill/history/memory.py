@@ -8,9 +8,10 @@ from fsrs import Card, Rating, Scheduler
 
 from rldrill.history.attempts import Attempt
 
-#: What went wrong is asked again in the same sitting, once something else has come between.
-_SOON = (timedelta(minutes=10),)
-_SCHEDULER = Scheduler(learning_steps=_SOON, relearning_steps=_SOON, enable_fuzzing=False)
+#: What is new or went wrong is asked again on the next day: a problem takes minutes, and so soon after its working a
+#: right answer shows little (``benchmarks/students.py`` measures what it brings on the day of an exam).
+_NEXT_DAY = (timedelta(hours=12),)
+_SCHEDULER = Scheduler(learning_steps=_NEXT_DAY, relearning_steps=_NEXT_DAY, enable_fuzzing=False)
 
 
 @dataclass(frozen=True, slots=True, order=True)

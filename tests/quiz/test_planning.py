@@ -97,12 +97,13 @@ def test_what_goes_wrong_twice_is_asked_a_level_lower() -> None:
     assert Plan(ORDER, log, 10, NOW).due(NOW)[0] == hard
 
 
-def test_what_goes_wrong_comes_again_ten_minutes_later() -> None:
+def test_what_goes_wrong_comes_again_on_the_next_day() -> None:
     plan = Plan(ORDER, [], 10, NOW)
     wrong = plan.next(NOW)
     plan.learn([answered(wrong, NOW, "wrong")])
     assert plan.next(NOW + 3 * MINUTE) != wrong
-    assert wrong in plan.due(NOW + 11 * MINUTE)
+    assert wrong not in plan.due(NOW + 60 * MINUTE)
+    assert wrong in plan.due(NOW + DAY)
 
 
 @pytest.mark.parametrize("hours", [8, 23])
