@@ -127,5 +127,5 @@ def question(given: Given) -> Question:
             known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
             parts.append(Part(f"{told} {known} What is ${letter}$?", Number()))
         else:
-            parts.append(Part(f"{told} What is the belief afterwards{in_open(given)}?", Values("p", states)))
+            parts.append(Part(f"{told} What is the belief afterwards{in_open(given, several=True)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

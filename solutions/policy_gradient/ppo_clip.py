@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from rldrill.problems.exact import Weight
+from rldrill.problems.exact import Weight, shown
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
@@ -50,7 +50,7 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
     if given.objective is not None:
         _from_the_objective(work, known, exact(given.objective))
         return
-    known["clipped"] = _given(work, [work.step(PPO_CLIPPED, t=time, **known) for time in times])
+    known["clipped"] = _given(work, [_clipped(work, known, time) for time in times])
     objective = {time: objective_of(work, known, time) for time in times}
     work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
     for time in times:
@@ -72,6 +72,20 @@ def _ratio(work: Work, sample: Sample, known: Mapping[str, Any], time: int) -> V
     return ratio
 
 
+def _clipped(work: Work, known: Mapping[str, Any], time: int) -> Value:
+    """The clipped term; before it, which number stands for the ratio."""
+    ratio, low, high = known["rho"][time], 1 - known["epsilon"], 1 + known["epsilon"]
+    rho = f"$ρ_{{{time}}} = {shown(ratio)}$"
+    if sign(ratio - low) < 0:
+        work.say(f"{rho} lies below $1 − ε = {shown(low)}$, so $ρ_{{{time}}}$ is clipped to ${shown(low)}$:")
+    elif sign(high - ratio) < 0:
+        work.say(f"{rho} lies above $1 + ε = {shown(high)}$, so $ρ_{{{time}}}$ is clipped to ${shown(high)}$:")
+    else:
+        work.say(f"{rho} lies between $1 − ε = {shown(low)}$ and $1 + ε = {shown(high)}$, so it stays as it is:")
+    clipped: Value = work.step(PPO_CLIPPED, t=time, **known)
+    return clipped
+
+
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
         return f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and the gradient is not zero."
@@ -84,7 +98,7 @@ def _reason(time: int, *, cut: bool, inside: bool) -> str:
 
 
 def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
-    """Whether the ratio has moved to where the advantage wants it, so that some ε cuts off the gradient."""
+    """Whether the better action has become likelier, or the worse one less likely: then some ε cuts off the gradient."""
     return sign(known["rho"][time] - 1) * sign(known["A_t"][time]) > 0
 
 
@@ -130,8 +144,9 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     (one,) = cut
     above = sign(known["rho"][one] - 1) > 0
     work.say(
-        f"Only at $t = {one}$ has the ratio moved to where the advantage wants it; the other objectives are the "
-        "unclipped terms. As $L$ is not the mean of the unclipped terms, the ratio is clipped there:"
+        f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
+        f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
+        f"terms. $L$ is not the mean of the unclipped terms, so $ρ_{{{one}}}$ is clipped:"
     )
     held = work.step(PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND, t=one, **known)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
