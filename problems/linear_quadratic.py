@@ -214,7 +214,7 @@ def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
     pays = f"costs ${end}$" if notation.costs else f"earns $−{end}$"
     left_open = any(isinstance(entry, Parameter) for matrix in given.R for line in matrix for entry in line)
     discounted = "" if given.gamma == 1 else (
-        f" What comes at time $t$ counts $γ^t$ times, with the discount $γ = {shown(given.gamma)}$."
+        f" What comes at time $t$ is discounted by $γ^t$, with $γ = {shown(given.gamma)}$."
     )  # fmt: skip
     Q_T = Equation(mathematics("Q_T"), (tabular(by_time(given.state_costs, last)),), ("=",))
     before = given.state_costs[:last] if len(given.Q) > 1 else given.Q

@@ -102,7 +102,10 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
             f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given, several=len(names) > 1)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
         ),
-        Part(f"What are the weights $θ$ after one step of gradient ascent{in_open(given, several=len(names) > 1)}?", Numbers(names)),
+        Part(
+            f"What are the weights $θ$ after one step of gradient ascent{in_open(given, several=len(names) > 1)}?",
+            Numbers(names),
+        ),
     )
 
 

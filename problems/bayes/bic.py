@@ -231,7 +231,7 @@ def question(given: Given) -> Question:
     of = "both models" if len(names) == 2 else "every model"
     criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), zero=True)
     if given.fitted is not None and given.border:
-        border = Part("For which number $n$ of data do both models have the same BIC?", Number())
+        border = Part("For which number $n$ of data points do both models have the same BIC?", Number())
         options = dict(zip(ascii_uppercase, names, strict=False))
         after = Part(f"Which model does the BIC prefer if there are {given.border} data than that?", Choice(options))
         return Question((*_fitted(given, given.fitted), rule), (border, after))
@@ -259,7 +259,7 @@ def question(given: Given) -> Question:
         rule,
     )
     fit = Part(
-        "What is $ln p(D_z|M, θ)$ of both models, each at the parameters that fit it best?",
+        "What is $ln p(D_z|M, θ)$ of both models, each with its best-fitting parameters?",
         Values("ln p", names),
         zero=True,
     )

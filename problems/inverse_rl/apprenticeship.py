@@ -183,7 +183,7 @@ def question(given: Given) -> Question:
         parts.append(Part(f"Which of these policies is $π_{count + 1}$?", Choice(options)))
         parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{count + 1}$?", point))
     last = count + bool(given.candidates)
-    parts.append(Part(f"What distance $‖w‖$ to the expert is left after $π_{last}$?", Number()))
+    parts.append(Part(f"What is the remaining distance $‖w‖$ to the expert after $π_{last}$?", Number()))
     if given.tolerance is not None:
         parts.append(Part(f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$. Does it stop now?", YesNo()))
     return Question((*blocks, *_candidates(given)), tuple(parts))
@@ -198,7 +198,7 @@ def _candidates(given: Given) -> tuple[Block, ...]:
     if not given.candidates:
         return ()
     number = len(given.policies) + 1
-    told = f"The next policy $π_{number}$ is that with the greatest $w^⊤ μ(π)$ for the last weights. There are:"
+    told = f"The next policy $π_{number}$ is the one of these with the greatest $w^⊤ μ(π)$ for the last weights:"
     header = ("", *(f"component ${index}$" for index in range(1, len(given.expert) + 1)))
     rows = tuple((name, *(f"${shown(value)}$" for value in mu)) for name, mu in given.candidates.items())
     return Paragraph(told), Table(header=header, rows=rows)

@@ -207,7 +207,9 @@ def question(given: Given) -> Question:
         for number in numbers
     ]
     entries = tuple(f"μ_{{{number}}}" for number in numbers)
-    ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given, several=given.size > 1)}?"
+    ask = (
+        f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given, several=given.size > 1)}?"
+    )
     parts.append(Part(ask, Numbers(entries)))
     return Question(blocks, tuple(parts))
 

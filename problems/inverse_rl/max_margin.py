@@ -99,7 +99,12 @@ def draw(level: int, rng: Draws) -> Given:
             opened = _opened(rng, given)
             if opened:
                 return opened
-        elif 0 not in missing and len(set(missing)) == count and (max(missing) < 0) == holding and (holding or min(missing) < 0 or level == 1):
+        elif (
+            0 not in missing
+            and len(set(missing)) == count
+            and (max(missing) < 0) == holding
+            and (holding or min(missing) < 0 or level == 1)
+        ):
             return given
 
 
@@ -155,13 +160,17 @@ def question(given: Given) -> Question:
             blocks,
             (
                 Part(equal, Values(letter, tuple(given.policies)), zero=True),
-                Part(f"From which ${letter}$ on do all of them hold with $ξ = 0$?", Number(), zero=True),
+                Part(f"What is the smallest ${letter}$ with which all of them hold if $ξ = 0$?", Number(), zero=True),
             ),
         )
     return Question(
         blocks,
         (
-            Part("What is the value $w^⊤ μ(π)$ of each policy, the expert's $π_E$ included?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
+            Part(
+                "What is the value $w^⊤ μ(π)$ of each policy, the expert's $π_E$ included?",
+                Values("w^⊤ μ", (EXPERT, *given.policies)),
+                zero=True,
+            ),
             Part("How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
             Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), zero=True),
         ),

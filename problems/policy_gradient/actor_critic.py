@@ -123,13 +123,15 @@ def question(given: Given) -> Question:
         if len(given.visited) == 1
         else f"What are the critic's values of {joined(list(given.visited))}"
     )
-    opened = in_open(given, several=several)
+    which = "are the TD errors" if several else "is the TD error"
+    errors_open = in_open(given, several=several)
+    values_open = in_open(given, several=len(given.visited) > 1)
+    weights_open = in_open(given, several=len(given.theta) > 1)
     return Question(
         blocks,
         (
-            Part(f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
-                 Numbers(errors)),
-            Part(f"{values} after the run{in_open(given, several=len(given.visited) > 1)}?", Values("V", given.visited), zero=True),
-            Part(f"What are the actor's weights $θ$ after the run{in_open(given, several=len(given.theta) > 1)}?", Numbers(weight_names(given.theta))),
+            Part(f"What {which} ${', '.join(errors)}${errors_open}?", Numbers(errors)),
+            Part(f"{values} after the run{values_open}?", Values("V", given.visited), zero=True),
+            Part(f"What are the actor's weights $θ$ after the run{weights_open}?", Numbers(weight_names(given.theta))),
         ),
-    )  # fmt: skip
+    )

@@ -164,9 +164,12 @@ def draw(level: int, rng: Draws) -> Given:
     worth = {row: row.reward + gamma * values[row.next] for row in rows if isinstance(row.reward, Fraction)}
     if any(a.action == b.action and worth[a] == worth[b] for a, b in combinations(rows, 2)):
         return draw(level, rng)  # their probabilities would not count
-    Q = {action: sum(row.probability * worth[row] for row in rows if row.action == action) for action in actions}
-    if len(set(Q.values())) < len(Q):
-        return draw(level, rng)  # two actions would be told apart by their names only
+    chance = {row: row.probability for row in rows if isinstance(row.probability, Fraction)}
+    of = [[row for row in rows if row.action == action] for action in actions]
+    Q = [sum((chance[row] * worth[row] for row in each), Fraction(0)) for each in of]
+    ahead = [sum((chance[row] * values[row.next] for row in each), Fraction(0)) for each in of]
+    if len(set(Q)) < len(Q) or not any(ahead):
+        return draw(level, rng)  # two actions would be told apart by their names only, or γ would not count
     if level == 1:  # every action has one outcome; one is better than the policy, and one is worse
         low, high = min(worth.values()), max(worth.values())
         between = [Fraction(value) for value in range(-30, 30) if value and low < value < high]
@@ -220,7 +223,7 @@ def _along(given: AlongRun) -> Question:
         values_table(run.values),
         Paragraph(
             "Advantages are estimated by generalised advantage estimation (GAE) from the TD errors of this trajectory: "
-            f"it ends at $T = {len(times)}$, so the last one is $δ_{{{len(times) - 1}}}$. The values stay as they are."
+            f"it ends at $T = {len(times)}$, so the last one is $δ_{{{len(times) - 1}}}$. The values are not updated."
         ),
     )
     ask = f"What are the estimates ${', '.join(estimates)}${in_open(given, several=len(estimates) > 1)}?"

@@ -145,7 +145,11 @@ def question(given: Given) -> Question:
             ),
         )
     parts = [
-        Part(f"What is the preference $h(s, a)$ of every action{in_open(given, several=True)}?", Values("h", actions), zero=True),
+        Part(
+            f"What is the preference $h(s, a)$ of every action{in_open(given, several=True)}?",
+            Values("h", actions),
+            zero=True,
+        ),
         Part(f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?", Values("π", actions)),
     ]
     if given.entropy:

@@ -59,8 +59,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     enough = largest(tuple(least.values()))
     each = ", ".join(f"{letter} ≥ {value}" for value in least.values())
     work.say(
-        "The expert has more of this feature than every other policy, so each constraint holds from its own "
-        f"${letter}$ on: ${each}$. All of them hold from the greatest on: ${letter} ≥ {enough}$.".replace("-", "−")
+        "The expert has more of this feature than every other policy, so each constraint is a lower "
+        f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$.".replace("-", "−")
     )
     work.answer(enough)
 

@@ -91,14 +91,14 @@ def _reason(time: int, *, cut: bool, inside: bool) -> str:
         return f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and the gradient is not zero."
     if cut:
         return (
-            f"$c_{{{time}}}$ is the smaller term. In it the bound stands for $ρ_{{{time}}}$, so that it does not "
+            f"$c_{{{time}}}$ is the smaller term. In it $ρ_{{{time}}}$ is replaced by the bound, which does not "
             "depend on $θ$: the gradient is zero."
         )
     return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: the gradient is not zero."
 
 
 def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
-    """Whether the better action has become likelier, or the worse one less likely: then some ε cuts off the gradient."""
+    """Whether a better action is likelier now, or a worse one less likely: then some ε cuts off the gradient."""
     return sign(known["rho"][time] - 1) * sign(known["A_t"][time]) > 0
 
 
@@ -108,7 +108,7 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
     for time, ratio in known["rho"].items():
         possible = _can_be_cut(known, time)
         wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
-        conclusion = "yes, a small $ε$ holds the ratio" if possible else "no, clipping never lowers the objective"
+        conclusion = "yes, for a small $ε$" if possible else "no, the unclipped term is never the larger one"
         work.say(
             f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: {conclusion}."
         )
@@ -124,7 +124,7 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
         edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
         bounds.append(work.equate("epsilon", edge, known["rho"][time]))
     if len(bounds) > 1:
-        work.say("One gradient at least is zero below the largest of these.")
+        work.say("At least one gradient is zero as long as $ε$ is below the largest of these.")
     work.answer(largest(bounds))
 
 
@@ -173,7 +173,7 @@ def _chance(work: Work, sample: Sample, chance: Fraction | None, preferences: Ma
 
 @slip(
     "wrong-side-for-negative-advantage",
-    "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
+    "For a negative advantage the smaller term is the other one: the ratio is clipped below 1 − ε, not above 1 + ε.",
     when=lambda given: (
         given.epsilon is not None and any(sample.advantage < 0 and outside(sample, given) for sample in given.samples)
     ),

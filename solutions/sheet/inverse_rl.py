@@ -126,7 +126,7 @@ with evaluate(False):
     )
     START_IGNORED = Misconception(
         "start-ignored",
-        "The states count with the probabilities with which an episode starts there, not all alike.",
+        "Weight the states by the probabilities that an episode starts there, not equally.",
         when=lambda given: len(set(given.start_chances.values())) > 1,
     )
     FEATURES_FROM_START = Formula(
