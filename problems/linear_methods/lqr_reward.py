@@ -71,7 +71,7 @@ def draw(level: int, rng: Draws) -> Given:
         if (
             len(set(rewards)) == len(rewards) > 0
             and -sum(rewards) <= _MOST[level]
-            and max(map(_size, rewards)) <= _MOST[level]
+            and max(map(_size, (*rewards, sum(rewards)))) <= _MOST[level]
         ):
             break
     if level < 3:
@@ -93,7 +93,7 @@ def _size(number: Fraction) -> int:
 
 
 def _rewards(given: Given) -> list[Fraction]:
-    """The rewards of all times, discounted; none, if a state or action on the way is zero."""
+    """The rewards of all times, discounted; none, if a state or action on the way is zero, or the state after it."""
     rewards, state, (A,), (B,) = [], given.start, given.A, given.B
     for time in range(given.horizon + 1):
         ended = time == given.horizon and not given.plain
@@ -104,7 +104,7 @@ def _rewards(given: Given) -> list[Fraction]:
         cost = dot(state, (dot(line, state) for line in Q)) + action**2 * given.price
         rewards.append(-cost * given.gamma**time)
         state = tuple(dot(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
-    return rewards
+    return rewards if any(state) else []
 
 
 def question(given: Given) -> Question:
