@@ -14,7 +14,7 @@ from rldrill.problems.feature_vectors import FeaturesField, check_features, draw
 from rldrill.problems.features import features_table
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part
-from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Feature expectations from trajectories"
@@ -136,7 +136,7 @@ def question(given: Given) -> Question:
             "An expert's behaviour was recorded in these trajectories; no features count after the last state of each:"
         ),
         Table(header=("trajectory", *(f"$s_{{{time}}}$" for time in range(longest))), rows=rows),
-        Paragraph(discount(given.gamma)),
+        Paragraph(discount(given.gamma) if given.estimate is None else unknown("gamma")),
     )
     if given.estimate is not None:
         told = f"The estimate for the expert's policy is $μ_1(π) = {shown(given.estimate)}$."

@@ -174,6 +174,7 @@ def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict
 def question(given: Given) -> Question:
     """Motion, policy and features; each feature from every state, then all from the start distribution."""
     numbers = range(1, given.size + 1)
+    known = "left open" if given.matched is None else "unknown"
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
         Paragraph("Action $a$ in state $s$ leads to state $s'$ with probability $P_{s s'}^a$:"),
@@ -188,7 +189,7 @@ def question(given: Given) -> Question:
             ),
         ),
         *(
-            [Paragraph(f"The probability ${shown(Parameter(given.asked_for))}$ is left open.")]
+            [Paragraph(f"The probability ${shown(Parameter(given.asked_for))}$ is {known}.")]
             if given.asked_for and given.asked_for != "gamma"
             else []
         ),

@@ -190,7 +190,7 @@ def _terms(given: Given) -> str:
     objective = f"PPO's clipped objective for the sample at time $t$ is called $L_t${mean}."
     ratio = "The ratio $ρ_t$ is the new probability of the action divided by the old one."
     if given.epsilon is None and given.objective is None:
-        return f"{ratio} {objective} In it $ρ_t$ is clipped to the range from $1 − ε$ to $1 + ε$."
+        return f"{ratio} {objective} In $L_t$ the ratio is clipped to the range from $1 − ε$ to $1 + ε$."
     if given.epsilon is None:
         return (
             f"{ratio} The unclipped term is $u_t = ρ_t A_t$. {objective} The clipping range $ε$ was not noted, but "
