@@ -71,7 +71,7 @@ def draw(level: int, rng: Draws) -> Given:
         if (
             len(set(rewards)) == len(rewards) > 0
             and -sum(rewards) <= _MOST[level]
-            and max(map(_size, (*rewards, sum(rewards)))) <= _MOST[level]
+            and max(map(_size, (*rewards, sum(rewards, Fraction(0))))) <= _MOST[level]
         ):
             break
     if level < 3:
