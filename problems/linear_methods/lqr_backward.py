@@ -138,9 +138,9 @@ def _plain(given: Given) -> tuple[Block, ...]:
     return (
         *situation(given),
         Paragraph(
-            f"The rewards of the times $0$ to ${last}$ are added, without a discount, and the sum is to be as "
+            f"The rewards at the times $0$ to $T = {last}$ are added, without a discount, and the sum is to be as "
             f"large as possible. $V_t(s) = s^⊤ P_t s$ is the largest sum from time $t$ on, so $P_t$ is "
-            f"{_signed(given, 'negative')}. At time ${last}$ the best action is $0$."
+            f"{_signed(given, 'negative')}. At the last time, $T$, the best action is $0$."
         ),
     )
 

@@ -217,7 +217,8 @@ def question(given: Given) -> Question:
     cost = quadratic(given.notation, crossed=given.N is not None)
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
     discount = " or discount:" if given.gamma == 1 else (
-        f"; what comes at time $t$ is discounted by $γ^t$, with $γ = {shown(given.gamma)}$:"
+        f"; the {'cost' if in_costs else 'reward'} at time $t$ is discounted by $γ^t$, with "
+        f"$γ = {shown(given.gamma)}$:"
     )  # fmt: skip
     return Question(
         (
@@ -248,7 +249,8 @@ def _parts(given: Given) -> Iterator[Part]:
         return
     yield Part(f"What is ${P}$?", Matrix(n, n))
     yield Part(f"What is the gain ${L}$?", Matrix(m, n))
-    yield Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True)
+    what = "the closed loop" if n == 1 else "the matrix of the closed loop,"
+    yield Part(f"What is {what} $A − B {L}$?", Matrix(n, n), zero=True)
 
 
 def _wanted(given: Given) -> str:
