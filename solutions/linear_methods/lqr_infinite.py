@@ -123,9 +123,10 @@ def _equation(given: Given) -> str:
     bracket = f"R + {gamma}B^2 {P}" if other else f"{gamma}B^2 P − R"
     cost, turned = ("Q", "+") if other else ("−Q", "−")
     crossed = f"{gamma}A B {P} {turned} N" if given.N else f"{gamma}A B {P}"
+    start = "With" if len(given.A) == 1 else "For each mode, with"
     what, never, side = ("a cost", "negative", "positive") if other else ("a value", "positive", "negative")
     return (
-        f"With the gain put in, ${P} = {cost} + {gamma}A^2 {P} − ({crossed})^2/({bracket})$. Multiplied by "
+        f"{start} the gain put in, ${P} = {cost} + {gamma}A^2 {P} − ({crossed})^2/({bracket})$. Multiplied by "
         f"${bracket}$, this becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = 0$. The product of its roots, "
         f"$−{product}/{f'({gamma}B^2)' if gamma else 'B^2'}$, is not positive, so at most one root is {side}; {what} "
         f"here is never {never}, so ${P}$ is that one."
