@@ -112,7 +112,7 @@ def draw(level: int, rng: Draws) -> Given:
             }
             for state in states
         }
-        found = _expected(rng, chain, gamma, size) if _connected(chain) and _coupled(chain) == (level > 1) else None
+        found = _expected(rng, chain, gamma, size) if _connected(chain) and _suits(level, chain) else None
         if found and choices > 1 and any(_alike([rows[state] for rows in motion.values()], found) for state in states):
             found = None
     features = {
@@ -143,9 +143,10 @@ def _connected(chain: Chain) -> bool:
     return leads and any(sum(row.values()) < 1 for row in chain.values())
 
 
-def _coupled(chain: Chain) -> bool:
-    """Whether two states lead to each other, so that neither equation is solved without the other."""
-    return any(chain[one][other] and chain[other][one] for one in chain for other in chain if one != other)
+def _suits(level: int, chain: Chain) -> bool:
+    """Two states: one equation is solved without the other at level 1, and neither is at level 2."""
+    coupled = all(chain[one][other] for one in chain for other in chain if one != other)
+    return level == 3 or len(chain) > 2 or coupled == (level == 2)
 
 
 def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[str, Fraction]]) -> bool:
