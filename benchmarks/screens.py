@@ -1,8 +1,9 @@
 """How many problems fit a terminal: what stands on the screen until the first answer is typed, in lines.
 
-    python benchmarks/screens.py [WIDTH HEIGHT]
+python benchmarks/screens.py [WIDTH HEIGHT]
 """
 
+import contextlib
 import sys
 from collections import Counter
 from io import StringIO
@@ -27,10 +28,8 @@ def lines(name: str, level: int, seed: int, width: int, height: int) -> int:
     """The lines from the header to the prompt, that included."""
     out = StringIO()
     console = Console(file=out, width=width, height=height, color_system=None, markup=False, highlight=False)
-    try:
+    with contextlib.suppress(_EnoughError):
         Screen(console, _nothing).run([draw(name, level, seed)], Session(10))
-    except _EnoughError:
-        pass
     return out.getvalue().strip("\n").count("\n") + 2
 
 

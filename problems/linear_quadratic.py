@@ -182,7 +182,11 @@ def situation(given: LinearQuadratic) -> tuple[Block, ...]:
             + (" States and actions are numbers." if scalar else "")
         ),
         Paragraph(
-            ("The matrices are the same at all times" if constant else "A matrix with index $t$ holds at all times")
+            (
+                f"{'The coefficients' if scalar else 'The matrices'} are the same at all times"
+                if constant
+                else f"{'A coefficient' if scalar else 'A matrix'} with index $t$ holds at all times"
+            )
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
         *(block for name in ("A", "B", "Q", "R") for block in listed(name, getattr(given, name))),
@@ -209,12 +213,14 @@ def quadratic(notation: Notation, index: str = "", *, crossed: bool) -> str:
 def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
     """The sentences and matrices of a system of which more is said than of a plain one."""
     x, u, last = notation.state, notation.action, given.horizon
+    scalar = len(given.start) == given.actions == 1
     stage, end = quadratic(notation, "_t", crossed=given.N is not None), f"{x}_T^⊤ Q_T {x}_T"
     earns = f"costs ${stage}$" if notation.costs else f"earns the reward $r({x}_t, {u}_t) = −({stage})$"
     pays = f"costs ${end}$" if notation.costs else f"earns $−{end}$"
     left_open = any(isinstance(entry, Parameter) for matrix in given.R for line in matrix for entry in line)
     discounted = "" if given.gamma == 1 else (
-        f" What comes at time $t$ counts $γ^t$ times, with the discount $γ = {shown(given.gamma)}$."
+        f" The {'cost' if notation.costs else 'reward'} at time $t$ is discounted by $γ^t$, "
+        f"with $γ = {shown(given.gamma)}$."
     )  # fmt: skip
     Q_T = Equation(mathematics("Q_T"), (tabular(by_time(given.state_costs, last)),), ("=",))
     before = given.state_costs[:last] if len(given.Q) > 1 else given.Q
@@ -224,7 +230,7 @@ def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
             f"$t = {times(0, last - 1)}$, and at the end, at time $T = {last}$, the state alone {pays}.{discounted}"
         ),
         Paragraph(
-            "A matrix with index $t$ holds at all times before $T$"
+            f"{'A coefficient' if scalar else 'A matrix'} with index $t$ holds at all times before $T$"
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
         *listed("A", given.A), *listed("B", given.B), *listed("Q", before), Q_T,

@@ -95,14 +95,17 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
         entries: the same as mathematics, for every step.
     """
     names = weight_names(given.theta)
-    asked = f"What are the {weighted} ${', '.join(entries)}${in_open(given)}?"
+    asked = f"What are the {weighted} ${', '.join(entries)}${in_open(given, several=len(entries) > 1)}?"
     return (
         Part(asked, Numbers(entries), zero=True),
         Part(
-            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
+            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given, several=len(names) > 1)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
         ),
-        Part(f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?", Numbers(names)),
+        Part(
+            f"What are the weights $θ$ after one step of gradient ascent{in_open(given, several=len(names) > 1)}?",
+            Numbers(names),
+        ),
     )
 
 
@@ -118,6 +121,8 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
     policy = draw_even_policy if level == 1 else draw_log_policy
     while True:
         theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
+        if not told_apart(features):
+            continue
         if level == 1 or prod(_below(theta, rows) for rows in features.values()) <= _MOST_BELOW[level]:
             break
     gamma = Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1")
@@ -190,6 +195,19 @@ def _drawn(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], size: 
                   for place in range(size)]  # fmt: skip
         if all(differ):
             return features
+
+
+def told_apart(features: ActionFeatures) -> bool:
+    """Whether no two weights make the same difference to every choice, so that they would get the same gradient."""
+    columns = [
+        tuple(row[place] - first[place] for first, *others in map(tuple, _rows(features)) for row in others)
+        for place in range(len(next(iter(_rows(features)))[0]))
+    ]
+    return len(set(columns)) == len(columns)
+
+
+def _rows(features: ActionFeatures) -> list[list[FeatureVector]]:
+    return [list(row.values()) for row in features.values()]
 
 
 def _different(rng: Draws, actions: tuple[str, ...], size: int, high: int) -> dict[str, FeatureVector]:

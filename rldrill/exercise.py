@@ -271,7 +271,8 @@ def _written(lines: Iterable[Line]) -> Iterator[Block]:
         if isinstance(line, Step) and line.formula not in stated:
             stated.add(line.formula)
             general, here = line.formula.equation(line.formula.right), line.equation()
-            if general.rights[0] not in here.rights:  # where nothing is put in, the step says it
+            # Where nothing is put in, the step says it; where both sides are the same, the formula says nothing.
+            if general.rights[0] not in (*here.rights, general.left):
                 yield general
             yield here
         elif isinstance(line, Step | Equality):

@@ -8,7 +8,7 @@ from rldrill.problems.exact import Scalar
 from rldrill.solutions.exact import NoSolution, Value, exact, told
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
-from rldrill.solutions.sheet.function_approximation import DISTANCE, LINEAR_STATE_VALUE
+from rldrill.solutions.sheet.function_approximation import DISTANCE, DISTANCE_ON_A_LINE, LINEAR_STATE_VALUE
 from rldrill.solutions.softmax import by_number
 from rldrill.solutions.work import Work
 
@@ -23,6 +23,13 @@ def distances(given: Centred, work: Work, position: Sequence[Value] = (), of: It
         of: the numbers of the centres whose distances are needed; without them, of all.
     """
     position = tuple(map(exact, given.position)) if given.position else position
+    numbers = tuple(of) or range(1, len(given.centres) + 1)
+    if len(position) == 1:
+        line: dict[str, Any] = {
+            "place": position[0],
+            "centre_at": {number: exact(value) for number, (value,) in enumerate(given.centres, 1)},
+        }
+        return {"s": "s", "distance": {number: work.step(DISTANCE_ON_A_LINE, i=number, **line) for number in numbers}}
     axes = range(1, len(position) + 1)
     known: dict[str, Any] = {
         "position": dict(zip(axes, position, strict=True)),
@@ -33,7 +40,6 @@ def distances(given: Centred, work: Work, position: Sequence[Value] = (), of: It
         },
         "dimensions": tuple(axes),
     }
-    numbers = tuple(of) or range(1, len(given.centres) + 1)
     return {"s": "s", "distance": {number: work.step(DISTANCE, i=number, **known) for number in numbers}}
 
 
@@ -48,7 +54,7 @@ def found(given: Centred, work: Work, distance: Mapping[int, Value]) -> Value:
         centre = exact(given.centres[number - 1][0])
         sides[number] = (centre - far, centre + far)
         low, high = (told(side) for side in sides[number])
-        work.say(f"So $φ_{{{number}}}(s)$ leaves ${low}$ and ${high}$ for the state.")
+        work.say(f"By $φ_{{{number}}}(s)$ the state is ${low}$ or ${high}$.")
     common = set.intersection(*map(set, sides.values()))
     if len(common) != 1:
         raise NoSolution("the known features do not fit exactly one state")

@@ -184,8 +184,7 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
 def _euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:
     """The matrix of the Euler step, if the system has one."""
     if given.step is None:
-        if len(value.entries()) > 1:
-            work.lines.append(Equality(Ai if formula is EULER_A else Bi, (value,)))
+        work.lines.append(Equality(Ai if formula is EULER_A else Bi, (value,)))
         return value
     letters = {"dt": exact(given.step), "Ai": value, "Bi": value, "unit": matrices.identity(len(given.state))}
     return work.step(formula, **letters)

@@ -29,13 +29,14 @@ from rldrill.problems.scenes import SCENES, draw_motion
 
 TITLE = "Belief after an action"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
     """A belief over states, where every action leads from every state, and the actions taken.
 
-    A probability may be left open; with ``outcome`` it is found from the belief after the first action.
+    A probability may be left open; with ``outcome`` it is found from the belief after the first action, or after
+    more of them.
     """
 
     belief: OpenDistributionField = Field(min_length=2, description="The probability of every state beforehand.")
@@ -48,6 +49,12 @@ class Given(Givens):
         description="What is known of the belief after the first action, if a probability is to be found from it.",
         examples=[{"state": "open", "probability": "3/4"}],
     )
+    after: int = Field(
+        default=1,
+        ge=1,
+        exclude_if=lambda after: after == 1,
+        description="After how many actions the belief is that of the outcome.",
+    )
     story: str = Field(
         default="", max_length=200, pattern=r"^[^$\\]*$", description="A sentence that is printed first."
     )
@@ -58,6 +65,8 @@ class Given(Givens):
         check_motion(self.motion, tuple(self.belief))
         check_keys(dict.fromkeys(self.actions), tuple(self.motion), "an action", needed=())
         check_outcome(self.outcome, self.left_open, states=tuple(self.belief))
+        if self.after > 1 and (self.outcome is None or self.after > len(self.actions)):
+            raise ValueError(f"after: there is no outcome, or there are fewer than {self.after} actions before it")
         return self
 
     @property
@@ -76,7 +85,7 @@ _FINEST = {1: 16, 2: 36, 3: 80}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One action over two states; two actions; two, with a probability left open or to be found."""
+    """One action over two states; two actions; two, with a probability left open, or found from the end of them."""
     scene = rng.choice(SCENES)
     states = (scene.states[0], scene.states[-1]) if level == 1 else rng.sample(scene.states, 2 + rng.below(2))
     left_open = rng.choice(("motion", "motion", "belief")) if level == 3 else ""
@@ -95,14 +104,16 @@ def draw(level: int, rng: Draws) -> Given:
         beliefs = [start]
         for action in actions:
             beliefs.append(predicted(beliefs[-1], motion[action], q))
-        if max(chance.denominator for after in beliefs for chance in after.values()) <= _FINEST[level]:
+        if max(chance.denominator for each in beliefs for chance in each.values()) <= _FINEST[level]:
             break
     state = rng.choice(states)
+    after = 2 if left_open == "belief" else 1  # in two actions with the same letter it would be squared
     return Given(
         belief=dict(zip(states, belief, strict=True)),
         motion={action: motion[action] for action in motion if action in actions},
         actions=actions,
-        outcome=Outcome(state=state, probability=beliefs[1][state]) if found else None,
+        outcome=Outcome(state=state, probability=beliefs[after][state]) if found else None,
+        after=after if found else 1,
         story=scene.told,
     )
 
@@ -121,11 +132,16 @@ def question(given: Given) -> Question:
         *([Paragraph(f"The probability ${letter}$ is {open_}.")] if letter else []),
     )
     parts: list[Part] = []
-    for action in given.actions:
+    if given.outcome is not None:
+        first = ", then ".join(f"“{action}”" for action in given.actions[: given.after])
+        which = f"action is {first}" if given.after == 1 else f"actions are {first}"
+        known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
+        parts.append(Part(f"The {which}; nothing is measured. {known} What is ${letter}$?", Number()))
+        parts += [
+            Part(f"What was the belief after action {number}, “{action}”?", Values("p", states))
+            for number, action in enumerate(given.actions[: given.after - 1], 1)
+        ]
+    for action in given.actions[given.after if given.outcome else 0 :]:
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
-        if given.outcome is not None and not parts:
-            known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
-            parts.append(Part(f"{told} {known} What is ${letter}$?", Number()))
-        else:
-            parts.append(Part(f"{told} What is the belief afterwards{in_open(given)}?", Values("p", states)))
+        parts.append(Part(f"{told} What is the belief afterwards{in_open(given, several=True)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

@@ -231,9 +231,10 @@ def question(given: Given) -> Question:
     of = "both models" if len(names) == 2 else "every model"
     criteria = Part(f"What is the {criterion} of {of}?", Values(criterion, names), zero=True)
     if given.fitted is not None and given.border:
-        border = Part("For which number $n$ of data do both models have the same BIC?", Number())
+        border = Part("For which number $n$ of data points do both models have the same BIC?", Number())
         options = dict(zip(ascii_uppercase, names, strict=False))
-        after = Part(f"Which model does the BIC prefer if there are {given.border} data than that?", Choice(options))
+        ask = f"Which model does the BIC prefer if there are {given.border} data points than that?"
+        after = Part(ask, Choice(options))
         return Question((*_fitted(given, given.fitted), rule), (border, after))
     if given.fitted is not None:
         return Question((*_fitted(given, given.fitted), rule), (criteria, _winner(given)))
@@ -259,7 +260,7 @@ def question(given: Given) -> Question:
         rule,
     )
     fit = Part(
-        "What is $ln p(D_z|M, θ)$ of both models, each at the parameters that fit it best?",
+        "What is $ln p(D_z|M, θ)$ of both models, each with its best-fitting parameters?",
         Values("ln p", names),
         zero=True,
     )
@@ -274,7 +275,7 @@ def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
     count = {2: "Two models", 3: "Three models"}.get(len(fitted), f"{len(fitted)} models")
-    data = "$n$ data" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data"
+    data = "$n$ data points" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data points"
     return (
         Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),
         Table(header=("$M$", "parameters $k$", f"${head}$"), rows=rows),

@@ -111,7 +111,9 @@ def question(given: Given) -> Question:
         ]
     if given.x is not None:
         ask = f"One length is unknown, $w$. The end point of the last link has $x = {shown(given.x)}$. What is $w$?"
-        return Question(_situation(given), (Part(ask, Number()), Part("What is $y$ of this end point?", Number())))
+        return Question(
+            _situation(given), (Part(ask, Number()), Part("What is the $y$ coordinate of this end point?", Number()))
+        )
     parts = []
     for angle, end, entries in which:
         parts += [

@@ -110,7 +110,7 @@ def question(given: Given) -> Question:
             f"The velocity of the end is to be $({', '.join(velocity)}) = ({wanted})$. What angular velocities of the "
         )
         entries = tuple(f"ω_{index}" for index in range(1, n + 1))
-        parts.append(Part(f"{ask}joints do this?", Numbers(entries), zero=True))
+        parts.append(Part(f"{ask}joints achieve this?", Numbers(entries), zero=True))
     else:
         parts.append(Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True))
     if given.square and given.velocity is None:

@@ -144,7 +144,11 @@ def _parts(given: Given) -> Iterator[Part]:
     if len(adapted) == 1:
         yield Part(f"What is the adapted parameter ${adapted[0]}${opened}?", Number(), zero=True)
     else:
-        yield Part(f"What are the adapted parameters ${', '.join(adapted)}${opened}?", Numbers(adapted), zero=True)
+        yield Part(
+            f"What are the adapted parameters ${', '.join(adapted)}${in_open(given, several=True)}?",
+            Numbers(adapted),
+            zero=True,
+        )
     if given.beta is None:
         yield Part("What is the step size $β$ of the outer step?", Number())
         return

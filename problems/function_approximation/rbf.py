@@ -28,7 +28,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Centred):
@@ -76,9 +76,9 @@ _OTHER_STEPS = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3))
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two centres on a line; then three, or the plane, or a value; then σ is open, or it or the state is found."""
+    """Two centres on a line; then three, or the plane, or a value; then the width or the state is found."""
     if level == 3:
-        return rng.choice((_open, _width_sought, _state_sought))(rng)
+        return rng.choice((_width_sought, _state_sought))(rng)
     if level == 1:
         centred = draw_on_a_line(rng, rng.distinct(2, 1, 4))
     elif rng.choice((True, False)):
@@ -92,11 +92,6 @@ def draw(level: int, rng: Draws) -> Given:
         sigma=rng.whole(2, 3) if level == 1 else Fraction(3),
         theta=tuple(rng.nonzero(-3, 5) for _ in centred.centres) if valued else (),
     )
-
-
-def _open(rng: Draws) -> Given:
-    centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[:3]))
-    return Given(position=centred.position, centres=centred.centres, sigma=Parameter("sigma"))
 
 
 def _width_sought(rng: Draws) -> Given:
@@ -145,7 +140,11 @@ def question(given: Given) -> Question:
         *([Part("What is the standard deviation $σ$?", Number())] if given.sigma is None else []),
         *([Part("What is the state $s$?", Number(), zero=True)] if given.position is None else []),
         *(
-            [asked_features(given, given.logarithms, in_open(given))]
+            [
+                asked_features(
+                    given, given.logarithms, in_open(given, several=len(given.centres) - len(given.logarithms) > 1)
+                )
+            ]
             if len(given.logarithms) < len(given.centres)
             else []
         ),

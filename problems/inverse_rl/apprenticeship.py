@@ -17,7 +17,7 @@ from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 3
+REVISION = 4
 
 Mu = tuple[Fraction, ...]
 
@@ -176,24 +176,29 @@ def question(given: Given) -> Question:
     weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
     parts = [Part("What is the Euclidean distance $‖μ(π_1) − μ(π_E)‖$?", Number())] if not given.candidates else []
     for number in range(1, count + 1):
-        parts.append(Part(f"What is $μ̄$ after $π_{number}$?", point))
-        parts.append(Part("What are the weights $w$ then?", weights, zero=True))
+        parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{number}$?", point))
+        parts.append(Part(f"What are the weights ${_written(weights, 'w')}$ then?", weights, zero=True))
     if given.candidates:
         options = dict(zip(given.candidates, given.candidates, strict=True))
         parts.append(Part(f"Which of these policies is $π_{count + 1}$?", Choice(options)))
-        parts.append(Part(f"What is $μ̄$ after $π_{count + 1}$?", point))
+        parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{count + 1}$?", point))
     last = count + bool(given.candidates)
-    parts.append(Part(f"What distance $‖w‖$ to the expert is left after $π_{last}$?", Number()))
+    parts.append(Part(f"What is the remaining distance $‖w‖$ to the expert after $π_{last}$?", Number()))
     if given.tolerance is not None:
         parts.append(Part(f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$. Does it stop now?", YesNo()))
     return Question((*blocks, *_candidates(given)), tuple(parts))
+
+
+def _written(entries: Numbers, letter: str) -> str:
+    """A vector with the names of its components."""
+    return f"{letter} = ({', '.join(entries.entries)})"
 
 
 def _candidates(given: Given) -> tuple[Block, ...]:
     if not given.candidates:
         return ()
     number = len(given.policies) + 1
-    told = f"The next policy $π_{number}$ is that with the greatest $w^⊤ μ(π)$ for the last weights. There are:"
+    told = f"The next policy $π_{number}$ is the one of these with the greatest $w^⊤ μ(π)$ for the last weights:"
     header = ("", *(f"component ${index}$" for index in range(1, len(given.expert) + 1)))
     rows = tuple((name, *(f"${shown(value)}$" for value in mu)) for name, mu in given.candidates.items())
     return Paragraph(told), Table(header=header, rows=rows)

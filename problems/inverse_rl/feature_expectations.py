@@ -14,7 +14,7 @@ from rldrill.problems.feature_vectors import FeaturesField, check_features, draw
 from rldrill.problems.features import features_table
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part
-from rldrill.problems.phrases import discount, in_open
+from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import draw_setting
 
 TITLE = "Feature expectations from trajectories"
@@ -132,12 +132,14 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph("Each state has a feature vector $φ(s)$:"),
         features_table(given.features, "s", "φ", "s"),
-        Paragraph("An expert was recorded on these trajectories; nothing counts after the last state of each:"),
+        Paragraph(
+            "An expert's behaviour was recorded in these trajectories; no features count after the last state of each:"
+        ),
         Table(header=("trajectory", *(f"$s_{{{time}}}$" for time in range(longest))), rows=rows),
-        Paragraph(discount(given.gamma)),
+        Paragraph(discount(given.gamma) if given.estimate is None else unknown("gamma")),
     )
     if given.estimate is not None:
-        told = f"They give the estimate $μ_1(π) = {shown(given.estimate)}$ for the expert's policy."
+        told = f"The estimate for the expert's policy is $μ_1(π) = {shown(given.estimate)}$."
         others = tuple(f"μ_{{{index}}}" for index in range(2, given.size + 1))
         rest = (
             Part("What is the estimate of $μ_2(π)$ then?", Number())
@@ -145,5 +147,6 @@ def question(given: Given) -> Question:
             else Part("What are the estimates for the other features then, in their order?", Numbers(others))
         )
         return Question(blocks, (Part(f"{told} What is the discount $γ$?", Number()), rest))
-    ask = f"What estimate of the feature expectations $μ(π)$ of the expert's policy do they give{in_open(given)}?"
+    opened = in_open(given, several=given.size > 1)
+    ask = f"What is the estimate of the feature expectations $μ(π)$ of the expert's policy{opened}?"
     return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, given.size + 1)))),))

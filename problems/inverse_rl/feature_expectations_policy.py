@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from rldrill.problems.beliefs import MotionField, check_distribution, check_motion, motion_table
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
@@ -18,7 +18,7 @@ from rldrill.problems.phrases import discount, in_open
 
 TITLE = "Feature expectations of a policy"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -112,7 +112,7 @@ def draw(level: int, rng: Draws) -> Given:
             }
             for state in states
         }
-        found = _expected(rng, chain, gamma, size) if _connected(chain) else None
+        found = _expected(rng, chain, gamma, size) if _connected(chain) and _suits(level, chain) else None
         if found and choices > 1 and any(_alike([rows[state] for rows in motion.values()], found) for state in states):
             found = None
     features = {
@@ -143,6 +143,12 @@ def _connected(chain: Chain) -> bool:
     return leads and any(sum(row.values()) < 1 for row in chain.values())
 
 
+def _suits(level: int, chain: Chain) -> bool:
+    """Two states: one equation is solved without the other at level 1, and neither is at level 2."""
+    coupled = all(chain[one][other] for one in chain for other in chain if one != other)
+    return level == 3 or len(chain) > 2 or coupled == (level == 2)
+
+
 def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[str, Fraction]]) -> bool:
     """Whether it makes no difference which of some actions is taken."""
     worth = [
@@ -169,11 +175,12 @@ def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict
 def question(given: Given) -> Question:
     """Motion, policy and features; each feature from every state, then all from the start distribution."""
     numbers = range(1, given.size + 1)
+    known = "left open" if given.matched is None else "unknown"
     blocks = (
         *([Paragraph(given.story)] if given.story else []),
         Paragraph("Action $a$ in state $s$ leads to state $s'$ with probability $P_{s s'}^a$:"),
         motion_table(given.motion, given.states, given.terminal),
-        *((Paragraph("The policy is:"), _policy(given)) if len(given.motion) > 1 else ()),
+        *_policy(given),
         Paragraph("These are the features of the states, and the probability $p(s)$ that an episode starts in each:"),
         Table(
             header=("$s$", *(f"$φ_{{{number}}}(s)$" for number in numbers), "$p(s)$"),
@@ -183,7 +190,7 @@ def question(given: Given) -> Question:
             ),
         ),
         *(
-            [Paragraph(f"The probability ${shown(Parameter(given.asked_for))}$ is left open.")]
+            [Paragraph(f"The probability ${shown(Parameter(given.asked_for))}$ is {known}.")]
             if given.asked_for and given.asked_for != "gamma"
             else []
         ),
@@ -196,19 +203,25 @@ def question(given: Given) -> Question:
     parts = [
         Part(
             f"$μ_{number}(s)$ is the expected discounted sum of the feature $φ_{number}$ from $s_0 = s$ on, $s_0$ "
-            f"included. What is $μ_{number}(s)$ for each state{in_open(given)}?",
+            f"included. What is $μ_{number}(s)$ for each state{in_open(given, several=True)}?",
             Values(f"μ_{{{number}}}", given.states),
         )
         for number in numbers
     ]
     entries = tuple(f"μ_{{{number}}}" for number in numbers)
-    ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
+    ask = (
+        f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given, several=given.size > 1)}?"
+    )
     parts.append(Part(ask, Numbers(entries)))
     return Question(blocks, tuple(parts))
 
 
-def _policy(given: Given) -> Table:
-    return policy_table({s: {a: chance for a, chance in row.items() if chance} for s, row in given.policy.items()})
+def _policy(given: Given) -> tuple[Block, ...]:
+    if len(given.motion) == 1:
+        (action,) = given.motion
+        return (Paragraph(f'It is the only action, so the policy is $π("{action}"|s) = 1$ in every state.'),)
+    rows = {s: {a: chance for a, chance in row.items() if chance} for s, row in given.policy.items()}
+    return Paragraph("The policy is:"), policy_table(rows)
 
 
 def _ending(given: Given) -> str:

@@ -16,7 +16,7 @@ from rldrill.problems.parts import Number, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 3
+REVISION = 4
 
 EXPERT = "expert"
 _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
@@ -83,7 +83,7 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two policies and two features; two or three of each; the weight from which on all constraints hold."""
     size, count = (2, 2) if level == 1 else (rng.choice((2, 3)), rng.choice((2, 3)))
-    holding = rng.chance(Fraction(1, 4))
+    holding = rng.chance(Fraction(1, 4) if level == 1 else Fraction(1, 2))
     while True:
         w = tuple(rng.nonzero(-2, 3) for _ in range(size))
         expert = tuple(rng.whole(1, 6) for _ in range(size))
@@ -99,7 +99,12 @@ def draw(level: int, rng: Draws) -> Given:
             opened = _opened(rng, given)
             if opened:
                 return opened
-        elif 0 not in missing and len(set(missing)) == count and (max(missing) < 0) == holding:
+        elif (
+            0 not in missing
+            and len(set(missing)) == count
+            and (max(missing) < 0) == holding
+            and (holding or min(missing) < 0 or level == 1)
+        ):
             return given
 
 
@@ -155,13 +160,17 @@ def question(given: Given) -> Question:
             blocks,
             (
                 Part(equal, Values(letter, tuple(given.policies)), zero=True),
-                Part(f"From which ${letter}$ on do all of them hold with $ξ = 0$?", Number(), zero=True),
+                Part(f"What is the smallest ${letter}$ with which all of them hold if $ξ = 0$?", Number(), zero=True),
             ),
         )
     return Question(
         blocks,
         (
-            Part("What is the value $w^⊤ μ(π)$ of each policy?", Values("w^⊤ μ", (EXPERT, *given.policies)), zero=True),
+            Part(
+                "What is the value $w^⊤ μ(π)$ of each policy, the expert's $π_E$ included?",
+                Values("w^⊤ μ", (EXPERT, *given.policies)),
+                zero=True,
+            ),
             Part("How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
             Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), zero=True),
         ),

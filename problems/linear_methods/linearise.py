@@ -64,7 +64,8 @@ def question(given: Given) -> Question:
     if given.entries is not None:
         parts = [*given.entries.part("A", A), *given.entries.part("B", B)]
     else:
-        parts = [Part(f"What is the matrix ${A}$?", Matrix(n, n)), Part(f"What is the matrix ${B}$?", Matrix(n, m))]
+        of = "" if n == m == 1 else "the matrix "
+        parts = [Part(f"What is {of}${A}$?", Matrix(n, n)), Part(f"What is {of}${B}$?", Matrix(n, m))]
     if given.deviation is not None:
         s, a = (_column(numbers) for numbers in (given.deviation[:n], given.deviation[n:]))
         which = "do the rates" if given.step is None else "does the next state"

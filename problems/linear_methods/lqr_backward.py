@@ -124,7 +124,9 @@ def question(given: Given) -> Question:
     if len(given.asked) < given.horizon:
         first = f"Only the first {len(given.asked)} of the {given.horizon} times are asked for"
         blocks = (*blocks, Paragraph(f"{first}; the recursion begins at the horizon all the same."))
-    parts = [Part(ask + in_open(given) + "?", kind, zero=n > 1) for ask, kind in wanted]
+    parts = [
+        Part(f"{ask}{in_open(given, several=kind.rows * kind.columns > 1)}?", kind, zero=n > 1) for ask, kind in wanted
+    ]
     if given.action is not None:
         told = f"The best first action is ${u}_0 = {shown(given.action)}$. What is the price $ρ$ of the action?"
         parts = [Part(told, Number()), *parts[:2]]
@@ -136,9 +138,9 @@ def _plain(given: Given) -> tuple[Block, ...]:
     return (
         *situation(given),
         Paragraph(
-            f"The rewards of the times $0$ to ${last}$ are added, without a discount, and the sum is to be as "
+            f"The rewards at the times $0$ to $T = {last}$ are added, without a discount, and the sum is to be as "
             f"large as possible. $V_t(s) = s^⊤ P_t s$ is the largest sum from time $t$ on, so $P_t$ is "
-            f"{_signed(given, 'negative')}. At time ${last}$ the best action is $0$."
+            f"{_signed(given, 'negative')}. At the last time, $T$, the best action is $0$."
         ),
     )
 

@@ -151,7 +151,7 @@ def question(given: Given) -> Question:
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
     value = f"${x}^⊤ {P}_{{t+1}} {x}$" if in_costs else f"$V_{{t+1}}({x}) = {x}^⊤ {P}_{{t+1}} {x}$"
     what = "The cost-to-go" if in_costs else "The value"
-    discount = "" if given.gamma == 1 else f" It counts $γ$ times, with the discount $γ = {shown(given.gamma)}$."
+    discount = "" if given.gamma == 1 else f" It is discounted by $γ = {shown(given.gamma)}$."
     blocks = (
         Paragraph(
             f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. {what} from the next time on is "
@@ -160,7 +160,8 @@ def question(given: Given) -> Question:
         *(Equation(mathematics(name), (tabular(lines),), ("=",)) for name, lines in named),
     )
     m, n = len(given.B[0]), len(given.A)
-    gain = Part(f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0${in_open(given)}?", Matrix(m, n))
+    opened = in_open(given, several=n * m > 1)
+    gain = Part(f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0${opened}?", Matrix(m, n))
     if given.start is None:
         return Question(blocks, (gain,))
     here = f"${x}_0 = ({', '.join(map(shown, given.start))})^⊤$" if n > 1 else f"${x}_0 = {shown(given.start[0])}$"
@@ -169,5 +170,7 @@ def question(given: Given) -> Question:
             f"The price $ρ$ of the action is unknown. The optimal action in {here} is ${u}_0 = {shown(given.action)}$."
         )
         return Question(blocks, (Part(f"{told} What is $ρ$?", Number()), gain))
-    action = Part(f"What is the optimal action ${u}_0$ in {here}{in_open(given)}?", Matrix(m, 1), zero=True)
+    action = Part(
+        f"What is the optimal action ${u}_0$ in {here}{in_open(given, several=m > 1)}?", Matrix(m, 1), zero=True
+    )
     return Question(blocks, (gain, action))

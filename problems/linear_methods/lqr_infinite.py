@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 2
+REVISION = 3
 _LARGEST = 6
 _LARGEST_ROOT = 40
 
@@ -217,7 +217,8 @@ def question(given: Given) -> Question:
     cost = quadratic(given.notation, crossed=given.N is not None)
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"
     discount = " or discount:" if given.gamma == 1 else (
-        f"; what comes at time $t$ counts $γ^t$ times, with the discount $γ = {shown(given.gamma)}$:"
+        f"; the {'cost' if in_costs else 'reward'} at time $t$ is discounted by $γ^t$, with "
+        f"$γ = {shown(given.gamma)}$:"
     )  # fmt: skip
     return Question(
         (
@@ -243,13 +244,13 @@ def _parts(given: Given) -> Iterator[Part]:
     if given.closed_loop is not None:
         of = "states" if given.unknown == "Q" else "actions"
         loop = f"under the best actions the closed loop is $A − B {L} = {shown(given.closed_loop)}$"
-        yield Part(f"The price $ρ$ is unknown, but {loop}. What is the gain ${L}$?", Number())
-        yield Part(f"What is ${P}$?", Number())
-        yield Part(f"What is the price $ρ$ of the {of}?", Number())
+        yield Part(f"The price $ρ$ is unknown, but {loop}. What is the price $ρ$ of the {of}?", Number())
+        yield Part(f"What is ${P}$ then?", Number())
         return
     yield Part(f"What is ${P}$?", Matrix(n, n))
     yield Part(f"What is the gain ${L}$?", Matrix(m, n))
-    yield Part(f"What is the matrix $A − B {L}$ of the closed loop?", Matrix(n, n), zero=True)
+    what = "the closed loop" if n == 1 else "the matrix of the closed loop,"
+    yield Part(f"What is {what} $A − B {L}$?", Matrix(n, n), zero=True)
 
 
 def _wanted(given: Given) -> str:

@@ -17,7 +17,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 3
+REVISION = 4
 
 Line = tuple[Fraction, ...]
 
@@ -68,7 +68,11 @@ def draw(level: int, rng: Draws) -> Given:
         start = tuple(rng.nonzero(-2, 3) for _ in range(states))
         given = Given(**system, gamma=gamma, L=gains, start=start, horizon=horizon)
         rewards = _rewards(given)
-        if rewards and -sum(rewards) <= _MOST[level] and max(map(_size, rewards)) <= _MOST[level]:
+        if (
+            len(set(rewards)) == len(rewards) > 0
+            and -sum(rewards) <= _MOST[level]
+            and max(map(_size, (*rewards, sum(rewards, Fraction(0))))) <= _MOST[level]
+        ):
             break
     if level < 3:
         return given
@@ -89,7 +93,7 @@ def _size(number: Fraction) -> int:
 
 
 def _rewards(given: Given) -> list[Fraction]:
-    """The rewards of all times, discounted; none, if a state or action on the way is zero."""
+    """The rewards of all times, discounted; none, if a state or action on the way is zero, or the state after it."""
     rewards, state, (A,), (B,) = [], given.start, given.A, given.B
     for time in range(given.horizon + 1):
         ended = time == given.horizon and not given.plain
@@ -100,7 +104,7 @@ def _rewards(given: Given) -> list[Fraction]:
         cost = dot(state, (dot(line, state) for line in Q)) + action**2 * given.price
         rewards.append(-cost * given.gamma**time)
         state = tuple(dot(line, state) + entry * action for line, (entry,) in zip(A, B, strict=True))
-    return rewards
+    return rewards if any(state) else []
 
 
 def question(given: Given) -> Question:
@@ -121,7 +125,7 @@ def question(given: Given) -> Question:
         total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
     if given.total is not None:
         found = f"The total reward is $J = {sum_} = {shown(given.total)}$. What is the price $ρ$ of the action?"
-        first = Part("What is then the first reward $r(s_0, a_0)$?", Number())
+        first = Part("What is the first reward $r(s_0, a_0)$ then?", Number())
         return Question((*blocks, *gains), (Part(found, Number()), first))
     return Question(
         (*blocks, *gains),

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Parameter, StepSize, Weight, shown
+from rldrill.problems.exact import Exact, Logarithm, Parameter, StepSize, Weight, shown
 from rldrill.problems.family import Question
 from rldrill.problems.features import ActionFeatures, weight_names
 from rldrill.problems.models import Name, values_table
@@ -15,11 +15,11 @@ from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
 from rldrill.problems.settings import Setting, draw_setting
-from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_policy, draw_run, policy_blocks
+from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_policy, draw_run, policy_blocks, told_apart
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 2
+REVISION = 3
 
 
 class Given(SoftmaxRun):
@@ -51,6 +51,8 @@ def draw(level: int, rng: Draws) -> Given:
         theta, features = _weights_of_their_own(rng, (first, second), actions)
     else:
         theta, features = (draw_even_policy if level == 1 else draw_log_policy)(rng, (first,), actions)
+        if not told_apart(features):
+            return draw(level, rng)
     return Given(
         trajectory=draw_run(rng, states, actions, setting.terminal),
         theta=theta,
@@ -82,8 +84,11 @@ def _weights_of_their_own(
         }
         for state in states
     }
-    shared = [rng.whole(0, 2) for _ in states]  # the actions of a state are equally likely at first
-    return tuple(weight for weight in shared for _ in actions), features
+    weights: list[Weight] = []
+    for _ in states:  # one action is twice or three times as likely as the others
+        likely = rng.choice(actions)
+        weights += [Logarithm(f"ln {rng.choice((2, 3))}") if action == likely else Fraction(0) for action in actions]
+    return tuple(weights), features
 
 
 def question(given: Given) -> Question:
@@ -118,13 +123,15 @@ def question(given: Given) -> Question:
         if len(given.visited) == 1
         else f"What are the critic's values of {joined(list(given.visited))}"
     )
-    opened = in_open(given)
+    which = "are the TD errors" if several else "is the TD error"
+    errors_open = in_open(given, several=several)
+    values_open = in_open(given, several=len(given.visited) > 1)
+    weights_open = in_open(given, several=len(given.theta) > 1)
     return Question(
         blocks,
         (
-            Part(f"What {'are the TD errors' if several else 'is the TD error'} ${', '.join(errors)}${opened}?",
-                 Numbers(errors)),
-            Part(f"{values} after the run{opened}?", Values("V", given.visited), zero=True),
-            Part(f"What are the actor's weights $θ$ after the run{opened}?", Numbers(weight_names(given.theta))),
+            Part(f"What {which} ${', '.join(errors)}${errors_open}?", Numbers(errors)),
+            Part(f"{values} after the run{values_open}?", Values("V", given.visited), zero=True),
+            Part(f"What are the actor's weights $θ$ after the run{weights_open}?", Numbers(weight_names(given.theta))),
         ),
-    )  # fmt: skip
+    )

@@ -27,7 +27,7 @@ from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 3
+REVISION = 4
 
 
 class Lookahead(Givens):
@@ -164,6 +164,12 @@ def draw(level: int, rng: Draws) -> Given:
     worth = {row: row.reward + gamma * values[row.next] for row in rows if isinstance(row.reward, Fraction)}
     if any(a.action == b.action and worth[a] == worth[b] for a, b in combinations(rows, 2)):
         return draw(level, rng)  # their probabilities would not count
+    chance = {row: row.probability for row in rows if isinstance(row.probability, Fraction)}
+    of = [[row for row in rows if row.action == action] for action in actions]
+    Q = [sum((chance[row] * worth[row] for row in each), Fraction(0)) for each in of]
+    ahead = [sum((chance[row] * values[row.next] for row in each), Fraction(0)) for each in of]
+    if len(set(Q)) < len(Q) or not any(ahead):
+        return draw(level, rng)  # two actions would be told apart by their names only, or γ would not count
     if level == 1:  # every action has one outcome; one is better than the policy, and one is worse
         low, high = min(worth.values()), max(worth.values())
         between = [Fraction(value) for value in range(-30, 30) if value and low < value < high]
@@ -216,11 +222,11 @@ def _along(given: AlongRun) -> Question:
         Paragraph(f"The critic's values are these. {discount(given.gamma)} {trace_parameter(run.lam)}"),
         values_table(run.values),
         Paragraph(
-            "Advantages are estimated by generalised advantage estimation (GAE) from the TD errors of this trajectory; "
-            f"the last one is $δ_{{{len(times) - 1}}}$. The values stay as they are."
+            "Advantages are estimated by generalised advantage estimation (GAE) from the TD errors of this trajectory: "
+            f"it ends at $T = {len(times)}$, so the last one is $δ_{{{len(times) - 1}}}$. The values are not updated."
         ),
     )
-    ask = f"What are the estimates ${', '.join(estimates)}${in_open(given)}?"
+    ask = f"What are the estimates ${', '.join(estimates)}${in_open(given, several=len(estimates) > 1)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
         return Question(blocks, (Part(ask, Numbers(estimates)),))
     first = f"What are the TD errors ${', '.join(errors)}$?"

@@ -15,7 +15,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear policy"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -95,7 +95,8 @@ def _changing(rng: Draws, setting: Setting) -> Given:
     at = rng.fraction("-3/2", "-1/2", "1/2", "3/2", "5/2")
     if len(set(edges)) < len(edges) or at in edges:
         return _changing(rng, setting)
-    return Given(theta=theta, features=features, at=at)
+    given = Given(theta=theta, features=features, at=at)
+    return given if _telling(given) else _changing(rng, setting)
 
 
 def question(given: Given) -> Question:

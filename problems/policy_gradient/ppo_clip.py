@@ -17,7 +17,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "PPO: clipped objective"
 SOURCE = "Schulman et al. 2017, section 3"
-REVISION = 2
+REVISION = 3
 
 
 class Sample(Givens):
@@ -125,8 +125,9 @@ def draw(level: int, rng: Draws) -> Given:
     if cuts.count(None) == count:
         return draw(level, rng)
     samples = []
-    for state, cut in zip(rng.shuffled(setting.states), cuts, strict=False):
-        more, sign = rng.choice((True, False)), rng.choice((1, -1))
+    ways = rng.shuffled((True, False))  # of two ratios beyond the range, one lies above it and one below
+    for state, cut, more in zip(rng.shuffled(setting.states), cuts, ways, strict=False):
+        sign = rng.choice((1, -1))
         if cut is not None:
             sign = 1 if more == cut else -1
         old, new = rng.choice(_NEAR if cut is None else _MORE if more else _LESS)
@@ -189,7 +190,7 @@ def _terms(given: Given) -> str:
     objective = f"PPO's clipped objective for the sample at time $t$ is called $L_t${mean}."
     ratio = "The ratio $ρ_t$ is the new probability of the action divided by the old one."
     if given.epsilon is None and given.objective is None:
-        return f"{ratio} {objective} In it $ρ_t$ is clipped to the range from $1 − ε$ to $1 + ε$."
+        return f"{ratio} {objective} In $L_t$ the ratio is clipped to the range from $1 − ε$ to $1 + ε$."
     if given.epsilon is None:
         return (
             f"{ratio} The unclipped term is $u_t = ρ_t A_t$. {objective} The clipping range $ε$ was not noted, but "

@@ -14,11 +14,11 @@ from rldrill.problems.models import Name, OpenDistributionField, check_keys, che
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.settings import draw_setting
-from rldrill.problems.softmax import draw_log_policy
+from rldrill.problems.softmax import draw_log_policy, told_apart
 
 TITLE = "Score function"
 SOURCE = "Sutton & Barto 2018, eq. 13.9"
-REVISION = 2
+REVISION = 3
 
 
 class Component(NamedTuple):
@@ -86,24 +86,31 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 2:
         if rng.choice((True, False)):
             return _of_probabilities(rng, actions[:3], rng.choice((2, 3)))
-        count, size = rng.choice(((3, 2), (2, 2), (2, 3)))
-        theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
-        return Given(features=rows["s"], theta=theta, action=rng.choice(actions[:count]))
+        return _of_logarithms(rng, actions)
     if rng.choice((True, False)):
-        count, size = rng.choice(((3, 2), (2, 2), (2, 3)))
-        theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
-        return Given(features=rows["s"], theta=(*theta[:-1], Logarithm("ln x")), action=rng.choice(actions[:count]))
+        given = _of_logarithms(rng, actions)
+        return given.model_copy(update={"theta": (*(given.theta or ())[:-1], Logarithm("ln x"))})
     return _sought(rng, rng.shuffled(actions)[:2])
 
 
+def _of_logarithms(rng: Draws, actions: tuple[str, ...]) -> Given:
+    """The score of one action, no two components the same whatever the probabilities are."""
+    count, size = rng.choice(((3, 2), (2, 2), (3, 3)))
+    while True:
+        theta, rows = draw_log_policy(rng, ("s",), actions[:count], size)
+        if told_apart(rows):
+            return Given(features=rows["s"], theta=theta, action=rng.choice(actions[:count]))
+
+
 def _of_probabilities(rng: Draws, actions: tuple[str, ...], size: int) -> Given:
-    """The score of one action, every component not 0."""
+    """The score of one action, every component not 0 and no two the same."""
     chances = rng.split(len(actions), (3, 4, 5) if len(actions) == 2 else (5, 6, 8))
     while True:
         features = {action: tuple(rng.whole(0, 3) for _ in range(size)) for action in actions}
         action = rng.choice(actions)
         expected = [dot(chances, column) for column in zip(*features.values(), strict=True)]
-        if all(own != mean for own, mean in zip(features[action], expected, strict=True)):
+        score = {own - mean for own, mean in zip(features[action], expected, strict=True)}
+        if len(score) == size and 0 not in score:
             return Given(features=features, policy=dict(zip(actions, chances, strict=True)), action=action)
 
 
@@ -133,7 +140,7 @@ def question(given: Given) -> Question:
     )
     if given.component is not None:
         return Question((*blocks, *_known(given, given.component)), tuple(_parts_for_p(given)))
-    ask = f"What is the score $∇_θ log π(a|s)$ of {{}}{in_open(given)}?"
+    ask = f"What is the score $∇_θ log π(a|s)$ of {{}}{in_open(given, several=size > 1)}?"
     wanted = [ask.format(f"the action {action}") for action in given.asked]
     names = tuple(f"∂/∂{name}" for name in weight_names(range(size)))
     if given.policy is not None:
@@ -150,7 +157,7 @@ def question(given: Given) -> Question:
         blocks += (Paragraph(f"The weights are ${weights(given.theta or ())}$.{left_open}"),)
         probabilities = (
             Part(
-                f"What is the probability $π(a|s)$ of every action{in_open(given)}?",
+                f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?",
                 Values("π", tuple(given.features)),
             ),
         )

@@ -134,7 +134,6 @@ def question(given: Given) -> Question:
             f"$h(s, a) = θ^⊤ f(s, a)$.{opened}"
         ),
     )
-    left_open = in_open(given)
     if given.odds is not None:
         action, other, times = given.odds
         often = "as often" if times == 1 else f"${shown(times)}$ times as often"
@@ -146,10 +145,14 @@ def question(given: Given) -> Question:
             ),
         )
     parts = [
-        Part(f"What is the preference $h(s, a)$ of every action{left_open}?", Values("h", actions), zero=True),
-        Part(f"What is the probability $π(a|s)$ of every action{left_open}?", Values("π", actions)),
+        Part(
+            f"What is the preference $h(s, a)$ of every action{in_open(given, several=True)}?",
+            Values("h", actions),
+            zero=True,
+        ),
+        Part(f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?", Values("π", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"
-        parts.append(Part(f"{ask}{left_open}?", Number()))
+        parts.append(Part(f"{ask}{in_open(given)}?", Number()))
     return Question(blocks, tuple(parts))

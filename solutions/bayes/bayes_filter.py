@@ -11,8 +11,8 @@ from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bayes import BAYES, PREDICT, SUM_OF_JOINT, p
-from rldrill.solutions.work import Work
+from rldrill.solutions.sheet.bayes import CORRECTION, PREDICT, PREDICTION, READING
+from rldrill.solutions.work import Note, Work
 
 Belief: TypeAlias = dict[str, Any]
 Move: TypeAlias = Callable[[Work, Event, Belief, dict[str, Any]], Belief]
@@ -31,7 +31,6 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         "motion": knowns.motion(given.motion),
         "likelihood": knowns.likelihood(given.likelihood),
         "states": states,
-        "hypotheses": states,
     }
     if given.outcome is not None:
         state, share = given.outcome.state, exact(given.outcome.probability)
@@ -50,28 +49,41 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
             work.picture(*before_and_after(before, belief))
             belief = work.answer(belief)
     if given.ahead is not None:
+        _told(work, given.ahead)
         belief = _moved(work, given.ahead, start if afresh else belief, known)
-        known |= {"z": given.ahead.measurement, "p": belief}
-        work.answer(work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, h=states[0], **known))
+        if given.ahead.action is None:
+            work.say("There is no action, so $p̄ = p$.")
+        work.answer(work.step(READING, z=given.ahead.measurement, p_bar=belief, **known))
 
 
 def _moves(event: Event, work: Work, moves: tuple[Move, ...], belief: Belief, known: dict[str, Any]) -> Belief:
+    _told(work, event)
     for move in moves:
         belief = move(work, event, belief, known)
     return belief
 
 
+def _told(work: Work, event: Event) -> None:
+    """Say once what the letter with the bar stands for."""
+    note = Note("$p̄$ is the belief after the action and before the measurement.")
+    if event.measurement is not None and note not in work.lines:
+        work.lines.append(note)
+
+
 def _moved(work: Work, event: Event, belief: Belief, known: dict[str, Any]) -> Belief:
     if event.action is None:
         return belief
-    return {state: work.step(PREDICT, s1=state, a=event.action, p=belief, **known) for state in known["states"]}
+    formula = PREDICT if event.measurement is None else PREDICTION
+    return {state: work.step(formula, s1=state, a=event.action, p=belief, **known) for state in known["states"]}
 
 
 def _weighed(work: Work, event: Event, belief: Belief, known: dict[str, Any]) -> Belief:
     if event.measurement is None:
         return belief
+    if event.action is None:
+        work.say("There is no action, so $p̄ = p$.")
     weighed = known.get("weighed", known["states"])
-    return {state: work.step(BAYES, h=state, z=event.measurement, p=belief, **known) for state in weighed}
+    return {state: work.step(CORRECTION, s=state, z=event.measurement, p_bar=belief, **known) for state in weighed}
 
 
 @slip(

@@ -1,5 +1,6 @@
 """The prediction once for every action; each belief is the one that the next action starts from."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from rldrill.problems.bayes.bayes_predict import Given
@@ -20,22 +21,30 @@ def solve(given: Given, work: Work) -> None:
     motion = knowns.motion(given.motion)
     actions = given.actions
     if given.outcome is not None:
+        *earlier, last = actions[: given.after]
         state, letter = given.outcome.state, given.left_open[0]
-        moved = work.step(PREDICT, s1=state, a=actions[0], p=belief, motion=motion, states=states)
-        found = work.answer(work.equate(letter, moved, exact(given.outcome.probability)))
+        moved = belief
+        for action in earlier:
+            moved = _moved(work, action, moved, motion)
+        there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states)
+        found = work.answer(work.equate(letter, there, exact(given.outcome.probability)))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
-        if len(actions) > 1:
-            work.say(f"With this ${letter}$ the first action gives:")
-            belief = {
-                state: work.step(PREDICT, s1=state, a=actions[0], p=belief, motion=motion, states=states)
-                for state in states
-            }
-        actions = actions[1:]
+        for action in earlier:
+            belief = work.answer(_moved(work, action, belief, motion))
+        if len(actions) > given.after:
+            work.say(f"With this ${letter}$ the {'first' if given.after == 1 else 'next'} action gives:")
+            belief = _moved(work, last, belief, motion)
+        actions = actions[given.after :]
     for action in actions:
-        known: dict[str, Any] = {"a": action, "p": belief, "motion": motion, "states": states}
-        after = {state: work.step(PREDICT, s1=state, **known) for state in states}
+        after = _moved(work, action, belief, motion)
         work.picture(*before_and_after(belief, after))
         belief = work.answer(after)
+
+
+def _moved(work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any]) -> dict[str, Any]:
+    """The belief after an action, state by state."""
+    known = {"a": action, "p": belief, "motion": motion, "states": tuple(belief)}
+    return {state: work.step(PREDICT, s1=state, **known) for state in belief}
 
 
 def oracle(given: Given) -> Answers:
@@ -43,8 +52,10 @@ def oracle(given: Given) -> Answers:
     if given.outcome is None:
         return _followed(given, float(OPEN))
     place, share = list(given.belief).index(given.outcome.state), at(given.outcome.probability)
-    q = root(lambda q: _followed(given, q)[0][place] - share)
-    return [q, *_followed(given, q)[1:]]
+    known = given.after - 1  # the belief that is known is no answer
+    q = root(lambda q: _followed(given, q)[known][place] - share)
+    beliefs = _followed(given, q)
+    return [q, *beliefs[:known], *beliefs[known + 1 :]]
 
 
 def _followed(given: Given, q: float) -> list[list[float]]:

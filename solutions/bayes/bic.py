@@ -77,7 +77,7 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     else:
         theta = {}
         for coin in heads:
-            work.say(f"Of {coin}:")
+            work.say(f"For {coin}:")
             theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
     value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
     return _in_primes(work, LOG_LIKELIHOOD, value)

@@ -17,7 +17,8 @@ from rldrill.solutions.sheet.bayes import (
     LINE_INTERCEPT,
     LINE_SLOPE,
     LINE_SLOPE_MAP,
-    MEAN,
+    MEAN_OF_X,
+    MEAN_OF_Y,
     MODEL_FITTING,
     N_FOR_N_MINUS_1,
     N_MINUS_1_FOR_N,
@@ -81,7 +82,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
         for axis, number in zip("xy", point, strict=True)
     }
     known: dict[str, Any] = {"n": len(line.points), "abscissa": "x", "ordinate": "y", "value_of": values}
-    known["average"] = {axis: work.step(MEAN, v=axis, **known) for axis in "xy"}
+    known["average"] = {axis: work.step(formula, **known) for axis, formula in (("x", MEAN_OF_X), ("y", MEAN_OF_Y))}
     known |= {"S_xy": work.step(PRODUCTS, **known), "S_xx": work.step(SQUARES, **known)}
     slope = work.step(LINE_SLOPE, **known)
     work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from sympy import Symbol
+
 from rldrill.problems.beyond_the_sheet.denavit_hartenberg import Given, Link
 from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
@@ -19,7 +21,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     NOT_INVERTED,
     WRONG_ORDER,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Result, Work
 
 MISCONCEPTIONS: tuple[Misconception, ...] = (CRAIGS, WRONG_ORDER, NOT_INVERTED)
 
@@ -46,11 +48,13 @@ def solve(given: Given, work: Work) -> None:
         if index in given.posed:
             total = answer(total)
     if given.asked == "pose":
-        work.say(
-            "The upper left corner of 3 rows and 3 columns is the rotation, the last column above the $1$ the origin."
-        )
+        T = "T" if len(given.links) > 1 or given.base is not None else "T_1"
+        work.say(f"The rotation is the upper left corner of ${T}$, its first three rows and columns.")
         work.answer(_corner(total))
-        work.answer(tuple(_column(total).entries()))
+        origin = tuple(_column(total).entries())
+        work.say(f"The origin is the last column of ${T}$, without the $1$ below it:")
+        work.lines.append(Result(tuple(map(Symbol, "xyz")), origin))
+        work.answer(origin)
 
 
 def _unasked(value: AnyMatrix) -> AnyMatrix:

@@ -53,13 +53,13 @@ def _reduced(given: Given) -> str:
     turned = "is then the vector of link $1$ turned by $90°$, and column $2$ that of link $2$"
     if given.orientation:
         return (
-            "Taking column $2$ off column $1$, and column $3$ off column $2$, does not change $det J$. Column $1$ "
-            f"{turned}, both with $0$ below, so by the last row $det J$ is the determinant of these two vectors; the "
-            "angle from the one to the other is $θ_2$:"
+            "Subtracting column $2$ from column $1$, and column $3$ from column $2$, does not change $det J$. Column "
+            f"$1$ {turned}, both with $0$ below, so by the last row $det J$ is the determinant of these two vectors; "
+            "the angle from the one to the other is $θ_2$:"
         )
     return (
-        f"Taking column $2$ off column $1$ does not change $det J$. Column $1$ {turned}; the angle from the one to "
-        "the other is $θ_2$:"
+        f"Subtracting column $2$ from column $1$ does not change $det J$. Column $1$ {turned}; the angle from the one "
+        "to the other is $θ_2$:"
     )
 
 

@@ -118,8 +118,6 @@ def product_of(factors: Iterable[Expr]) -> Expr:
     if any(factor.is_Number and factor.is_zero for factor in flat):
         return sympy.S.Zero
     kept = [factor for factor in flat if factor != 1]
-    if len(kept) > 1:
-        kept = _without_ones(kept)
     if not kept:
         return sympy.S.One
     return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
@@ -214,7 +212,7 @@ def _inner(term: Expr) -> Expr:
         return Mul(*_without_ones([_inner(factor) for factor in term.args]), evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
-    return _worked_out(term) if term.is_Add else term
+    return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
 
 
 def _worked_out(expression: Expr) -> Expr:

@@ -36,7 +36,6 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
-    work.recall(APPRENTICESHIP)
     if not given.candidates:
         work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
     for mu in policies:
@@ -52,14 +51,16 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         point = dict(zip(features, work.answer(_moved(work, features, known)), strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         weights = {index: work.step(WEIGHTS, component=index, **known) for index in features}
+    work.say("The aim is a policy with these feature expectations:")
+    work.recall(APPRENTICESHIP)
+    work.say("The length of $w$ tells how far off that is:")
     left = work.answer(work.step(REMAINING, w=weights, features=features))
     if given.tolerance is not None:
         limit = exact(given.tolerance)
         stops = sign(limit - left) >= 0
         relation = "≤" if stops else ">"
-        work.say(
-            f"$‖w‖ ≈ {decimal(left, 3)} {relation} {shown(given.tolerance)}$: it {'stops' if stops else 'goes on'}."
-        )
+        compared = f"$‖w‖ ≈ {decimal(left, 3)} {relation} {shown(given.tolerance)}$"
+        work.say(f"{compared}: the method {'stops' if stops else 'goes on'}.")
         work.answer(stops)
 
 

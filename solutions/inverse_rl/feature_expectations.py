@@ -29,6 +29,10 @@ def solve(given: Given, work: Work) -> None:
         "last": {run: len(states) - 1 for run, states in runs.items()},
         "trajectories": tuple(runs),
     }
+    count = len(runs)
+    over = f"the mean over the $m = {count}$ trajectories" if count > 1 else "the sum along the one trajectory"
+    work.recall(FEATURE_EXPECTATIONS)
+    work.say(f"The expectation is estimated by {over}:")
     if given.estimate is None:
         work.answer(_estimates(work, known, range(1, given.size + 1)))
         return

@@ -4,6 +4,7 @@ from typing import Any
 
 from flint import fmpq
 
+from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact, largest, sign
@@ -29,12 +30,11 @@ def solve(given: Given, work: Work) -> None:
         return
     worth = work.answer(worth)
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
-    work.say("With $ξ = 0$ the left side has to be at least as great as every right side; it is:")
-    work.give(REWARD_OF_FEATURES, worth[EXPERT], policy=EXPERT)
+    work.say("With $ξ = 0$ the left side has to be at least as great as every right side.")
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
-    slack = work.answer(work.step(SLACK, policies=tuple(mus), violated=violated, **sides))
+    slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
         work.say("No constraint is violated, so no slack is needed.")
 
@@ -57,17 +57,22 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
         least[name] = work.equate(letter, worth[EXPERT], right)
     least = work.answer(least)
     enough = largest(tuple(least.values()))
+    each = ", ".join(f"{letter} ≥ {value}" for value in least.values())
     work.say(
-        "The expert has more of this feature than every other policy, so each constraint holds from its own "
-        f"${letter}$ on, and all of them from the greatest on: ${letter} ≥ {enough}$.".replace("-", "−")
+        "The expert has more of this feature than every other policy, so each constraint is a lower "
+        f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$.".replace("-", "−")
     )
     work.answer(enough)
 
 
 def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
     known = sides | {"policy": name, "xi": ZERO}
-    holds = sign(sides["worth_expert"] - work.value(MAX_MARGIN, **known)) >= 0
-    work.step(MAX_MARGIN, sign="≥" if holds else "<", label=f'"{name}"', **known)
+    left = sides["worth_expert"]
+    holds = sign(left - work.value(MAX_MARGIN, **known)) >= 0
+    relation = "≥" if holds else "<"
+    right = work.step(MAX_MARGIN, sign=relation, label=f'"{name}"', **known)
+    compared = f"$w^⊤ μ(π_E) = {shown(left)} {relation} {shown(right)}$"
+    work.say(f"{compared}: this constraint {'holds' if holds else 'is violated'}.")
     return holds
 
 

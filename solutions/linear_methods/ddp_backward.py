@@ -67,7 +67,9 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
             [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
         )
         Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
-    work.say("In second derivatives $x$ holds the state and the action: $x_j$ and $x_k$ are any two of their letters.")
+    work.say(
+        "In second derivatives $x$ stands for state and action together: $x_j$ and $x_k$ are any two of its entries."
+    )
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
         work.say("iLQR leaves out the sums with the second derivatives of $f$.")

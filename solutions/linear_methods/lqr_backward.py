@@ -14,13 +14,13 @@ from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     FORGOT_R,
     FORGOT_R_IN_COSTS,
-    IN_COSTS,
     LQR_GAIN,
     NO_TERMINAL,
     NO_TERMINAL_COST,
     POSITIVE_S,
     TRANSPOSED_A,
     Quadratic,
+    in_costs,
     quadratic,
 )
 from rldrill.solutions.slips import right_answers
@@ -31,7 +31,7 @@ def solve(given: Given, work: Work) -> None:
     """Two parts for every time that is asked for; the last is the action."""
     lqr = _formulas(given)
     if lqr.gain is LQR_GAIN:
-        work.say(IN_COSTS)
+        work.say(in_costs(len(given.start)))
     known = linear_quadratic.known(given)
     if given.plain and not given.notation.costs:
         work.say(f"At the last time, $T = {given.horizon}$, the best action is $0$, so $V_T(s) = −s^⊤ Q_T s$.")

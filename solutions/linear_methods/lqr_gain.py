@@ -10,7 +10,7 @@ from rldrill.solutions.matrices import column, matrix
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.linear_methods import FORGOT_R, IN_COSTS, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, quadratic
+from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, in_costs, quadratic
 from rldrill.solutions.work import Work
 
 #: Without the price in it, the gain says nothing of a price that is to be found.
@@ -21,7 +21,7 @@ def solve(given: Given, work: Work) -> None:
     """One application; times are counted from t = 0. A price that is left open is found from an action first."""
     lqr = quadratic(given.notation, discounted=given.gamma != 1, crossed=given.N is not None)
     if lqr.gain is LQR_GAIN:
-        work.say(IN_COSTS)
+        work.say(in_costs(len(given.A)))
     known: dict[str, Any] = {
         f"{name}t": {0: given_matrix(getattr(given, name))} for name in ("ABRN" if given.N else "ABR")
     }

@@ -8,7 +8,7 @@ from flint import fmpq
 
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
-from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational
+from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational, to_sympy, told
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -23,7 +23,7 @@ from rldrill.solutions.sheet.linear_methods import (
     quadratic,
 )
 from rldrill.solutions.sheet.linear_methods import stationary as stationary_formulas
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -47,7 +47,9 @@ def solve(given: Given, work: Work) -> None:
     closed = work.step(formulas.closed_loop, Ai=regulator.A, Bi=regulator.B, **letters)
     if closed.nrows() == 1 and given.gamma == 1:
         loop = f"A − B {given.notation.gain}"
-        work.say(f"${loop} ≈ {decimal(closed[0, 0], 4)}$ is between $−1$ and $1$: stable, as it must be.")
+        value = closed[0, 0]
+        number = f"= {told(value)}" if is_rational(value) else f"≈ {decimal(value, 4)}"
+        work.say(f"${loop} {number}$ is between $−1$ and $1$: stable, as it must be.")
     work.answer(closed)
 
 
@@ -56,7 +58,7 @@ def _price(given: Given, work: Work, lqr: Quadratic, formulas: Stationary, regul
     L, P = given.notation.gain, given.notation.value
     system = {"Ai": regulator.A, "Bi": regulator.B, "Qi": regulator.Q, "gamma": regulator.gamma}
     loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
-    gain = work.answer(work.equate(L, loop[0, 0], exact(given.closed_loop or 0)))
+    gain = work.equate(L, loop[0, 0], exact(given.closed_loop or 0))
 
     def riccati(value: Value) -> Value:
         found = work.step(formulas.equation, **system, **{f"{L}i": _single(gain), f"{P}i": _single(value)})
@@ -68,11 +70,18 @@ def _price(given: Given, work: Work, lqr: Quadratic, formulas: Stationary, regul
 
     unknown = generator(P)
     if given.unknown == "Q":
-        value = work.answer(work.equate(P, best(unknown), gain))
+        work.say(f"The formula of the gain contains no price, and gives ${P}$:")
+        value = work.equate(P, best(unknown), gain)
+        work.say(f"Now the equation of ${P}$ gives the price:")
         work.answer(work.equate("rho", riccati(value), value))
     else:
-        value = work.answer(work.equate(P, unknown, riccati(unknown)))
+        work.say(f"The equation of ${P}$ contains no price, and gives ${P}$:")
+        value = work.equate(P, unknown, riccati(unknown))
+        work.say("Now the formula of the gain gives the price:")
         work.answer(work.equate("rho", best(value), gain))
+    work.say("It has been found on the way:")
+    work.lines.append(Equality(to_sympy(unknown), (value,)))
+    work.answer(value)
 
 
 def _single(entry: Value) -> AnyMatrix:
@@ -102,9 +111,9 @@ def _value(work: Work, given: Given, formulas: Stationary, regulator: Regulator)
 def _in_costs(given: Given) -> str:
     gamma, N = ("" if given.gamma == 1 else "γ "), (" + N" if given.N else "")
     turned = f"({gamma}A^⊤ S B{N})" if N else f"{gamma}A^⊤ S B"
-    return (
-        f"$P$ is the matrix of the value; for the cost-to-go, $S = −P$, it reads $S = Q + {gamma}A^⊤ S A − {turned} L$."
-    )
+    what = "coefficient" if len(given.A) == 1 else "matrix"
+    riccati = f"$S = Q + {gamma}A^⊤ S A − {turned} L$"
+    return f"$P$ is the {what} of the value; for the cost-to-go, $S = −P$, it reads {riccati}."
 
 
 def _equation(given: Given) -> str:
@@ -112,12 +121,15 @@ def _equation(given: Given) -> str:
     gamma, product = ("" if given.gamma == 1 else "γ "), ("(Q R − N^2)" if given.N else "Q R")
     P, sign, other = given.notation.value, "−" if given.notation.costs else "+", given.notation.costs
     bracket = f"R + {gamma}B^2 {P}" if other else f"{gamma}B^2 P − R"
-    plain = given.gamma == 1 and not given.N and not other
-    put_in = "With the gain put in, $P = −Q + A^2 P − A^2 B^2 P^2/(B^2 P − R)$. " if plain else ""
+    cost, turned = ("Q", "+") if other else ("−Q", "−")
+    crossed = f"{gamma}A B {P} {turned} N" if given.N else f"{gamma}A B {P}"
+    start = "With" if len(given.A) == 1 else "For each mode, with"
+    what, never, side = ("a cost", "negative", "positive") if other else ("a value", "positive", "negative")
     return (
-        f"{put_in}Multiplied by ${bracket}$, the scalar equation becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = "
-        f"0$; ${P}$ is the {'positive' if other else 'negative'} one of its roots, as "
-        f"{'a cost' if other else 'a value'} here is never {'negative' if other else 'positive'}."
+        f"{start} the gain put in, ${P} = {cost} + {gamma}A^2 {P} − ({crossed})^2/({bracket})$. Multiplied by "
+        f"${bracket}$, this becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = 0$. The product of its roots, "
+        f"$−{product}/{f'({gamma}B^2)' if gamma else 'B^2'}$, is not positive, so at most one root is {side}; {what} "
+        f"here is never {never}, so ${P}$ is that one."
     )
 
 
@@ -292,7 +304,7 @@ def _priced(given: Given) -> Answers:
         middle = (prices[0] * prices[1]) ** 0.5
         entry = Fraction(middle)
         priced = given.model_copy(update={given.unknown: ((entry,),), "closed_loop": None})
-        S, L, loop = oracle(priced)
+        S, _, loop = oracle(priced)
         wide = abs(loop[0, 0]) > abs(at(given.closed_loop or 0))
         prices[int(wide == (given.unknown == "R"))] = middle
-    return (L[0, 0], S[0, 0], middle)
+    return (middle, S[0, 0])

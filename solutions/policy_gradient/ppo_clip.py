@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.exact import Weight
+from rldrill.problems.exact import Weight, shown
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
@@ -49,7 +49,7 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
     if given.objective is not None:
         _from_the_objective(work, known, exact(given.objective))
         return
-    known["clipped"] = _given(work, [work.step(PPO_CLIPPED, t=time, **known) for time in times])
+    known["clipped"] = _given(work, [_clipped(work, known, time) for time in times])
     objective = {time: objective_of(work, known, time) for time in times}
     work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
     for time in times:
@@ -71,19 +71,33 @@ def _ratio(work: Work, sample: Sample, known: Mapping[str, Any], time: int) -> V
     return ratio
 
 
+def _clipped(work: Work, known: Mapping[str, Any], time: int) -> Value:
+    """The clipped term; before it, which number stands for the ratio."""
+    ratio, low, high = known["rho"][time], 1 - known["epsilon"], 1 + known["epsilon"]
+    rho = f"$ρ_{{{time}}} = {shown(ratio)}$"
+    if sign(ratio - low) < 0:
+        work.say(f"{rho} lies below $1 − ε = {shown(low)}$, so $ρ_{{{time}}}$ is clipped to ${shown(low)}$:")
+    elif sign(high - ratio) < 0:
+        work.say(f"{rho} lies above $1 + ε = {shown(high)}$, so $ρ_{{{time}}}$ is clipped to ${shown(high)}$:")
+    else:
+        work.say(f"{rho} lies between $1 − ε = {shown(low)}$ and $1 + ε = {shown(high)}$, so it stays as it is:")
+    clipped: Value = work.step(PPO_CLIPPED, t=time, **known)
+    return clipped
+
+
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
         return f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and the gradient is not zero."
     if cut:
         return (
-            f"$c_{{{time}}}$ is the smaller term. In it the bound stands for $ρ_{{{time}}}$, so that it does not "
+            f"$c_{{{time}}}$ is the smaller term. In it $ρ_{{{time}}}$ is replaced by the bound, which does not "
             "depend on $θ$: the gradient is zero."
         )
     return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: the gradient is not zero."
 
 
 def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
-    """Whether the ratio has moved to where the advantage wants it, so that some ε cuts off the gradient."""
+    """Whether a better action is likelier now, or a worse one less likely: then some ε cuts off the gradient."""
     return sign(known["rho"][time] - 1) * sign(known["A_t"][time]) > 0
 
 
@@ -93,7 +107,7 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
     for time, ratio in known["rho"].items():
         possible = _can_be_cut(known, time)
         wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
-        conclusion = "yes, a small $ε$ holds the ratio" if possible else "no, clipping never lowers the objective"
+        conclusion = "yes, for a small $ε$" if possible else "no, the unclipped term is never the larger one"
         work.say(
             f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: {conclusion}."
         )
@@ -109,7 +123,7 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
         edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
         bounds.append(work.equate("epsilon", edge, known["rho"][time]))
     if len(bounds) > 1:
-        work.say("One gradient at least is zero below the largest of these.")
+        work.say("At least one gradient is zero as long as $ε$ is below the largest of these.")
     work.answer(largest(bounds))
 
 
@@ -129,8 +143,9 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
     (one,) = cut
     above = sign(known["rho"][one] - 1) > 0
     work.say(
-        f"Only at $t = {one}$ has the ratio moved to where the advantage wants it; the other objectives are the "
-        "unclipped terms. As $L$ is not the mean of the unclipped terms, the ratio is clipped there:"
+        f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
+        f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
+        f"terms. $L$ is not the mean of the unclipped terms, so $ρ_{{{one}}}$ is clipped:"
     )
     held = work.step(PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND, t=one, **known)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
@@ -157,7 +172,7 @@ def _chance(work: Work, sample: Sample, chance: Fraction | None, preferences: Ma
 
 @slip(
     "wrong-side-for-negative-advantage",
-    "For a negative advantage the smaller term is the other one: below 1 − ε the ratio is held, above 1 + ε it is not.",
+    "For a negative advantage the smaller term is the other one: the ratio is clipped below 1 − ε, not above 1 + ε.",
     when=lambda given: (
         given.epsilon is not None and any(sample.advantage < 0 and outside(sample, given) for sample in given.samples)
     ),

@@ -51,7 +51,10 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
     quotient = work.step(SOFTMAX_ODDS, a=odds.action, b=odds.other, **bound)
     x = work.answer(work.equate("x", rational_function(to_sympy(quotient)), exact(odds.times)))
-    theta = [to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)) for weight in given.theta]
+    theta = [
+        sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)
+        for weight in given.theta
+    ]
     found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
     work.answer({action: found[action, "s"] for action in given.features})
 

@@ -36,8 +36,9 @@ from rldrill.solutions.sheet.linear_methods import At, Bt, Qt, Rt
 p = quantity("p", conditioned("p"))
 likelihood = quantity("likelihood", conditioned("p"))
 motion = quantity("motion", conditioned("p"))
-first = letter("first", Script(variable("s"), number(1)))
-second = letter("second", Script(variable("s"), number(2)))
+p_bar = quantity("p_bar", conditioned(Accent(variable("p"), "bar")))
+first = letter("first", Script(variable("h"), number(1)))
+second = letter("second", Script(variable("h"), number(2)))
 
 # Models and what is fitted to data
 _DATA = Script(variable("D"), variable("z"))
@@ -98,7 +99,6 @@ sample_variance = letter("sample_variance", Script(variable("s"), above=number(2
 sigma2 = letter("sigma2", Script(variable("σ"), above=number(2)))
 prior_mean = letter("prior_mean", _below(variable("μ"), "0"))
 prior_variance = letter("prior_variance", Script(variable("σ"), number(0), number(2)))
-v = letter("v")
 abscissa = letter("abscissa", "x")
 ordinate = letter("ordinate", "y")
 value_of = quantity("value_of", lambda of, index: Script(of, index))
@@ -148,7 +148,7 @@ with evaluate(False):
     )
     BASE_RATE_IGNORED = Misconception(
         "base-rate-ignored",
-        "The prior counts: each likelihood is weighted with the probability of its hypothesis.",
+        "The prior counts: each likelihood is weighted by the probability of its hypothesis.",
         when=lambda given: not given.prior_found,
     )
     LIKELIHOOD_FOR_POSTERIOR = Misconception(
@@ -162,7 +162,7 @@ with evaluate(False):
         likelihood(z, h) * p(h) / SumOver(likelihood(z, h1) * p(h1), h1, Hypotheses),
         title="Bayes' rule",
         source="Thrun, Burgard & Fox 2005, section 2.2",
-        hint="Multiply each hypothesis's probability with its likelihood, then divide by the sum of these.",
+        hint="Multiply each hypothesis's probability by its likelihood, then divide by the sum of these.",
         also=(likelihood(z, h) * p(h) / p(z),),
         misread={
             NOT_NORMALISED: likelihood(z, h) * p(h),
@@ -179,8 +179,8 @@ with evaluate(False):
         "bayes-two-states",
         p(first, z),
         likelihood(z, first) * p(first) / (likelihood(z, first) * p(first) + likelihood(z, second) * p(second)),
-        title="Bayes' rule for two states",
-        source="Thrun, Burgard & Fox 2005, section 2.2, with two states",
+        title="Bayes' rule for two hypotheses",
+        source="Thrun, Burgard & Fox 2005, section 2.2, with two hypotheses",
         hint="The two products of likelihood and prior stand below the line, the one asked for above it.",
     )
 
@@ -204,6 +204,34 @@ with evaluate(False):
             MOTION_TRANSPOSED: SumOver(motion(s, s1, a) * p(s), s, States),
             MOTION_AS_LIKELIHOOD: motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
         },
+    )
+
+    PREDICTION = Formula(
+        "prediction",
+        p_bar(s1),
+        SumOver(motion(s1, s, a) * p(s), s, States),
+        title="Prediction of a Bayes filter",
+        source="Thrun, Burgard & Fox 2005, table 2.1, line 3",
+        hint="Add up over all states that the robot may come from: to have been there, times to get here.",
+        place=Place.WORKING,
+    )
+    CORRECTION = Formula(
+        "correction",
+        p(s, z),
+        likelihood(z, s) * p_bar(s) / SumOver(likelihood(z, s1) * p_bar(s1), s1, States),
+        title="Correction of a Bayes filter",
+        source="Thrun, Burgard & Fox 2005, table 2.1, line 4",
+        hint="Multiply the prediction of each state by its likelihood, then divide by the sum of these.",
+        place=Place.WORKING,
+    )
+    READING = Formula(
+        "probability-of-a-reading",
+        p(z),
+        SumOver(likelihood(z, s) * p_bar(s), s, States),
+        title="Probability of a reading",
+        source="Thrun, Burgard & Fox 2005, section 2.2",
+        hint="Add up over all states: to be there, times to read this there.",
+        place=Place.WORKING,
     )
 
     KALMAN_MOVE_MEAN = Formula(
@@ -352,18 +380,21 @@ with evaluate(False):
         (sigma2 * prior_mean + n * prior_variance * mu_hat) / (n * prior_variance + sigma2),
         title="Maximum a posteriori: mean",
         source="Bishop 2006, eq. 2.141",
-        hint="Weigh the prior mean with σ² and the data's mean with n σ₀².",
+        hint="Weight the prior mean by σ² and the data's mean by n σ₀².",
         note="For a known variance $σ^2$ and the prior $N(μ_0, σ_0^2)$.",
         place=Place.BEYOND,
     )
-    MEAN = Formula(
-        "mean",
-        average(v),
-        SumOver(value_of(v, i), i, Counting(1, n)) * Pow(n, -1),
-        title="Mean",
-        source="James, Witten, Hastie & Tibshirani 2013, section 3.1.1",
-        hint="Add up and divide by how many there are.",
-        place=Place.WORKING,
+    MEAN_OF_X, MEAN_OF_Y = (
+        Formula(
+            f"mean-of-{name_}",
+            average(axis),
+            SumOver(value_of(axis, i), i, Counting(1, n)) * Pow(n, -1),
+            title=f"Mean of {name_}",
+            source="James, Witten, Hastie & Tibshirani 2013, section 3.1.1",
+            hint="Add up and divide by how many there are.",
+            place=Place.WORKING,
+        )
+        for name_, axis in (("x", abscissa), ("y", ordinate))
     )
     PRODUCTS = Formula(
         "line-products",
@@ -420,7 +451,7 @@ with evaluate(False):
         ArgMaxOver(evidence(M) * p(M), M, Models),
         title="Model comparison",
         source="Bishop 2006, eq. 3.66",
-        hint="Multiply each model's evidence with its prior; the greatest product wins.",
+        hint="Multiply each model's evidence by its prior; the greatest product wins.",
         also=(
             ArgMaxOver(of_model(M), M, Models),
             ArgMaxOver(IntegralOver(of_both(M, theta), theta, Thetas), M, Models),
@@ -463,7 +494,7 @@ with evaluate(False):
         evidence(first_model) * p(first_model) / (evidence(second_model) * p(second_model)),
         title="Posterior odds of two models",
         source="MacKay 2003, section 3.3",
-        hint="Multiply the ratio of the evidences with the ratio of the priors; p(D) cancels.",
+        hint="Multiply the ratio of the evidences by the ratio of the priors; p(D) cancels.",
         place=Place.BEYOND,
     )
 
@@ -487,7 +518,7 @@ with evaluate(False):
         place=Place.WORKING,
     )
     BIC_SIGN = Misconception(
-        "sign", "The log-likelihood is taken −2 times, so that a better fit makes the BIC smaller."
+        "sign", "The log-likelihood is multiplied by −2, so that a better fit makes the BIC smaller."
     )
     BIC_WITHOUT_LOG = Misconception("k-times-n", "Each free parameter costs log n, not n.")
     BIC_LOG_10 = Misconception("log-base", "The logarithms of the BIC are natural, to the base e.")
@@ -550,5 +581,5 @@ def few_values() -> Formula:
             right=SumOver(theta_at(i) ** heads * (1 - theta_at(i)) ** tails * prior_at(i), i, Counting(1, n)),
             title="Evidence of a coin whose θ is one of a few values",
             source="MacKay 2003, section 3.2, with a sum for the integral",
-            hint="Weigh the likelihood at every possible θ with the prior of that θ, and add.",
+            hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",
         )

@@ -201,7 +201,7 @@ with evaluate(False):
     )
     NOT_INVERTED = Misconception(
         "not-inverted",
-        "Outwards the transform is inverted: first the origin is taken off, then the transpose undoes the rotation.",
+        "Outwards the transform is inverted: first the origin is subtracted, then the transpose undoes the rotation.",
     )
     BACK_POINT = Formula(
         "frame-point-back",
@@ -209,7 +209,7 @@ with evaluate(False):
         Transposed(rotation(i)) * (point(i - 1) - origin(i)),
         title="A point in the next frame",
         source="Siciliano et al. 2009, section 2.7",
-        hint="Take the origin off, then undo the rotation: its inverse is its transpose.",
+        hint="Subtract the origin, then undo the rotation: its inverse is its transpose.",
         place=Place.WORKING,
         misread={
             NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),

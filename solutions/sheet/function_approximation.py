@@ -5,7 +5,7 @@ The values and updates that are linear in these features are not printed there.
 
 from typing import Any
 
-from sympy import Integer, Rational, evaluate, exp
+from sympy import Abs, Integer, Rational, evaluate, exp
 
 from rldrill.problems.mathematics import Accent, Fence, Math, Script, listed, operator, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
@@ -49,6 +49,8 @@ j = letter("j")
 Dimensions = letter("dimensions", "D")
 position = quantity("position", subscripted("s"))
 centre = quantity("centre", lambda index, axis: Script(variable("c"), row(index, axis)))
+place = letter("place", "s")
+centre_at = quantity("centre_at", subscripted("c"))
 distance = quantity("distance", _distance)
 phi = quantity("phi", _feature)
 log_phi = quantity("log_phi", lambda index, *arguments: row(word("ln"), _feature(index, *arguments)))
@@ -77,6 +79,15 @@ with evaluate(False):
         title="Distance from a centre",
         source="Euclidean norm",
         hint="Subtract coordinate by coordinate, square, add, and take the root.",
+        place=Place.WORKING,
+    )
+    DISTANCE_ON_A_LINE = Formula(
+        "distance-on-a-line",
+        distance(i),
+        Abs(place - centre_at(i)),
+        title="Distance from a centre on a line",
+        source="Euclidean norm of one number",
+        hint="Subtract, and leave the sign away.",
         place=Place.WORKING,
     )
     HALF_FORGOTTEN = Misconception(
@@ -185,7 +196,7 @@ with evaluate(False):
         SumOver(theta(i) * phi(i, s, a), i, Features),
         title="Action value, linear in features",
         source="Sutton & Barto 2018, eq. 10.3",
-        hint="Multiply each weight with its feature and add; the features of other actions' blocks are 0.",
+        hint="Multiply each weight by its feature and add; the features of other actions' blocks are 0.",
         also=(Transposed(theta_vector) * phi_vector(s, a),),
         place=Place.BEYOND,
     )
@@ -204,7 +215,7 @@ with evaluate(False):
         SumOver(theta(i) * phi(i, s), i, Features),
         title="State value, linear in features",
         source="Sutton & Barto 2018, eq. 9.8",
-        hint="Multiply each weight with its feature, and add.",
+        hint="Multiply each weight by its feature, and add.",
         also=(Transposed(theta_vector) * phi_vector(s),),
         place=Place.BEYOND,
     )

@@ -2,15 +2,16 @@
 
 from typing import Any
 
-from sympy import Pow, evaluate, sqrt
+from sympy import Integer, Pow, evaluate, sqrt
 
-from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, operator, row, variable, word
+from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, operator, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     INFINITY,
     Actions,
     Counting,
     Features,
+    Greatest,
     MaxOver,
     MeanOver,
     P,
@@ -42,6 +43,11 @@ def _component(head: Math, index: Math) -> Math:
     return head if index == EMPTY else Script(head, index)
 
 
+def _called(policy: Math) -> Math:
+    """The expert's own policy is written as formulas write it."""
+    return _EXPERT if policy == name("expert") else policy
+
+
 #: The last time of a trajectory.
 Last = quantity("last", called(variable("T")))
 #: The component that is computed.
@@ -60,14 +66,14 @@ start = quantity("start_chance", conditioned("p"))
 policy = letter("policy", "π")
 Policies = letter("policies", "Π")
 Violated = letter("violated", "Π′")
-mu_policy = quantity("mu_policy", lambda index, of: row(_component(_MU, index), Fence(of)))
-worth = quantity("worth", lambda of: row(Script(variable("w"), above=word("T")), _MU, Fence(of)))
+mu_policy = quantity("mu_policy", lambda index, of: row(_component(_MU, index), Fence(_called(of))))
+worth = quantity("worth", lambda of: row(Script(variable("w"), above=word("T")), _MU, Fence(_called(of))))
 worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T")), _MU, Fence(_EXPERT)))
 margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
 xi = letter("xi", "ξ")
 step_length = letter("step_length", "c")
 distance = letter("distance", Fence(row(_MU, Fence(_PI), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
-remaining = letter("remaining", "t")
+remaining = letter("remaining", Fence(variable("w"), "‖", "‖"))
 
 
 def several_violated(given: Any) -> bool:
@@ -120,7 +126,7 @@ with evaluate(False):
     )
     START_IGNORED = Misconception(
         "start-ignored",
-        "The states count with the probabilities with which an episode starts there, not all alike.",
+        "Weight the states by the probabilities that an episode starts there, not equally.",
         when=lambda given: len(set(given.start_chances.values())) > 1,
     )
     FEATURES_FROM_START = Formula(
@@ -162,11 +168,10 @@ with evaluate(False):
     SLACK = Formula(
         "slack",
         xi,
-        MaxOver(worth(policy) + margin(policy) - worth_expert, policy, Policies),
+        Greatest(Integer(0), MaxOver(worth(policy) + margin(policy) - worth_expert, policy, Policies)),
         title="Smallest slack for all constraints",
         source="Ratliff, Bagnell & Zinkevich 2006",
         hint="One ξ serves all constraints, so it is as large as the worst violation, and 0 if there is none.",
-        note="The policies include the expert's own, with the margin 0.",
         place=Place.BEYOND,
         misread={
             SUM_FOR_MAXIMUM: SumOver(worth(policy) + margin(policy) - worth_expert, policy, Violated),

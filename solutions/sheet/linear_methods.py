@@ -62,11 +62,14 @@ rt = quantity("rt", _reward_layout)
 last_reward = quantity("lastReward", lambda time: row(variable("r"), Fence(Script(variable("s"), time))))
 J = letter("J")
 
-#: How a working in values of P reads for somebody who learnt it in costs.
-IN_COSTS = (
-    "$P_t$ is the matrix of the value; in the cost-to-go convention it is $S_t = −P_t$, and the same gain reads "
-    "$L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
-)
+
+def in_costs(states: int) -> str:
+    """How a working in values of P reads for somebody who learnt it in costs."""
+    return (
+        f"$P_t$ is the {'coefficient' if states == 1 else 'matrix'} of the value; in the cost-to-go convention it is "
+        "$S_t = −P_t$, and the same gain reads $L_t = (R_t + B_t^⊤ S_{t+1} B_t)^{−1} B_t^⊤ S_{t+1} A_t$."
+    )
+
 
 with evaluate(False):
     ACTION_FIRST = Misconception(
@@ -113,7 +116,7 @@ with evaluate(False):
         -Lt(t) * St(t),
         title="Linear state feedback",
         source="Bertsekas 2017, section 3.1",
-        hint="Multiply the gain with the state, and change the sign.",
+        hint="Multiply the gain by the state, and change the sign.",
     )
     POSITIVE_S = Misconception(
         "cost-to-go-for-value",
@@ -319,7 +322,7 @@ with evaluate(False):
         b1**2 * q1 + (a1**2 - 1) * r1,
         title="Scalar Riccati equation",
         source="Bertsekas 2017, section 3.1, cleared of its denominator",
-        hint="Multiply the Riccati equation with B²P − R; the cubic terms cancel.",
+        hint="Multiply the Riccati equation by B²P − R; the cubic terms cancel.",
         note="It is then $B^2 P^2 + β P − Q R = 0$.",
         place=Place.BEYOND,
     )
@@ -450,8 +453,8 @@ partial_part = quantity("partialPart", lambda part, name: _over_letter(_letter(p
 part_value = quantity("partValue", _letter)
 partial_s, partial_a = quantity("partialS", _by_entry("s")), quantity("partialA", _by_entry("a"))
 Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
-f_value = quantity("fValue", subscripted("f"))
-f_point = quantity("fPoint", lambda component: row(Script(variable("f"), component), _POINT))
+f_value, f_point = (quantity(code, lambda component: row(Script(variable("f"), component), _POINT))
+                    for code in ("fValue", "fPoint"))  # fmt: skip
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
 F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)
@@ -486,7 +489,7 @@ with evaluate(False):
         Ai * delta_s + Bi * delta_a,
         title="Linearisation: the change of the rates",
         source="Åström & Murray 2008, section 5.4",
-        hint="Multiply A with the deviation of the state and B with that of the action, and add.",
+        hint="Multiply A by the deviation of the state and B by that of the action, and add.",
         place=Place.WORKING,
     )
     STATE_JACOBIAN = Formula(
@@ -547,14 +550,14 @@ with evaluate(False):
         hint="The state moves by Δt times its rate.",
         place=Place.WORKING,
     )
-    C_IS_F = Misconception("c-is-f", "C is what is left at s = 0 and a = 0: what s̄ and ā contribute is taken off.")
+    C_IS_F = Misconception("c-is-f", "C is what is left at s = 0 and a = 0: what s̄ and ā contribute is subtracted.")
     AFFINE_TERM = Formula(
         "linearise-affine",
         Cc,
         f_bar - Ai * s_bar - Bi * a_bar,
         title="Linearisation: constant C",
         source="Åström & Murray 2008, section 5.4, multiplied out",
-        hint="Multiply the linearisation out and collect what holds neither s nor a.",
+        hint="Multiply the linearisation out and collect what contains neither s nor a.",
         misread={
             C_IS_F: f_bar,
         },
@@ -619,7 +622,7 @@ def _held(left: Expr, right: Expr, hint: str) -> Formula:
 
 
 _GROWN = "Without the action the state grows like e to the power A t; write that down, or its series as far as it goes."
-_INTEGRAL = "Integrate e to the power A t, or its series, over the step, and multiply with B."
+_INTEGRAL = "Integrate e to the power A t, or its series, over the step, and multiply by B."
 _RATES_HELD = "From the operating point the rates are held: the same integral, times f instead of B."
 
 

@@ -135,7 +135,7 @@ with evaluate(False):
         Expected(SumOver(_LOG_GRADIENT * G_t(t), t, _EPISODE)),
         title="REINFORCE",
         source="Williams 1992; Sutton & Barto 2018, section 13.3",
-        hint="The score of every action taken, weighted with the return from its own step on, summed over the episode.",
+        hint="The score of every action taken, weighted by the return from its own step on, summed over the episode.",
         note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
         "left out, as it mostly is.",
     )
@@ -150,7 +150,7 @@ with evaluate(False):
     )
     FIRST_RETURN_EVERYWHERE = Misconception(
         "first-return-everywhere",
-        "Each score is weighted with the return from its own step on; rewards before it say nothing about the action.",
+        "Each score is weighted by the return from its own step on; rewards before it say nothing about the action.",
         when=_several_steps,
     )
     LOG_FORGOTTEN = Misconception(
@@ -158,7 +158,7 @@ with evaluate(False):
     )
     REWARD_FOR_RETURN = Misconception(
         "reward-for-return",
-        "The score is weighted with the whole discounted return from its step on, not with the next reward alone.",
+        "The score is weighted by the whole discounted return from its step on, not by the next reward alone.",
         when=_several_steps,
     )
     REINFORCE_ESTIMATE = Formula(
@@ -167,7 +167,7 @@ with evaluate(False):
         SumOver(_LOG_GRADIENT * G_t(t), t, _EPISODE),
         title="REINFORCE, from one episode",
         source="Sutton & Barto 2018, eq. 13.8",
-        hint="Multiply the score of each step with the return from that step on, and add.",
+        hint="Multiply the score of each step by the return from that step on, and add.",
         sign="≈",
         place=Place.WORKING,
         misread={
@@ -201,7 +201,7 @@ with evaluate(False):
         SumOver(theta(i) * f(i, s, a), i, Features),
         title="Value of an action, linear in features",
         source="Sutton & Barto 2018, eq. 10.3",
-        hint="Multiply each weight with the action's own feature, and add.",
+        hint="Multiply each weight by the action's own feature, and add.",
         also=(theta(1) * f(1, s, a) + DOTS + theta(n) * f(n, s, a),),
         place=Place.WORKING,
         misread={
@@ -224,7 +224,7 @@ with evaluate(False):
         SumOver(theta(i) * f(i, s, a), i, Features),
         title="Preference of an action",
         source="Sutton & Barto 2018, eq. 13.3",
-        hint="Multiply each weight with the action's own feature, and add.",
+        hint="Multiply each weight by the action's own feature, and add.",
     )
     NOT_NORMALISED = Misconception("not-normalised", "Probabilities sum to 1: divide by the sum over all actions.")
     WITHOUT_EXP = Misconception(
@@ -303,7 +303,7 @@ with evaluate(False):
         sign="←",
     )
     WEIGHTED_BY_REWARD = Misconception(
-        "actor-weighted-by-reward", "The actor's step is weighted with the critic's TD error, not with the reward."
+        "actor-weighted-by-reward", "The actor's step is weighted by the critic's TD error, not by the reward."
     )
     ACTOR_CRITIC = Formula(
         "actor-critic",
@@ -311,7 +311,7 @@ with evaluate(False):
         theta_vector + beta * delta(t) * _LOG_GRADIENT,
         title="Actor-critic: the actor's step",
         source="Sutton & Barto 2018, eq. 13.14",
-        hint="The actor follows the score of the action taken, weighted with the critic's TD error.",
+        hint="The actor follows the score of the action taken, weighted by the critic's TD error.",
         sign="←",
         note="The critic learns by TD, $V(s_t) ← V(s_t) + αδ_t$; the TD error stands for the advantage.",
         misread={
@@ -346,7 +346,7 @@ with evaluate(False):
         SumOver(_LOG_GRADIENT * delta(t), t, _EPISODE),
         title="REINFORCE with a baseline, from one episode",
         source="Sutton & Barto 2018, eq. 13.11",
-        hint="Multiply the score of each step with what its return exceeds the baseline by, and add.",
+        hint="Multiply the score of each step by its return minus the baseline, and add.",
         sign="≈",
         also=(SumOver(_LOG_GRADIENT * (G_t(t) - b_of(S(t))), t, _EPISODE),),
         place=Place.WORKING,
@@ -430,7 +430,7 @@ with evaluate(False):
         Clipped(rho(t), 1 - epsilon, 1 + epsilon) * A_t(t),
         title="The clipped term",
         source="Schulman et al. 2017, eq. 7",
-        hint="Bring the ratio between 1 − ε and 1 + ε, then multiply with the advantage.",
+        hint="Bring the ratio between 1 − ε and 1 + ε, then multiply by the advantage.",
         place=Place.WORKING,
     )
     CLIP_WITHOUT_MIN = Misconception(
@@ -484,6 +484,6 @@ with evaluate(False):
         -SumOver(pi(b, s) * log(pi(b, s)), b, Choices),
         title="Entropy of a policy",
         source="Cover & Thomas 2006, section 2.1",
-        hint="Weigh the logarithm of every probability with the probability itself, add, and change the sign.",
+        hint="Weight the logarithm of every probability by the probability itself, add, and change the sign.",
         place=Place.WORKING,
     )

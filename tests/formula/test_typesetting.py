@@ -72,10 +72,12 @@ def test_a_negative_logarithm_that_is_put_in_has_brackets() -> None:
     assert unicode(typeset(put_in(BIC.right, known))) == "−2·(−ln 4) + 1·ln 8"
 
 
-def test_a_1_that_multiplies_a_matrix_is_left_out() -> None:
+def test_a_1_that_multiplies_a_matrix_keeps_its_place_when_put_in_and_is_then_left_out() -> None:
     one, two = fmpq_mat(1, 1, [1]), fmpq_mat(1, 1, [2])
     known = {"t": 1, "At": {1: one}, "covariance": {0: two}, "Rt": {1: one}}
-    assert unicode(typeset(put_in(KALMAN_MOVE_COVARIANCE.right, known))) == "2 + 1"
+    written = put_in(KALMAN_MOVE_COVARIANCE.right, known)
+    assert unicode(typeset(written)) == "1·2·1 + 1"
+    assert unicode(typeset(reduced(written))) == "2 + 1"
 
 
 def test_zeros_that_are_given_keep_their_places_and_what_is_not_there_leaves_none() -> None:

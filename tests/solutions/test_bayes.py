@@ -37,10 +37,11 @@ def test_a_probability_that_is_found_gives_the_outcome_it_was_found_from(name: s
     given_ = draw(name, 3, seed).problem.data()["given"]
     if "outcome" not in given_:
         return
-    outcome = given_.pop("outcome")
+    outcome, after = given_.pop("outcome"), given_.pop("after", 1)
     found = Fraction(str(draw(name, 3, seed).answers["a"]))
     filled = loads(dumps(given_).replace('"1-q"', f'"{1 - found}"').replace('"q"', f'"{found}"'))
-    assert solved(name, **filled)["a"][outcome["state"]] == fmpq(*Fraction(outcome["probability"]).as_integer_ratio())
+    belief = solved(name, **filled)["ab"[after - 1]]
+    assert belief[outcome["state"]] == fmpq(*Fraction(outcome["probability"]).as_integer_ratio())
 
 
 #: Three steps over three states.

@@ -145,7 +145,7 @@ def test_the_letters_of_the_convention_stand_in_question_and_working() -> None:
     exercise = rldrill.read({"family": "lqr-backward", "given": given})
     assert "uₜ = −Kₜxₜ" in str(exercise.question())
     assert "costs xₜᵀQₜxₜ + uₜᵀRₜuₜ" in str(exercise.question())
-    assert "K₀ = (1 + 1)⁻¹" in str(exercise.working())
+    assert "K₀ = (1 + 1·1·1)⁻¹" in str(exercise.working())
     assert "S" not in str(exercise.working())
 
 
