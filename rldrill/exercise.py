@@ -268,7 +268,7 @@ def _written(lines: Iterable[Line]) -> Iterator[Block]:
     for line in lines:
         if isinstance(line, Step) and line.formula not in stated:
             stated.add(line.formula)
-            general, here = line.formula.equation(line.formula.right), line.equation()
+            general, here = line.general(), line.equation()
             if general.rights[0] not in here.rights:  # where nothing is put in, the step says it
                 yield general
             yield here

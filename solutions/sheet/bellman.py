@@ -42,6 +42,8 @@ def _edge(here: Math, after: Math) -> Math:
 Residual = quantity("residual", called("δ"))
 #: What an edge of a graph earns, where nothing is left to chance.
 EdgeReward = quantity("edge_reward", _edge)
+#: The greatest return of a path to a state on the way.
+Head = quantity("V", called("W"))
 #: The share of all steps that begin in a state in the long run, and the states from which another may be reached.
 Share = quantity("visited", called("d"))
 Predecessors = quantity("predecessors", called("S"))
@@ -260,6 +262,18 @@ with evaluate(False):
         source="Bertsekas 2017, section 2.1",
         hint="Begin at the goal and go backwards: the best tail from the next state is already known.",
         note="Any part of an optimal policy is optimal for the subproblem that starts there.",
+        misread={
+            TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        },
+    )
+    BEST_WAY_TO = Formula(
+        "best-way-to",
+        Head(s),
+        MaxOver(EdgeReward(s, s1) + Head(s1), s1, Successors(s)),
+        title="Best way to a state that is to be visited",
+        source="Bertsekas 2017, section 2.1",
+        hint="Take the state that is to be visited for the goal, and go backwards from it.",
+        place=Place.WORKING,
         misread={
             TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
         },
