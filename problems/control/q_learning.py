@@ -65,9 +65,11 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _best_differ(found: Mapping[str, Any]) -> bool:
-    """Whether no two states have the same greatest value, so that the row that is read matters."""
-    best = [max(row.values()) for row in found["values"].values()]
-    return len(set(best)) == len(best)
+    """Whether it matters which row is read: the greatest values differ, from that of the row asked about at least."""
+    best = {state: max(row.values()) for state, row in found["values"].items()}
+    if outcome := found.get("outcome"):
+        return all(best[state] != best[outcome.state] for state in best if state != outcome.state)
+    return len(set(best.values())) == len(best)
 
 
 def _ahead(row: Mapping[str, Fraction], _: str) -> Fraction:

@@ -284,7 +284,7 @@ with evaluate(False):
         SumOver(Share(s) * SumOver(pi(a, s) * P(s, a, s1), a, Actions(s)), s, Predecessors(s1)),
         title="Stationary distribution",
         source="Sutton & Barto 2018, section 10.3; Puterman 1994, section 8.2",
-        hint="A state is come to as often as it is left: add up, over the states that lead there, their share "
+        hint="A state is entered as often as it is left: add up, over the states that lead there, their share "
         "times the probability of that step.",
         place=Place.WORKING,
     )
