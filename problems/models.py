@@ -425,7 +425,8 @@ def draw_letter(
     return [row._replace(probability=next(open_)) if row[:2] == pair else row for row in rows], gamma, letter
 
 
-_PARTLY_LISTED = "The policy $π$ is given by this table; actions that are not listed are never taken."
+#: What is said of a policy whose table leaves actions out.
+PARTLY_LISTED = "The policy $π$ is given by this table. Actions that are not listed are never taken."
 
 
 def open_chance(given: ModelAndPolicy) -> str:
@@ -443,8 +444,13 @@ def policy_blocks(given: ModelAndPolicy) -> tuple[Block, ...]:
     """The policy as a question gives it; nothing where there is nothing to choose."""
     if all(len(actions) == 1 for actions in given.mdp.actions.values()):
         return ()
-    listed = all(set(actions) == set(given.chances[state]) for state, actions in given.mdp.actions.items())
-    return (Paragraph("The policy $π$ is:" if listed else _PARTLY_LISTED), policy_table(given.chances))
+    told = "The policy $π$ is:" if lists_all(given.chances, given.mdp) else PARTLY_LISTED
+    return (Paragraph(told), policy_table(given.chances))
+
+
+def lists_all(policy: Policy, mdp: Dynamics) -> bool:
+    """Whether a policy names every action of every state."""
+    return all(set(actions) == set(policy[state]) for state, actions in mdp.actions.items())
 
 
 def transitions_table(model: Dynamics) -> Table:

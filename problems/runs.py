@@ -541,11 +541,12 @@ def moves_table(given: ValueMoves | ActionMoves) -> tuple[Block, ...]:
 
 
 def run_situation(
-    given: ValueRun | ActionRun | ValueMoves | ActionMoves, *values: Table, more: str = ""
+    given: ValueRun | ActionRun | ValueMoves | ActionMoves, *values: Table, more: str = "", steps: bool = True
 ) -> tuple[Block, ...]:
-    """A run, and the values before it; ``more`` is said after the step size and the discount."""
+    """A run, and the values before it; ``more`` is said after the step size, if ``steps`` has it, and the discount."""
     before = "the first transition" if isinstance(given, ValueMoves | ActionMoves) else "the first update"
-    told = f"These are the values before {before}. {step_size(given.alpha)} {discount(given.gamma)} {more}"
+    rates = " ".join([*([step_size(given.alpha)] if steps else []), discount(given.gamma)])
+    told = f"These are the values before {before}. {rates} {more}"
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
     if isinstance(given, ValueRun):
         told = unknown(given, f"{told} The value $x$ is left open." if "x" in given.letters else told)

@@ -9,7 +9,17 @@ from typing import Literal, NamedTuple
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Scalar, dot
-from rldrill.problems.models import Dynamics, Model, Policy, Transition, never_left, policy_table, values_table
+from rldrill.problems.models import (
+    PARTLY_LISTED,
+    Dynamics,
+    Model,
+    Policy,
+    Transition,
+    lists_all,
+    never_left,
+    policy_table,
+    values_table,
+)
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
 
@@ -237,11 +247,13 @@ def choices_table(policy: Mapping[str, str], of: str = "π") -> Table:
     return Table(header=("$s$", *policy), rows=((f"${of}(s)$", *policy.values()),))
 
 
-def policy_blocks(policy: Policy) -> tuple[Block, ...]:
+def policy_blocks(policy: Policy, mdp: Dynamics) -> tuple[Block, ...]:
     """A policy as a question gives it: by its actions, or by its probabilities where it mixes them."""
     certain = {state: action for state, row in policy.items() for action, chance in row.items() if chance == 1}
-    table = choices_table(certain) if len(certain) == len(policy) else policy_table(policy)
-    return (Paragraph("The policy $π$ is:"), table)
+    if len(certain) == len(policy):
+        return (Paragraph("The policy $π$ is:"), choices_table(certain))
+    told = "The policy $π$ is:" if lists_all(policy, mdp) else PARTLY_LISTED
+    return (Paragraph(told), policy_table(policy))
 
 
 def known_or_asked(values: Mapping[str, Fraction] | None, states: tuple[str, ...]) -> tuple[list[Block], list[Part]]:

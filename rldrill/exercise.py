@@ -270,7 +270,7 @@ def _written(lines: Iterable[Line]) -> Iterator[Block]:
     for line in lines:
         if isinstance(line, Step) and line.formula not in stated:
             stated.add(line.formula)
-            general, here = line.formula.equation(line.formula.right), line.equation()
+            general, here = line.general(), line.equation()
             # Where nothing is put in, the step says it; where both sides are the same, the formula says nothing.
             if general.rights[0] not in (*here.rights, general.left):
                 yield general

@@ -1,7 +1,7 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -51,6 +51,14 @@ class Step:
     def put_in(self) -> Expr:
         """The right side with the numbers put in, unevaluated."""
         return put_in(self.right, self.known)
+
+    def general(self) -> Equation:
+        """The formula before the numbers are put in; a policy by the name that it has here, π₁ or π′."""
+        formula = self.formula
+        plain = formula.equation(formula.right)
+        if formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
+            return plain
+        return replace(plain, left=typeset(self.into.func(*formula.left.args)))
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""

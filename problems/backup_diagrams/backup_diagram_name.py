@@ -12,7 +12,7 @@ from rldrill.problems.parts import Choice, Part
 
 TITLE = "Name of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6, 6.1 to 6.6 and 7.1"
-REVISION = 2
+REVISION = 3
 #: One chooses among the options; and the name must not depend on how many branches or steps are drawn.
 DISTRACTORS = ("diagrams.*.options.*", "diagrams.*.branches", "diagrams.*.steps")
 
@@ -65,7 +65,7 @@ _NEIGHBOURS: dict[Backup, tuple[Backup, ...]] = {
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One diagram among strangers; then two among their neighbours; then three with one option more."""
+    """One diagram among five; then two among their neighbours; then three among all ten names."""
     shown = rng.sample(BACKUPS, level)
     return Given(diagrams=tuple(_drawn(level, backup, rng) for backup in rng.shuffled(shown)))
 
@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
 def _drawn(level: int, backup: Backup, rng: Draws) -> Shown:
     near = _NEIGHBOURS[backup]
     strangers = [other for other in BACKUPS if other != backup and other not in near[:2]]
-    others = rng.sample(strangers, 3) if level == 1 else near[: level + 1]
+    others = {1: rng.sample(strangers, 4), 2: near, 3: [other for other in BACKUPS if other != backup]}[level]
     return Shown(
         shows=backup,
         options=rng.shuffled((backup, *others)),

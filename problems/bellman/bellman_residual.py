@@ -27,7 +27,7 @@ from rldrill.problems.valued import UNITS, draw_mixed, draw_valued, draw_values,
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ModelAndPolicy):
@@ -70,7 +70,7 @@ def draw(level: int, rng: Draws) -> Given:
     else:
         values = draw_values(rng, setting.states[:2], gamma)
         mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})
-    verdict = rng.chance(Fraction(1, 4))
+    verdict = rng.chance(Fraction(1, 8 if level == 1 else 4))
     wrong = (() if rng.chance(Fraction(1, 2)) else (rng.choice(mdp.states),)) if verdict else mdp.states
     claimed = dict(values)
     for _ in range(20):

@@ -46,7 +46,7 @@ def question(given: Given) -> Question:
         (*model_blocks(given.mdp), Paragraph(discount(given.gamma))),
         (
             Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states)),
-            Part("Which action is best in every state?", Policy(given.mdp.actions)),
+            Part("Which action is best in every state?", Policy(given.mdp.actions, "π^*")),
             Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
         ),
     )

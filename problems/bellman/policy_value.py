@@ -28,7 +28,7 @@ from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ModelAndPolicy):
@@ -120,7 +120,11 @@ def _left_open(rng: Draws, setting: Setting) -> Given:
     half = rng.fraction("1/2", "1/4", "3/4")
     rewards = rng.distinct(4, -3, 6)
     after = rng.choice(((first, setting.terminal), (second, setting.terminal), (first, second)))
-    even = Fraction(1, 2)
+    even, gamma = Fraction(1, 2), rng.fraction("1/2", "2/3")
+    if after == (second, setting.terminal):
+        worth = (rewards[2] + rewards[3]) / (2 - gamma)
+        if rewards[2] + gamma * worth == rewards[3]:  # both are worth the same, whatever their probabilities
+            return _left_open(rng, setting)
     if letter == "policy":
         onward, back = setting.actions[:2]
         policy = {first: {onward: p[0], back: p[1]}, second: {onward: Fraction(1)}}
@@ -142,7 +146,7 @@ def _left_open(rng: Draws, setting: Setting) -> Given:
             terminal=ends,
         ),
         policy=policy or None,
-        gamma=Parameter("gamma") if letter == "gamma" else rng.fraction("1/2", "2/3"),
+        gamma=Parameter("gamma") if letter == "gamma" else gamma,
     )
 
 

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",
@@ -76,14 +76,24 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _moves(given: Given) -> bool:
-    """Whether the first transition, at least, changes a value."""
-    mine, other = (given.values, given.second) if given.updates[0] == 1 else (given.second, given.values)
-    state, after = given.trajectory.states[:2]
-    ahead = Fraction(0)
-    if after not in given.terminal:
-        ahead = other[after][max(mine[after], key=mine[after].__getitem__)]
-    target = given.trajectory.rewards[0] + Fraction(str(given.gamma)) * ahead
-    return target != mine[state][given.trajectory.actions[0]]
+    """Whether every transition changes a value, and the two tables differ in the value that its target takes."""
+    tables = [{state: dict(row) for state, row in table.items()} for table in (given.values, given.second)]
+    run = given.trajectory
+    for number, state, action, after, reward in zip(
+        given.updates, run.states, run.actions, run.states[1:], run.rewards, strict=False
+    ):
+        mine, other = tables[number - 1], tables[2 - number]
+        ahead = Fraction(0)
+        if after not in given.terminal:
+            best = max(mine[after], key=mine[after].__getitem__)
+            ahead = other[after][best]
+            if ahead == mine[after][best]:
+                return False
+        gap = reward + Fraction(str(given.gamma)) * ahead - mine[state][action]
+        if gap == 0:
+            return False
+        mine[state][action] += Fraction(str(given.alpha)) * gap
+    return True
 
 
 def _back(rng: Draws) -> Given:

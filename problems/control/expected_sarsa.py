@@ -125,7 +125,7 @@ def _policy(given: Given) -> tuple[Block, ...]:
             return (
                 Paragraph(
                     "The policy is ε-greedy for the values that are current at each update. "
-                    f"{exploration(given.epsilon)} Exploring takes each of all actions with the same probability; tied "
+                    f"{exploration(given.epsilon)} Exploration takes every action with the same probability; tied "
                     "best actions share the greedy probability evenly."
                 ),
             )

@@ -168,7 +168,10 @@ def question(given: Given) -> Question:
             "action $a$ in state $s$ with these probabilities:"
         ),
         policy_table(given.target, b=given.behaviour),
-        *(Paragraph(f"The probability ${shown(Parameter(p))}$ is left open.") for p in left_open),
+        *(
+            Paragraph(f"The probability ${shown(Parameter(p))}$ is left open, $0 < {shown(Parameter(p))} < 1$.")
+            for p in left_open
+        ),
         Paragraph(
             f"The agent has followed $b$ for {f'{len(given.episodes)} episodes' if several else 'one episode'}. "
             f"{discount(given.gamma)}"
@@ -193,7 +196,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part(f"{ratios}{in_open(given)}?", Numbers(entries)),
+            Part(f"{ratios}{in_open(given, several=True)}?", Numbers(entries)),
             Part(f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
             Part(f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
         ),

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Tag
 
@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -54,12 +54,22 @@ def draw(level: int, rng: Draws) -> Given:
     """One transition; then some that come back to a state, or one back from its outcome; then γ after two updates."""
     if level == 3:
         found = draw_back(rng, draw_setting(rng), 3, _ahead, "gamma", steps=2)
+        if not _best_differ(found):
+            return draw(level, rng)
         return Separate(**found if rng.chance(Fraction(3, 4)) else found | {"outcome": None})
     if level == 2 and rng.chance(Fraction(1, 3)):
-        return AlongRun(**draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma"))))
-    found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
-    best = [max(row.values()) for row in found["values"].values()]
-    return AlongRun(**found) if len(set(best)) == len(best) else draw(level, rng)
+        found = draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma")))
+    else:
+        found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
+    return AlongRun(**found) if _best_differ(found) else draw(level, rng)
+
+
+def _best_differ(found: Mapping[str, Any]) -> bool:
+    """Whether it matters which row is read: the greatest values differ, from that of the row asked about at least."""
+    best = {state: max(row.values()) for state, row in found["values"].items()}
+    if outcome := found.get("outcome"):
+        return all(best[state] != best[outcome.state] for state in best if state != outcome.state)
+    return len(set(best.values())) == len(best)
 
 
 def _ahead(row: Mapping[str, Fraction], _: str) -> Fraction:

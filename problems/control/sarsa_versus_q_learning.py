@@ -11,14 +11,14 @@ from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import ActionRun, action_values_table, run_situation
+from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, run_situation
 
 TITLE = "Sarsa versus Q-learning"
 SOURCE = "Sutton & Barto 2018, sections 6.4 and 6.5"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
-    "alpha",  # targets do without it, until a value that it has moved is used
+    "alpha",  # it is printed only where a value that it has moved is used
 )
 
 #: What the last part may be answered with.
@@ -61,11 +61,16 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(**found, word=rng.choice(rng.choice(_WORDS)))
 
 
+def _comes_back(run: Trajectory) -> bool:
+    """Whether a target uses the row of a state that was updated before: only then does the step size matter."""
+    return any(run.states[time + 1] in run.states[:time] for time in range(1, len(run.rewards)))
+
+
 def question(given: Given) -> Question:
     """The run and the table before it; the targets of both methods, then the word for one of them."""
     steps = len(given.trajectory.rewards)
     blocks = (
-        *run_situation(given, action_values_table(given.values)),
+        *run_situation(given, action_values_table(given.values), steps=_comes_back(given.trajectory)),
         Paragraph(
             "Sarsa and Q-learning both learn from this run, each with its own copy of this table, which it "
             "updates after every transition. The target $y_t$ is what the update moves $Q(s_t, a_t)$ towards."

@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -53,12 +53,25 @@ def draw(level: int, rng: Draws) -> Given:
     actions = 3 if states == 2 else 2
     shape = Shape(states=states, actions=actions, branches=min(level, 2), denominators=(2,))
     forked: Literal["all", "others"] = "others" if level == 2 else "all"
-    mdp, _, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1), forked=forked)
+    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-6, -1), forked=forked)
+    if level == 1 and not _looks_ahead(mdp, policy, values):
+        return draw(level, rng)
     missing = None
     if level == 3:
         missing = rng.choice(mdp.states)
         del values[missing]
     return Given(mdp=mdp, values=values, gamma=gamma, action_values=True, missing=missing)
+
+
+def _looks_ahead(mdp: Model, policy: dict[str, str], values: dict[str, Fraction]) -> bool:
+    """Whether neither the rewards alone nor the next values alone, of moves that are certain, show the policy."""
+    rows = {(row.state, row.action): row for row in mdp.transitions}
+    next_values = {pair: values.get(row.next, Fraction(0)) for pair, row in rows.items()}
+    rewards = {pair: Fraction(row.reward) for pair, row in rows.items()}
+    return all(
+        any(worth[s, policy[s]] < max(worth[s, a] for a in actions) for s, actions in mdp.actions.items())
+        for worth in (rewards, next_values)
+    )
 
 
 def question(given: Given) -> Question:
@@ -76,4 +89,4 @@ def question(given: Given) -> Question:
         parts.append(Part(f'What is $V^*("{given.missing}")$?', Number()))
     if given.action_values:
         parts.append(Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)))
-    return Question(blocks, (*parts, Part("Which action is optimal in every state?", Policy(given.mdp.actions))))
+    return Question(blocks, (*parts, Part("Which action is optimal in every state?", Policy(given.mdp.actions, "π^*"))))

@@ -27,7 +27,7 @@ from rldrill.problems.valued import draw_values, tells_apart
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -63,7 +63,7 @@ def draw(level: int, rng: Draws) -> Given:
         rows = []
         for state in setting.states[:states]:
             found = _even(rng, setting, places, state, actions, shape)
-            while not tells_apart(found, start, gamma):
+            while not tells_apart(found, start if started else {}, gamma):
                 found = _even(rng, setting, places, state, actions, shape)
             rows += found
     mdp = Model(story=setting.told((setting.terminal,)), transitions=tuple(rows), terminal=(setting.terminal,))

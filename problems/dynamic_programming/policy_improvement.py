@@ -81,7 +81,12 @@ def question(given: Given) -> Question:
     """The model and the policy, with its values or asking for them."""
     states = given.mdp.states
     known, asked = known_or_asked(given.values, states)
-    blocks = (*model_blocks(given.mdp), *policy_blocks(given.policy), Paragraph(discount(given.gamma)), *known)
+    blocks = (
+        *model_blocks(given.mdp),
+        *policy_blocks(given.policy, given.mdp),
+        Paragraph(discount(given.gamma)),
+        *known,
+    )
     if given.action_values:
         asked = [*asked, Part("What is $Q^π(s, a)$ for every state and action?", Values("Q^π", given.mdp.pairs))]
     parts = (

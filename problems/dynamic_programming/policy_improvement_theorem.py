@@ -93,7 +93,7 @@ def question(given: Given) -> Question:
     known, asked = known_or_asked(given.values, states)
     blocks = (
         *model_blocks(given.mdp),
-        *policy_blocks(deterministic(given.policy)),
+        *policy_blocks(deterministic(given.policy), given.mdp),
         Paragraph("Another policy $π'$ is:"),
         choices_table(given.other, "π'"),
         Paragraph(discount(given.gamma)),

@@ -18,7 +18,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Sweeps):
@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
     are even, so that the numbers stay small.
     """
     setting = draw_setting(rng)
-    if level == 3 and rng.chance(Fraction(1, 4)):
+    if level == 3 and rng.chance(Fraction(1, 8)):  # sweeps are drawn again more often
         return _to_tie(rng, setting)
     over_actions = level == 2 and rng.chance(Fraction(1, 2))
     states = 2 if over_actions else 3 if level != 2 else 2 + rng.below(2)

@@ -14,7 +14,7 @@ from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Reversible):
@@ -49,7 +49,8 @@ def draw(level: int, rng: Draws) -> Given:
     """One reward and then a constant; then rounds of two or three; then a letter left open or asked for."""
     if level == 1:
         gamma = rng.fraction("1/2", "1/3", "2/3")
-        return Given(first=(rng.nonzero(-4, 9),), repeated=(rng.nonzero(-4, 9),), gamma=gamma)
+        opening, always = rng.nonzero(-4, 9), rng.nonzero(-4, 9)
+        return Given(first=(opening,), repeated=(always,), gamma=gamma) if opening != always else draw(level, rng)
     gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
     if level == 2:
         length = rng.choice((2, 2, 3)) if gamma == Fraction(1, 2) else 2
@@ -62,7 +63,10 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(first=first, repeated=repeated, gamma=gamma)
     kind = rng.below(3)
     if kind == 0:
-        return Given(first=_first(rng, 1 + rng.below(2)), repeated=_first(rng, 2), gamma=Parameter("gamma"))
+        first, repeated = _first(rng, 1 + rng.below(2)), _first(rng, 2)
+        if first[-1] == repeated[-1] or repeated[0] == repeated[1]:  # or the round would begin a step earlier
+            return draw(level, rng)
+        return Given(first=first, repeated=repeated, gamma=Parameter("gamma"))
     if kind == 1:
         opening, always = rng.distinct(2, 1, 9)
         known = opening + gamma * always / (1 - gamma)
@@ -107,7 +111,7 @@ def question(given: Given) -> Question:
     else:
         round_ = ", ".join(shown(reward) for reward in given.repeated)
         told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
-    limits = " It is at least $0$ and below $1$." if isinstance(given.gamma, Parameter) else ""
+    limits = " It lies in $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
     more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
     if given.known is not None:

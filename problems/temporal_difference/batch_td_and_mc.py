@@ -126,13 +126,13 @@ def question(given: Given) -> Question:
     )
     tail = in_open(given, several=len(given.states) > 1)
     key = Values("V", given.states)
-    what = f'$V("{given.states[0]}")$' if len(given.states) == 1 else "the values of all states"
-    ask = f"To which {'value does' if len(given.states) == 1 else 'values do'} {what} converge with the updates of"
+    what = f'value $V("{given.states[0]}")$' if len(given.states) == 1 else "values $V(s)$"
+    ask = f"To which {what} does"
     return Question(
         blocks,
         (
-            Part(f"{ask} {given.visits}-visit Monte Carlo{tail}?", key),
-            Part(f"{ask} TD(0){tail}?", key),
+            Part(f"{ask} batch {given.visits}-visit Monte Carlo converge{tail}?", key),
+            Part(f"{ask} batch TD(0) converge{tail}?", key),
         ),
     )
 

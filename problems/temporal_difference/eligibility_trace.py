@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Eligibility traces"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Reversible):
@@ -63,7 +63,7 @@ _DECAYS = tuple(
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two visits and a return; then four or five visits; then with a letter left open, or to be found."""
+    """Two visits and a return; then four or five visits; then mostly with a letter left open, sometimes to be found."""
     setting = draw_setting(rng)
     a, b, c = rng.shuffled(setting.states)[:3]
     gamma, lam = (rng.fraction("1/2", "2/3"), Fraction(1, 2)) if level == 1 else rng.choice(_DECAYS)
@@ -79,11 +79,11 @@ def draw(level: int, rng: Draws) -> Given:
         asked=rng.choice(((last - 1, last), (last,))) if level == 2 else (last,),
         replacing=rng.chance(Fraction(1, 3)),
     )
-    kind = rng.below(4)
     if level == 2:
         return given
+    kind = rng.below(6)
     update: dict[str, object] = {"gamma": Parameter("gamma")} if kind % 2 else {"lam": Parameter("lambda")}
-    if kind < 2:
+    if kind < 4:
         update = {"gamma": Fraction(1, 2), "lam": Fraction(1, 2)} | update
     else:
         again = states[1] == a

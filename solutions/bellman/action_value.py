@@ -38,7 +38,7 @@ def solve(given: Given, work: Work) -> None:
         p, own = generator("p"), exact(given.values[state])
         pi = {(first, state): p, (second, state): ONE - p}
         mean = work.step(V_FROM_Q, s=state, Q=worth, pi=pi, actions=given.dynamics.actions)
-        work.say(f"This must be the value of {state} that is given:")
+        work.say(f"This must equal the given value of {state}:")
         chance = work.equate("p", mean, own)
         if sign(chance) < 0 or sign(ONE - chance) < 0:
             raise NoSolution(f"the value of {state!r} does not lie between those of its actions; no policy gives it")

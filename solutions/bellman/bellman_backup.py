@@ -44,7 +44,7 @@ def solve(given: Given, work: Work) -> None:
     value = work.step(BELLMAN_V, **known)
     if given.find:
         (letter,) = given.unknown
-        work.say(f"This must be the value of {given.state} that is given:")
+        work.say(f"This must equal the given value of {given.state}:")
         value = work.equate(letter, value, exact(given.values[given.state]))
     work.answer(value)
 

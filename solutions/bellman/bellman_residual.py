@@ -35,9 +35,9 @@ def solve(given: Given, work: Work) -> None:
         return
     wrong = [state for state, residual in residuals.items() if not is_zero(residual)]
     if wrong:
-        work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$: $V$ is another function.")
+        work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$, so $V$ is another function.")
     elif given.gamma != 1:
-        work.say("All residuals are $0$, and with $γ < 1$ the Bellman equations have only one solution: $V$ is it.")
+        work.say("All residuals are $0$, and with $γ < 1$ only one function solves the Bellman equations: that is $V$.")
     else:
         true = _totals(given)
         wrong = [state for state in given.mdp.states if true[state] != exact(given.values[state])]

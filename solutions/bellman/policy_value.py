@@ -28,7 +28,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         _in_the_long_run(given, work, known)
         return
     if not given.mdp.chooses:
-        work.say("There is nothing to choose, so $V$ is $V^π$ of the only policy there is.")
+        work.say("There is nothing to choose, so there is only one policy, and $V$ is its $V^π$.")
     work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
 
 
@@ -40,7 +40,7 @@ def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
     }
     before = dict.fromkeys(given.mdp.states, ()) | predecessors(ways)
     work.say(
-        "In the long run every state is come to as often as it is left. The equation of the last "
+        "In the long run every state is entered as often as it is left. The equation of the last "
         "state follows from the others; that the shares sum to $1$ takes its place:"
     )
     cases = [{"s1": state} for state in given.mdp.states]

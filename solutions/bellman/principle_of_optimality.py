@@ -7,14 +7,10 @@ from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.problems.document import joined
 from rldrill.solutions.exact import ZERO, Value, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
-from rldrill.solutions.formula.formula import slip
-from rldrill.solutions.formula.notation import Quantity, called, quantity
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.sheet.bellman import PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
+from rldrill.solutions.sheet.bellman import BEST_WAY_TO, PRINCIPLE_OF_OPTIMALITY, TAIL_LEFT_OUT
 from rldrill.solutions.work import Work
-
-#: The greatest return of a path to the state that is to be visited.
-Head = quantity("V", called("W"))
 
 Rewards = Mapping[tuple[str, str], Value]
 Ways = Mapping[str, tuple[str, ...]]
@@ -46,7 +42,7 @@ def _rewards(given: Given) -> Rewards:
 
 
 def _totals(
-    goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work, into: type[Quantity] | None = None
+    goal: str, before: Sequence[str], ways: Ways, R: Rewards, work: Work, formula: Formula = PRINCIPLE_OF_OPTIMALITY
 ) -> dict[str, Value]:
     """The best totals to the goal from those states before it that lead there."""
     values: dict[str, Value] = {goal: ZERO}
@@ -54,7 +50,7 @@ def _totals(
         after = tuple(name for name in ways[state] if name in values)
         known: dict[str, Any] = {"successors": {state: after}, "edge_reward": R, "V": values}
         if after:
-            values = values | {state: work.step(PRINCIPLE_OF_OPTIMALITY, s=state, into=into, **known)}
+            values = values | {state: work.step(formula, s=state, **known)}
     return values
 
 
@@ -76,10 +72,10 @@ def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value]
     """The best way to a state, by the same formula with that state for the goal, and the best way on from it."""
     work.say(
         f"The part up to {through} must be optimal. $W(s)$ is the greatest return of a path from $s$ to {through}, "
-        f'so $W("{through}") = 0$, and $W$ follows from the same equation with $W$ in place of $V^*$:'
+        f'so $W("{through}") = 0$, and from there it goes backwards as before:'
     )
     before = given.backwards[given.backwards.index(through) + 1 :]
-    there = _totals(through, before, given.onward, R, work, Head)
+    there = _totals(through, before, given.onward, R, work, BEST_WAY_TO)
     total = there[given.start] + values[through]
     onward = f"{values[through]}" if sign(values[through]) >= 0 else f"({values[through]})"
     sum_ = f"{there[given.start]} + {onward} = {total}".replace("-", "−")

@@ -67,7 +67,7 @@ def _find(given: Given, work: Work, known: dict[str, Any]) -> None:
         return
     ((state, value),) = given.known.items()
     mean = work.step(V_FROM_Q, s=state, **known)
-    work.say(f"This must be the value of {state} that is given:")
+    work.say(f"This must equal the given value of {state}:")
     found = work.answer(work.equate(letter, mean, exact(value)))
     if others := [other for other in given.values if other != state]:
         work.answer({other: work.step(V_FROM_Q, s=other, **_known(given, found)) for other in others})

@@ -25,7 +25,7 @@ def solve(given: Given, work: Work) -> None:
         return
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
-        work.say("The values are those at the end of the same updates.")
+        work.say("The updates above give these values.")
     work.answer({pair: known["Q"][pair] for pair in given.updated})
 
 

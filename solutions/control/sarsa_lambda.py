@@ -104,7 +104,7 @@ def _watkins(given: Given, work: Work, *, cut: bool = True) -> None:
         judged_by = known["Q"]
         known["Q"] = _moved(given, work, known, error, trace, time)
     work.answer({pair: trace[pair] for pair in given.eligible})
-    work.say("The action values are those at the end of the same updates.")
+    work.say("The updates above give these action values.")
     work.answer({pair: known["Q"][pair] for pair in given.eligible})
 
 

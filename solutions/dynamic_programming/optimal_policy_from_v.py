@@ -5,14 +5,13 @@ from typing import Any
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import Value, exact, largest, parameters
+from rldrill.solutions.exact import Value, exact, parameters
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
 from rldrill.solutions.rational import generator
-from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V
+from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FROM_V, V_STAR_FROM_Q
 from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_BY_REWARD,
     GREEDY_BY_VALUE,
@@ -52,17 +51,17 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Val
     An action that may lead back to the state gives an equation for the value.
     """
     x = generator("x")
-    work.say(f'With $x = V^*("{state}")$ the actions in {state} are worth:')
-    values = []
+    work.say(f'Let $x = V^*("{state}")$. Then the actions in {state} have these values:')
+    values = {}
     for action in given.mdp.actions[state]:
         worth = work.step(Q_STAR_FROM_V, s=state, a=action, **{**known, "V": {**known["V"], state: x}})
         if parameters(worth):
             work.say(f"If {action} is optimal in {state}, this is $x$ itself:")
             worth = work.equate("x", worth, x)
-        values.append(worth)
-    best = largest(values)
-    (action, *_) = arg_max(given.mdp.actions[state], values)
-    work.say(f'The greatest of these values is ${text_of(best)}$, with {action}: $V^*("{state}") = {text_of(best)}$.')
+        values[state, action] = worth
+    (action, *_) = arg_max(given.mdp.actions[state], list(values.values()))
+    best = work.step(V_STAR_FROM_Q, s=state, Q=values, actions=known["actions"])
+    work.say(f"The best action in {state} is {action}.")
     return best
 
 

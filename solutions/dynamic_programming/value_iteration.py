@@ -50,7 +50,7 @@ def solve(
     if given.tie:
         _tie(given.tie, work, known | {"V": values})
         return
-    work.say(f"For $V_{{{given.sweeps}}}$, which need not be $V^*$ yet, the formula gives the greedy policy $π$:")
+    work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
     work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
 
 
@@ -76,13 +76,13 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
     known["actions"] = mdp.actions | dict.fromkeys(mdp.terminal, (knowns.NO_ACTION,))
     Q = dict.fromkeys(mdp.pairs, ZERO) | {(state, knowns.NO_ACTION): value for state, value in ends.items()}
     for sweep in range(1, given.sweeps + 1):
-        work.say(f"Sweep {sweep}:")
+        work.say(f"Sweep {sweep}, with $Q_{{{sweep - 1}}}$ in place of $Q^*$ on the right side:")
         name, before = numbered(ActionValue, sweep), Q
         Q = before | {
             (s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
-    work.say(f"For $Q_{{{given.sweeps}}}$, which need not be $Q^*$ yet, the formula gives the greedy policy $π$:")
+    work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
     work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, into=pi, **known) for state in mdp.states})
 
 

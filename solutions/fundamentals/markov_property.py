@@ -26,8 +26,9 @@ def solve(given: Given, work: Work) -> None:
     """A count that is missing; then the probability asked for after every history, the others, and the comparison."""
     whole = _completed(given, work)
     chances = _chances(whole, work)
+    work.say("A decision process has the Markov property if, with its actions and rewards,")
     work.recall(MARKOV_PROPERTY)
-    work.say("For the states alone: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
+    work.say("Here only the states are considered, so it says: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
     matters = _matters(whole, chances)
     for now in whole.present:
         _compare(whole, work, now, chances, differs=now in matters)

@@ -42,6 +42,8 @@ def _edge(here: Math, after: Math) -> Math:
 Residual = quantity("residual", called("δ"))
 #: What an edge of a graph earns, where nothing is left to chance.
 EdgeReward = quantity("edge_reward", _edge)
+#: The greatest return of a path to a state on the way.
+Head = quantity("V", called("W"))
 #: The share of all steps that begin in a state in the long run, and the states from which another may be reached.
 Share = quantity("visited", called("d"))
 Predecessors = quantity("predecessors", called("S"))
@@ -264,13 +266,25 @@ with evaluate(False):
             TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
         },
     )
+    BEST_WAY_TO = Formula(
+        "best-way-to",
+        Head(s),
+        MaxOver(EdgeReward(s, s1) + Head(s1), s1, Successors(s)),
+        title="Best way to a state that is to be visited",
+        source="Bertsekas 2017, section 2.1",
+        hint="Take the state that is to be visited for the goal, and go backwards from it.",
+        place=Place.WORKING,
+        misread={
+            TAIL_LEFT_OUT: MaxOver(EdgeReward(s, s1), s1, Successors(s)),
+        },
+    )
     STATIONARY = Formula(
         "stationary-distribution",
         Share(s1),
         SumOver(Share(s) * SumOver(pi(a, s) * P(s, a, s1), a, Actions(s)), s, Predecessors(s1)),
         title="Stationary distribution",
         source="Sutton & Barto 2018, section 10.3; Puterman 1994, section 8.2",
-        hint="A state is come to as often as it is left: add up, over the states that lead there, their share "
+        hint="A state is entered as often as it is left: add up, over the states that lead there, their share "
         "times the probability of that step.",
         place=Place.WORKING,
     )

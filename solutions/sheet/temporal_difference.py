@@ -91,6 +91,22 @@ with evaluate(False):
         "The n-step return has the power λⁿ⁻¹: the one-step return is not weakened by λ.",
         when=lambda given: given.bootstraps,
     )
+    _CLOSING_CUT_OFF = lam ** (T - t - 1) * Gn(t, T - t)
+    LAMBDA_RETURN_CUT_OFF = Formula(
+        "lambda-return-cut-off",
+        Glam(t),
+        (1 - lam) * _WEIGHTED + _CLOSING_CUT_OFF,
+        title="λ-return of a run that is cut off",
+        source="Sutton & Barto 2018, eq. 12.9",
+        hint="Weight the n-step returns with (1 − λ)λⁿ⁻¹; the longest one gets all the weight that is left.",
+        place=Place.WORKING,
+        misread={
+            FORGOT_ONE_MINUS_LAMBDA: _WEIGHTED + _CLOSING_CUT_OFF,
+            FORGOT_CLOSING: (1 - lam) * _WEIGHTED,
+            CLOSING_LIKE_OTHERS: (1 - lam) * _WEIGHTED + (1 - lam) * _CLOSING_CUT_OFF,
+            POWER_ONE_LATE: (1 - lam) * SumOver(lam**n * Gn(t, n), n, Counting(1, T - t - 1)) + _CLOSING_CUT_OFF,
+        },
+    )
     LAMBDA_RETURN = Formula(
         "lambda-return",
         Glam(t),

@@ -17,6 +17,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     FORGOT_CLOSING,
     FORGOT_ONE_MINUS_LAMBDA,
     LAMBDA_RETURN,
+    LAMBDA_RETURN_CUT_OFF,
     POWER_ONE_LATE,
 )
 from rldrill.solutions.temporal_difference.n_step_return import n_step
@@ -71,8 +72,10 @@ def _whole(work: Work, known: Mapping[str, Any], time: int) -> Value:
 
 def average(work: Work, known: Mapping[str, Any], time: int, returns: Sequence[Value]) -> Value:
     """The λ-return from a time on."""
-    *shorter, whole = returns
-    Gn = {(time, n): value for n, value in enumerate(shorter, start=1)}
+    Gn = {(time, n): value for n, value in enumerate(returns, start=1)}
+    if not known["ends"]:
+        return work.step(LAMBDA_RETURN_CUT_OFF, t=time, Gn=Gn, T=known["T"], lam=known["lam"])
+    *_, whole = returns
     return work.step(LAMBDA_RETURN, t=time, Gn=Gn, G={time: whole}, T=known["T"], lam=known["lam"])
 
 

@@ -40,7 +40,7 @@ def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], *, newes
         values = values | {seen["S"][seen["t"]]: work.step(TD_ZERO, V=current, **seen, **known)}
     if given.td_errors:
         work.answer(tuple(errors) if len(errors) > 1 else errors[0])
-        work.say("The values are those at the end of the same updates.")
+        work.say("The updates above give these values.")
     return values
 
 

@@ -136,13 +136,14 @@ def test_a_reduced_step_is_worth_the_same(values: list[fmpq]) -> None:
         assert evaluated(reduced(step)) == evaluated(step) == to_sympy(value_of(formula, known))
 
 
-def test_a_maximum_over_a_set_is_worked_out_within_a_sum_and_its_values_where_it_stands_alone() -> None:
+def test_the_values_are_worked_out_before_a_maximum_is_taken_and_within_a_sum_a_maximum_of_numbers_is_taken() -> None:
     known = {"places": (1, 2), "x": fmpq(10)}
     with evaluate(False):
-        best, more = MaxOver(i + 1, i, Places), x + MaxOver(i + 1, i, Places)
+        best, more, numbers = MaxOver(i + 1, i, Places), x + MaxOver(i + 1, i, Places), x + MaxOver(i, i, Places)
     assert unicode(typeset(put_in(best, known))) == "max{1 + 1; 2 + 1}"
     assert unicode(typeset(reduced(put_in(best, known)))) == "max{2; 3}"
-    assert unicode(typeset(reduced(put_in(more, known)))) == "10 + 3"
+    assert unicode(typeset(reduced(put_in(more, known)))) == "10 + max{2; 3}"
+    assert unicode(typeset(reduced(put_in(numbers, known)))) == "10 + 2"
     assert put_in(best, known).operations == 1
 
 

@@ -185,7 +185,8 @@ class MaxOf(Greatest):
         return Fence(listed(map(alone, self.args), ";"), "{", "}")
 
     def _inner(self, worked_out: Callable[[Expr], Expr]) -> Expr:
-        return worked_out(self)
+        values = self.func(*map(worked_out, self.args))
+        return worked_out(self) if values == self else values
 
 
 class MaxOver(Over):
