@@ -19,7 +19,7 @@ from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 3
+REVISION = 4
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {

@@ -15,7 +15,7 @@ from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
-REVISION = 3
+REVISION = 4
 
 _STRAIGHT = (read_angle("0"), read_angle("pi"))
 

@@ -25,7 +25,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR gain"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Conventional):

@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 2
+REVISION = 3
 #: The table gives the value of every state, that of the start too: which of them count is a part of the question.
 DISTRACTORS = ("values.*",)
 

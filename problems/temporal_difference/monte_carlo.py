@@ -27,7 +27,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Monte Carlo prediction"
 SOURCE = "Sutton & Barto 2018, sections 5.1 and 6.1"
-REVISION = 2
+REVISION = 3
 
 #: A state; or a state and an action.
 Visited: TypeAlias = str | tuple[str, str]

@@ -17,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Sample average"
 SOURCE = "Sutton & Barto 2018, sections 2.4 and 2.5"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Reversible):

@@ -31,7 +31,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(0)"
 SOURCE = "Sutton & Barto 2018, section 6.1"
-REVISION = 2
+REVISION = 3
 
 
 class AlongRun(ValueRun):
