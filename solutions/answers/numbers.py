@@ -28,6 +28,7 @@ _TIMES = re.compile(rf"(?<![0-9A-Za-z_])((?!0[xX])[0-9.]*[0-9.]|(?<=[0-9])[%{VUL
 _EQUAL = re.compile(r"==|≈|(?<=[^=~≈])~|≡|,?\s(?:or|i\.\s?e\.,?)\s")
 _AGAIN = re.compile(r"(?:i\.\s?e\.,?|or\b|[=≈~]|approx(?:imately)?\b\.?|about\b|ca\b\.?)*\s*", re.IGNORECASE)
 _DECIMAL = re.compile(r"[-+]?\s*(?:[0-9]+(?:\.([0-9]*))?|\.([0-9]+))(?:e([-+]?[0-9]+))?\s*(%)?", re.IGNORECASE)
+_PLAIN = re.compile(r"(-?[0-9]{1,15})(?:\.([0-9]{1,15})|/([1-9][0-9]{0,14}))?")
 _MOST_FORMS = 8
 _ENDLESS = frozenset({"nan", "inf", "infinity", "∞"})
 
@@ -45,6 +46,16 @@ class Reading:
     value: Value
     echo: str
     decimal: bool
+
+
+def plain(text: str) -> Reading | None:
+    """A number that needs no grammar, read at once: 3, -0.75, 3/4; None, if it is anything else."""
+    match = _PLAIN.fullmatch(text)
+    if match is None:
+        return None
+    whole, decimals, below = match.groups()
+    value = fmpq(int(whole + (decimals or "")), int(below or 10 ** len(decimals or "")))
+    return Reading(value, text, decimals is not None)
 
 
 def number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:

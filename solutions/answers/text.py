@@ -28,7 +28,7 @@ from rldrill.solutions.answers.names import (
     the_options,
     unquoted,
 )
-from rldrill.solutions.answers.numbers import Reading, number
+from rldrill.solutions.answers.numbers import Reading, number, plain
 from rldrill.solutions.answers.pasted import laid_out
 from rldrill.solutions.answers.rule import equivalent, is_right
 from rldrill.solutions.answers.source import clean
@@ -74,7 +74,7 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     Raises:
         Unreadable: it is not one number.
     """
-    return _number(clean(laid_out(text)), parameters, Arithmetic())
+    return plain(text.strip()) or _number(clean(laid_out(text)), parameters, Arithmetic())
 
 
 def read_vector(
@@ -195,6 +195,8 @@ def read_table(
     Raises:
         Unreadable: a key is unknown, repeated or missing, or its number cannot be read.
     """
+    if len(keys) == 1 and (reading := plain(text.strip())) is not None:
+        return {keys[0]: reading}
     source = clean(laid_out(text))
     asked = Asked(keys, ends)
     found = by_name(source, asked)
@@ -434,6 +436,8 @@ def _agree(first: Reading, second: Reading) -> bool:
 
 def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -> Reading:
     """Read one number; before its forms may stand what it is, and how it was worked out."""
+    if (reading := plain(source.text)) is not None:
+        return reading
     source = (source.unwrapped("[") or source).replaced(_ROUNDED, lambda match: f"{match[0]}.")
     signs = [index for index, sign in source.outside() if sign in "=≈←"]
     if len(signs) > _FORMS:

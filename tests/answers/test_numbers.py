@@ -1,11 +1,15 @@
 """One number, in all the forms in which people write it: read as what it is, or refused with its readings named."""
 
 import time
+from fractions import Fraction
 
 import pytest
 from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from number_spellings import misread
+from rldrill.solutions.answers.numbers import plain
 from rldrill.solutions.answers.text import Unreadable, read_number
 
 READ = {
@@ -158,3 +162,13 @@ def test_a_first_power_above_a_line_is_shown_in_brackets() -> None:
 def test_a_letter_above_the_line_is_an_exponent(text: str, echo: str) -> None:
     assert read_number(text, ("gamma",)).value == read_number(echo, ("gamma",)).value
     assert read_number(text, ("gamma",)).value != read_number("e*gamma", ("gamma",)).value
+
+
+@given(st.from_regex(r"-?[0-9]{1,6}(\.[0-9]{1,6}|/[1-9][0-9]{0,5})?", fullmatch=True))
+@settings(deadline=None, max_examples=300)
+def test_plain_numbers_are_read_at_once_as_the_grammar_reads_them(text: str) -> None:
+    at_once, with_brackets = plain(text), read_number(f"({text})")
+    assert at_once is not None
+    assert at_once.value == with_brackets.value == fmpq(*Fraction(text).as_integer_ratio())
+    assert at_once.decimal == with_brackets.decimal
+    assert at_once.echo == with_brackets.echo.strip("()") == text
