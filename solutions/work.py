@@ -58,7 +58,8 @@ class Step:
         plain = formula.equation(formula.right)
         if formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
             return plain
-        return replace(plain, left=typeset(self.into.func(*formula.left.args)))
+        left = self.into if self.into.is_Symbol else self.into.func(*formula.left.args)
+        return replace(plain, left=typeset(left))
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
