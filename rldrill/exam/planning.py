@@ -19,8 +19,9 @@ from rldrill.solutions.effort import minutes
 
 #: How many problems are drawn for one place of an exam before the family counts as used up.
 _ATTEMPTS = 400
-#: How many are looked at to find one whose answers nobody else has, and one that keeps yes and no in balance.
-_FRESH, _BALANCED = 60, 6
+#: How many are looked at to find one whose answers nobody else has, the first time and at least later on; and one
+#: that keeps yes and no in balance.
+_FRESH, _AGAIN, _BALANCED = 100, 40, 6
 #: How far the minutes of a version may be from those of the first one.
 _TOLERANCE = Fraction(4, 100)
 
@@ -71,6 +72,7 @@ class _Planner:
     seed: int
     used: set[str] = field(default_factory=set)
     answers: Counter[tuple[int, str, str]] = field(default_factory=Counter)
+    patience: dict[int, int] = field(default_factory=dict)
     first: tuple[Exercise, ...] = ()
     times: tuple[Fraction, ...] = ()  # how long the place of every version takes; none for whatever it takes
 
@@ -94,13 +96,15 @@ class _Planner:
 
     def _best(self, slot: int, index: int, ahead: Fraction) -> Exercise:
         """The first problem that shares nothing; where none is found soon, the one that shares least."""
-        best: tuple[tuple[int, Fraction, int], Exercise] | None = None
+        best: tuple[tuple[Fraction, int, int], Exercise] | None = None
         for tried, exercise in enumerate(self._possible(slot, index), 1):
             price = self._price(slot, exercise, ahead)
             if best is None or price < best[0]:
                 best = price, exercise
-            if not any(best[0]) or tried >= (_FRESH if any(best[0][:2]) else _BALANCED):
+            if not any(best[0]) or tried >= (self.patience.get(slot, _FRESH) if any(best[0][:2]) else _BALANCED):
                 break
+        if best is not None and any(best[0][:2]):  # what was in vain is tried half as long the next time
+            self.patience[slot] = max(_AGAIN, self.patience.get(slot, _FRESH) // 2)
         if best is None:
             place = self.slots[slot]
             name, level = place.family, place.level
@@ -126,11 +130,11 @@ class _Planner:
             if content(exercise) not in self.used and _fits(exercise, place, wanted):
                 yield exercise
 
-    def _price(self, slot: int, exercise: Exercise, ahead: Fraction) -> tuple[int, Fraction, int]:
-        """Answers that somebody has here already, minutes too many or too few, and how one-sided the choices are."""
+    def _price(self, slot: int, exercise: Exercise, ahead: Fraction) -> tuple[Fraction, int, int]:
+        """Minutes too many or too few, answers that somebody has here already, and how one-sided the choices are."""
         same = sum(self.answers[slot, label, answer] for label, answer in told(exercise))
         excess = abs(ahead + self._excess(slot, exercise)) - _TOLERANCE * sum(self.times)
-        return same, max(Fraction(0), excess), self._one_sided(slot, exercise)
+        return max(Fraction(0), excess), same, self._one_sided(slot, exercise)
 
     def _excess(self, slot: int, exercise: Exercise) -> Fraction:
         """By so many minutes a problem takes longer than its place should."""
