@@ -19,9 +19,8 @@ from rldrill.solutions.effort import minutes
 
 #: How many problems are drawn for one place of an exam before the family counts as used up.
 _ATTEMPTS = 400
-#: How many are looked at to find one whose answers nobody else has, the first time and at least later on; and one
-#: that keeps yes and no in balance.
-_FRESH, _AGAIN, _BALANCED = 100, 40, 6
+#: How many are looked at to find one whose answers nobody else has, and one that keeps yes and no in balance.
+_FRESH, _BALANCED = 100, 6
 #: How far the minutes of a version may be from those of the first one.
 _TOLERANCE = Fraction(4, 100)
 
@@ -103,8 +102,9 @@ class _Planner:
                 best = price, exercise
             if not any(best[0]) or tried >= (self.patience.get(slot, _FRESH) if any(best[0][:2]) else _BALANCED):
                 break
-        if best is not None and any(best[0][:2]):  # what was in vain is tried half as long the next time
-            self.patience[slot] = max(_AGAIN, self.patience.get(slot, _FRESH) // 2)
+        if best is not None:  # what was in vain is tried half as long the next time
+            vain = any(best[0][:2])
+            self.patience[slot] = max(_BALANCED, self.patience.get(slot, _FRESH) // 2) if vain else _FRESH
         if best is None:
             place = self.slots[slot]
             name, level = place.family, place.level
