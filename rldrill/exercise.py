@@ -45,10 +45,12 @@ class Exercise:
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
     ``notes`` say what was read otherwise than it is written in the file, such as 0.3333333333333333 as 1/3.
+    ``worth`` has the points of every part where an exam sets them; else they follow the minutes.
     """
 
     solution: Solution
     notes: tuple[str, ...] = ()
+    worth: Mapping[str, int] | None = None
 
     @property
     def problem(self) -> Problem:
@@ -63,7 +65,7 @@ class Exercise:
     @cached_property
     def parts(self) -> tuple[Part, ...]:
         """What is asked, with its points."""
-        worth = points(self.solution)
+        worth = self.worth or points(self.solution)
         return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
 
     def __repr__(self) -> str:
@@ -116,7 +118,7 @@ class Exercise:
         texts = {
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
-        graded = grade(self.solution, texts)
+        graded = grade(self.solution, texts, self.worth)
         return Graded(
             tuple(
                 part

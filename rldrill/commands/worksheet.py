@@ -37,7 +37,8 @@ def command(
 
         rldrill worksheet -n 5 --versions 30 --seed 7 -o quiz.pdf
     """
-    from rldrill.exam.planning import DEFAULT_TITLE, plan
+    from rldrill.exam.blueprint import Blueprint, Entry
+    from rldrill.exam.planning import plan
     from rldrill.exam.selection import fresh_seed
     from rldrill.print.exam_files import check_output, write
     from rldrill.print.paper import paper_of
@@ -47,7 +48,9 @@ def command(
     chosen = fresh_seed() if seed is None else seed
     typer.echo(f"seed {chosen}", err=True)
     with _progress(2 * versions) as advance:
-        exam = plan(names or (), count, level, chosen, versions, title=title or DEFAULT_TITLE, advance=advance)
+        entry = Entry(topic=tuple(names or ()), count=count, level=level)
+        blueprint = Blueprint(problems=(entry,), versions=versions, seed=chosen)
+        exam = plan(blueprint.but(title=title, paper=size.name), advance=advance)
         written = write(exam, output, size, advance)
     _print([str(path) for path in written], as_json=as_json)
 

@@ -1,12 +1,11 @@
 """The files of an exam: a worksheet and a key for every version, and the manifest."""
 
 import errno
-import json
 from collections.abc import Callable
 from pathlib import Path
 
 from rldrill.exam.exam import Exam
-from rldrill.exam.manifest import is_manifest, manifest
+from rldrill.exam.manifest import is_manifest, manifest, written
 from rldrill.print.files import write_bytes_atomically
 from rldrill.print.key import key_source
 from rldrill.print.paper import Paper, pdf
@@ -54,12 +53,12 @@ def write(exam: Exam, output: Path, paper: Paper, advance: Callable[[], None] | 
     for version in exam.versions:
         ending = f"-{version.code}" if len(exam.versions) > 1 else ""
         stem = f"{output.stem}{ending}"
-        files[output.with_name(f"{stem}{output.suffix}")] = pdf(worksheet_source(version, paper))
-        files[output.with_name(f"{stem}-key{output.suffix}")] = pdf(key_source(version, paper))
+        files[output.with_name(f"{stem}{output.suffix}")] = pdf(worksheet_source(exam, version, paper))
+        files[output.with_name(f"{stem}-key{output.suffix}")] = pdf(key_source(exam, version, paper))
         if advance is not None:
             advance()
-    data = json.dumps(manifest(exam, paper.name), ensure_ascii=False, indent=2) + "\n"
-    files[output.with_suffix(".json")] = data.encode()
+    data = written(manifest(exam))
+    files[output.with_suffix(".json")] = data
     for path, content in files.items():
         write_bytes_atomically(path, content)
     return list(files)

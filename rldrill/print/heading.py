@@ -2,23 +2,23 @@
 
 import re
 
-from rldrill.exam.exam import Version, minutes_of, points_of
+from rldrill.exam.exam import Exam, Version, minutes_of, points_of
 from rldrill.exercise import Exercise
 from rldrill.print.paper import Paper, page_setup
 from rldrill.render.mathematics.typst import text
 from rldrill.render.typst_files import typst_file
 
 
-def setup(version: Version, paper: Paper, title: str) -> str:
+def setup(exam: Exam, version: Version, paper: Paper, title: str) -> str:
     """What stands at the head of the source."""
-    right = f"Version {version.code} · seed {version.seed}"
+    right = f"Version {version.code} · seed {exam.seed}"
     head = page_setup(paper, title=f"{title}, version {version.code}", left=title, right=right)
     return head + typst_file("rldrill.print", "problems.typ")
 
 
-def title(version: Version, kind: str) -> str:
+def title(exam: Exam, version: Version, kind: str) -> str:
     """The title of the exam, and which version this is."""
-    words = re.sub(r"(\S{30})", "\\1\u200b", version.title)  # a very long word may be broken
+    words = re.sub(r"(\S{30})", "\\1\u200b", exam.head.title)  # a very long word may be broken
     return (
         "#block(width: 100%, grid(columns: (1fr, auto), column-gutter: 1em, "
         "align: (left + bottom, right + bottom), "

@@ -1,6 +1,6 @@
 """The key of a worksheet: for every problem the answers, each exact and as a decimal, then the whole working."""
 
-from rldrill.exam.exam import Version
+from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.print.heading import heading, setup, title
 from rldrill.print.paper import Paper
@@ -10,11 +10,11 @@ from rldrill.render.typst import block, document
 from rldrill.solutions.answers.rule import RULE
 
 
-def key_source(version: Version, paper: Paper) -> str:
+def key_source(exam: Exam, version: Version, paper: Paper) -> str:
     """The key: for every problem the answers, then the whole working."""
     problems = "".join(_solved(index, item) for index, item in enumerate(version.exercises, 1))
     return (
-        f"{setup(version, paper, f'{version.title} – key')}{title(version, 'Key')}"
+        f"{setup(exam, version, paper, f'{exam.head.title} – key')}{title(exam, version, 'Key')}"
         f"#par[{text(f'Right is {RULE}.')}]\n{problems}"
     )
 

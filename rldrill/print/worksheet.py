@@ -2,7 +2,7 @@
 
 import math
 
-from rldrill.exam.exam import Version, points_of
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.print.heading import heading, setup, title, written_points
 from rldrill.print.paper import Paper
@@ -24,18 +24,18 @@ _PER_LINE = 14
 _COLUMNS = 5
 
 
-def worksheet_source(version: Version, paper: Paper) -> str:
+def worksheet_source(exam: Exam, version: Version, paper: Paper) -> str:
     """The worksheet that is handed out, as Typst source."""
     problems = "".join(_problem(index, item) for index, item in enumerate(version.exercises, 1))
     return (
-        f"{setup(version, paper, version.title)}{typst_file('rldrill.print', 'worksheet.typ')}"
-        f"#packed([{_front(version)}], ({problems}))\n"
+        f"{setup(exam, version, paper, exam.head.title)}{typst_file('rldrill.print', 'worksheet.typ')}"
+        f"#packed([{_front(exam, version)}], ({problems}))\n"
     )
 
 
-def _front(version: Version) -> str:
+def _front(exam: Exam, version: Version) -> str:
     return (
-        f"{title(version, 'Version')}"
+        f"{title(exam, version, 'Version')}"
         "#block(above: 1.6em, grid(columns: (2fr, 1fr), column-gutter: 1.5em, "
         "[Name: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))], "
         "[Date: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))]))\n"
