@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -171,6 +171,36 @@ def codes(path: str | Path) -> tuple[str, ...]:
         FileError: the file cannot be read, or is no manifest.
     """
     return tuple(version.code for version in _checked(path).versions)
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """What a manifest says of a version without solving it: whose it is, and its problems in their order.
+
+    ``ids`` holds None for a problem of somebody's own; ``points`` are those of each problem.
+    """
+
+    code: str
+    person: Person | None
+    ids: tuple[str | None, ...]
+    points: tuple[int, ...]
+
+
+def printed(path: str | Path) -> tuple[Printed, ...]:
+    """The versions of a manifest; nothing is solved for it.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return tuple(
+        Printed(
+            version.code,
+            None if version.person is None else Person(version.person.name, version.person.number),
+            tuple(problem.id for problem in version.problems),
+            tuple(sum(part.points for part in problem.parts) for problem in version.problems),
+        )
+        for version in _checked(path).versions
+    )
 
 
 def typst_of(path: str | Path) -> str | None:

@@ -21,7 +21,13 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "paper": ("a4", None, None), "output": (Path("worksheet.pdf"), None, None), "title": (None, None, None),
         "as_json": (False, None, None),
     },
-    verify: {"json": (False, None, None), "show_key": (False, None, None)},
+    verify: {
+        "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),
+        "reports": (None, None, None), "enough": (None, None, None), "feedback": (verify.Feedback.REASON, None, None),
+        "show_key": (False, None, None), "hand_ins": (None, None, None), "allow_files": (False, None, None),
+        "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
+        "json": (False, None, None),
+    },
     solve: {"json": (False, None, None)},
     show: {"json": (False, None, None)},
     sheet: {
