@@ -469,7 +469,7 @@ def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:
     assert report.score == Score(Fraction(1), 2)
 
 
-@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
 @given(
     content=st.binary(max_size=120)
     | st.text(st.sampled_from('[]{}",:;=\n \t\\ua1td.oml/-zero#student'), max_size=80).map(str.encode),

@@ -1,5 +1,6 @@
 """``rldrill verify``."""
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
@@ -12,15 +13,17 @@ import typer
 from rldrill.commands.arguments import Json, tell
 
 if TYPE_CHECKING:
-    from rich.console import Console, RenderableType
+    from rich.console import RenderableType
 
-    from rldrill.grading.report import Report, Score, StudentReport
+    from rldrill.grading.report import Report, StudentReport
     from rldrill.render.terminal import Span
 
 NAME = "verify"
 _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
 #: So many things that could not be graded are told one by one.
 _TOLD = 50
+#: Of more students than this the terminal shows the totals only.
+_TABLES = 30
 
 
 class Feedback(Enum):
@@ -111,6 +114,7 @@ def command(
     from rldrill.grading.marking import Rules
     from rldrill.grading.verification import Settings, verify
     from rldrill.problems.errors import UsageError
+    from rldrill.render.encodable import shows_all
 
     if not files:
         raise UsageError("Which answers? Name a file, as in 'rldrill verify answers.toml'.")
@@ -134,11 +138,16 @@ def command(
         _write(report, form, path, told)
     _complain(report)
     if json:
-        print_json(report.to_json(told))
-    elif ("-" not in {path for _, path in wanted}) and told != "none":
-        from rldrill.render.terminal import console
+        from rldrill.grading.reports.data import written
 
-        _print(report, console(), told)
+        typer.echo(written(report, told, ascii_only=not shows_all(sys.stdout.encoding)), nl=False)
+    elif ("-" not in {path for _, path in wanted}) and told != "none":
+        if len(report.students) > _TABLES:
+            from rldrill.grading.reports.text import totals
+
+            typer.echo(totals(report), nl=False)
+        else:
+            _print(report, told)
     raise typer.Exit(report.exit_code)
 
 
@@ -159,8 +168,6 @@ def _complain(report: "Report") -> None:
 @contextmanager
 def _progress() -> Iterator[Callable[[int, int], None] | None]:
     """A line on stderr that counts the students; none where nobody looks."""
-    import sys
-
     if not sys.stderr.isatty():
         yield None
         return
@@ -201,18 +208,15 @@ def _write(report: "Report", form: str, path: str, feedback: str) -> None:
     import os
     from importlib import import_module
 
-    if form == "text":
-        text = _as_text(report, feedback)
-    else:
-        modules = {"json": "data", "csv": "tables", "html": "page"}
-        module = import_module(f"rldrill.grading.reports.{modules.get(form, form)}")
-        text = module.written(report, feedback)
-        if form == "csv" and path != "-":
-            file = Path(path)
-            _put(module.totals(report), file.with_name(f"{file.stem}-totals{file.suffix}"))
-        if form == "github" and (summary := os.environ.get("GITHUB_STEP_SUMMARY")):
-            with Path(summary).open("a", encoding="utf-8") as file_:
-                file_.write(module.summary(report, feedback))
+    modules = {"json": "data", "csv": "tables", "html": "page"}
+    module = import_module(f"rldrill.grading.reports.{modules.get(form, form)}")
+    text = module.written(report, feedback)
+    if form == "csv" and path != "-":
+        file = Path(path)
+        _put(module.totals(report), file.with_name(f"{file.stem}-totals{file.suffix}"))
+    if form == "github" and (summary := os.environ.get("GITHUB_STEP_SUMMARY")):
+        with Path(summary).open("a", encoding="utf-8") as page:
+            page.write(module.summary(report, feedback))
     if path == "-":
         typer.echo(text, nl=False)
     else:
@@ -230,23 +234,13 @@ def _put(text: str, path: Path) -> None:
         raise FileError(f"{shown(path)}: it cannot be written ({(error.strerror or str(error)).lower()}).") from None
 
 
-def _as_text(report: "Report", feedback: str) -> str:
-    from io import StringIO
-
-    from rich.console import Console
-
-    file = StringIO()
-    _print(
-        report, Console(file=file, width=140, color_system=None, highlight=False, markup=False, emoji=False), feedback
-    )
-    return file.getvalue()
-
-
-def _print(report: "Report", out: "Console", feedback: str) -> None:
+def _print(report: "Report", feedback: str) -> None:
     from rich.text import Text
 
-    from rldrill.render.terminal import words
+    from rldrill.grading.reports.text import points
+    from rldrill.render.terminal import console, words
 
+    out = console()
     for student in report.students:
         whose = student.student or ("no name" if len(report.students) > 1 else "")
         where = ", ".join(student.paths)
@@ -254,9 +248,9 @@ def _print(report: "Report", out: "Console", feedback: str) -> None:
         out.print(words((named, "bold")))
         if feedback != "none":
             out.print(_table(student, feedback))
-        out.print(Text(f"\nScore: {_points(student.score)}\n"))
+        out.print(Text(f"\nScore: {points(student.score)}\n"))
     if len(report.students) > 1:
-        out.print(Text(f"All together: {_points(report.score)}"))
+        out.print(Text(f"All together: {points(report.score)}"))
 
 
 def _table(student: "StudentReport", feedback: str) -> "RenderableType":
@@ -275,7 +269,3 @@ def _table(student: "StudentReport", feedback: str) -> "RenderableType":
         row: list[Span] = [part.problem, part.part, one_line(judged.read) or "–", verdict, *reason, points, judged.key]
         rows.append(row[: len(header)])
     return table(header, rows, whole=("Part", "Points"), ruled=True)
-
-
-def _points(score: "Score") -> str:
-    return f"{score.points} of {score.of} ({float(100 * score.share):.3g} %)"

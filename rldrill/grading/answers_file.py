@@ -35,7 +35,9 @@ _AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from
 _SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
 _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
 #: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
-_JOINERS = "\u200c\u200d"
+JOINERS = "\u200c\u200d"
+#: No name has more characters.
+_LONGEST = 200
 #: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
 _MOST_BROKEN = 20
 #: A problem's number in an exam.
@@ -175,14 +177,16 @@ def _word(value: object, name: str, place: str) -> str:
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise FileError(f"{place}: '{name}' must be a text; write it in quotes.")
     word = " ".join(unicodedata.normalize("NFC", str(value)).split())
-    if not all(sign.isprintable() or sign in _JOINERS for sign in word):
+    if len(word) > _LONGEST:
+        raise FileError(f"{place}: '{name}' has {len(word)} characters; shorten it.")
+    if not all(sign.isprintable() or sign in JOINERS for sign in word):
         raise FileError(f"{place}: '{name}' holds a character that cannot be printed; retype it.")
     return word
 
 
 def _in_one_line(text: str) -> str:
     """A name that may hold anything, as it can be shown."""
-    return "".join(sign if sign.isprintable() or sign in _JOINERS else repr(sign)[1:-1] for sign in text.strip())[:80]
+    return "".join(sign if sign.isprintable() or sign in JOINERS else repr(sign)[1:-1] for sign in text.strip())[:80]
 
 
 def _tables(text: str, path: Path) -> Iterator[Row]:

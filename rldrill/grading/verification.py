@@ -19,6 +19,8 @@ from rldrill.problems.identity import looks_like_id, split_id
 #: How long the grading of one student may take, and that of a run, in seconds.
 STUDENT = 30.0
 RUN = 3600.0
+#: So much of an answer is kept to be shown.
+SHOWN = 1000
 #: Which of several hand-ins of one student counts.
 HAND_INS = ("last", "first", "best")
 
@@ -176,9 +178,8 @@ class _Run:
             if entry is None:
                 yield MarkedPart(task.name, label, "", judged, slot=slot)
             else:
-                yield MarkedPart(
-                    task.name, label, entry.text, judged, shown(entry.path), entry.line, entry.column, slot
-                )
+                typed = entry.text if len(entry.text) <= SHOWN else f"{entry.text[:SHOWN]}…"
+                yield MarkedPart(task.name, label, typed, judged, shown(entry.path), entry.line, entry.column, slot)
 
     def _tasks(self, sitting: Sitting, entries: Sequence[Entry]) -> tuple[list[tuple[int, Task]], tuple[str, ...]]:
         """What is to be marked, with its place in the exam; and what is not."""

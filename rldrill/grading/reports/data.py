@@ -1,19 +1,24 @@
 """The report as JSON, and the schema of it."""
 
 import json
+import re
 from typing import Any
 
 from rldrill.grading.report import FEEDBACK, FORMAT, MISSING, Report
 from rldrill.solutions.answers.judging import Outcome
+
+#: What JSON leaves as it is, and terminals obey: the second set of control characters, and changes of direction.
+_CONTROLS = re.compile("[\x7f-\x9f\u200e\u200f\u202a-\u202e\u2028\u2029\u2066-\u2069]")
 
 _TEXT: dict[str, Any] = {"type": "string"}
 _TEXT_OR_NOTHING: dict[str, Any] = {"type": ["string", "null"]}
 _LINE: dict[str, Any] = {"type": ["integer", "null"], "minimum": 1}
 
 
-def written(report: Report, feedback: str) -> str:
-    """The report as JSON."""
-    return json.dumps(report.to_json(feedback), ensure_ascii=False, indent=2) + "\n"
+def written(report: Report, feedback: str, *, ascii_only: bool = False) -> str:
+    """The report as JSON; what controls a terminal is escaped in it."""
+    text = json.dumps(report.to_json(feedback), ensure_ascii=ascii_only, indent=2)
+    return _CONTROLS.sub(lambda sign: f"\\u{ord(sign[0]):04x}", text) + "\n"
 
 
 def schema() -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """What is said of one part, as far as a report tells it."""
 
+from rldrill.grading.answers_file import JOINERS
 from rldrill.grading.report import FEEDBACK, MarkedPart
 
 
@@ -16,4 +17,4 @@ def sentence(part: MarkedPart, feedback: str) -> str:
 
 def one_line(text: str) -> str:
     """A text that can be shown anywhere: what controls a terminal, and line ends, are written out."""
-    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)
+    return "".join(sign if sign.isprintable() or sign in JOINERS else repr(sign)[1:-1] for sign in text)
