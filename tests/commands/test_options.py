@@ -28,7 +28,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
         "json": (False, None, None),
     },
-    solve: {"json": (False, None, None)},
+    solve: {"json": (False, None, None), "schema": (None, None, None)},
     show: {"json": (False, None, None)},
     sheet: {
         "output": (None, None, None), "paper": ("a4", None, None), "latex": (False, None, None),
@@ -40,7 +40,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "number": (10, 1, 10**6), "level": (None, 1, 3), "seed": (None, 0, None), "answers": (False, None, None),
         "more": (None, None, None),
     },
-    audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "json": (False, None, None)},
+    audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "exam": (None, None, None), "json": (False, None, None)},
 }  # fmt: skip
 _ARGUMENTS = {"names", "files", "problem", "family"}
 
