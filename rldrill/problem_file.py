@@ -16,7 +16,7 @@ _IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
 def schema_of(name: str) -> dict[str, Any]:
     """The JSON Schema of the problem files of a family, for editors and other programs.
 
-    A model may lie in a file of its own (``{ file = "model.csv" }``): the schema is that of the file without such names.
+    It is that of a file that holds its model itself, and names no other file (``{ file = "model.csv" }``).
 
     Raises:
         UsageError: there is no such family.

@@ -7,7 +7,6 @@ from pathlib import Path
 from rldrill.exam.manifest import Printed, printed, read_exam
 from rldrill.files import read_text, shown
 from rldrill.grading.answers_file import PLACE, Entry, table
-from rldrill.grading.marking import Ref
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import looks_like_id, split_id
 
@@ -41,7 +40,7 @@ class Assignment:
     def __init__(self, manifest: Path, version: str | None = None, roster: Path | None = None) -> None:
         self.manifest = manifest
         exam = read_exam(manifest)[0]
-        self.title, self.partial = exam.head.title, exam.partial
+        self.title, self.partial, self._ids_printed = exam.head.title, exam.partial, exam.layout.ids
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None
         self._roster: dict[str, Sitting] = {}
@@ -80,6 +79,8 @@ class Assignment:
             return number - 1 if number <= len(version.ids) else f"the exam has {len(version.ids)} problems, no {name}"
         if not looks_like_id(name):
             return f"{name!r} is a file of one's own"
+        if not self._ids_printed:  # nor is it told which exist: by trying them out the keys could be found
+            return f"{name} is an ID, and the problems of this exam are called by their numbers"
         family, level, seed, revision = split_id(name)
         for place, printed_id in enumerate(version.ids):
             if printed_id is None or not looks_like_id(printed_id):
@@ -88,18 +89,18 @@ class Assignment:
             if other[:3] == (family, level, seed):
                 if revision in (None, other[3]):
                     return place
-                return f"{name} is of another revision than the exam's {printed_id}"
+                return f"{name} is of another revision than the exam's"
         for each in self.versions.values():
             if any(one and looks_like_id(one) and split_id(one)[:3] == (family, level, seed) for one in each.ids):
                 return f"{name} is of version {each.code}, and version {version.code} was sat"
         same = [one for one in version.ids if one and looks_like_id(one) and split_id(one)[0] == family]
         if same and all(split_id(one)[1] != level for one in same):
-            return f"{name} is of another level than the exam's {same[0]}"
+            return f"{name} is of another level than the exam's"
         return f"{name} is not in this exam"
 
-    def ref(self, version: Printed, place: int) -> Ref:
-        """What the desk loads."""
-        return version.code, place
+    def called(self, version: Printed, place: int) -> str:
+        """What reports call a problem: its ID only where that was printed, for an ID names its own key."""
+        return (self._ids_printed and version.ids[place]) or f"problem {place + 1}"
 
     def _put(self, sitting: Sitting) -> None:
         for name in filter(None, (sitting.number, sitting.student)):

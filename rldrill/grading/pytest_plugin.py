@@ -54,7 +54,7 @@ class Answer(pytest.Item):
         if not self._part.judged.accepted:
             raise WrongAnswer(f"{one_line(self._part.typed)!r}: {one_line(sentence(self._part, 'reason'))}")
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:  # type: ignore[override]
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """The sentence alone; a traceback where it is no wrong answer."""
         if isinstance(excinfo.value, WrongAnswer):
             return str(excinfo.value)

@@ -195,7 +195,7 @@ class _Run:
             else:
                 extra[f"{entry.where}: {place}; it is not marked."] = None
         tasks = [
-            (place + 1, Task((version.code, place), version.ids[place] or f"problem {place + 1}", tuple(found)))
+            (place + 1, Task((version.code, place), self._assignment.called(version, place), tuple(found)))
             for place, found in answered.items()
         ]
         return tasks, tuple(extra)

@@ -1,6 +1,7 @@
 """An exam is graded as it was given out: exactly its problems, all of them, whatever a file of answers says."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ import pytest
 
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.blueprint import Entry as Asked
-from rldrill.exam.exam import Person
+from rldrill.exam.exam import Layout, Person
 from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
@@ -21,10 +22,11 @@ from rldrill.problems.errors import UsageError
 HEAD = "student,number,problem,part,answer\n"
 
 
-def exam(folder: Path, versions: int = 1, roster: tuple[Person, ...] = ()) -> tuple[Path, Any]:
+def exam(folder: Path, versions: int = 1, roster: tuple[Person, ...] = (), ids: bool = True) -> tuple[Path, Any]:
     """The manifest of an exam of td-zero (1 part) and return (2 parts), at level 1."""
     asked = (Asked(topic=("td-zero",), level=1), Asked(topic=("return",), level=1))
     made = plan(Blueprint(problems=asked, versions=versions, seed=7), roster=roster)
+    made = replace(made, layout=Layout(ids=ids))
     path = folder / "exam.json"
     path.write_bytes(written(manifest(made)))
     return path, made
@@ -148,6 +150,21 @@ def test_the_printed_givens_are_graded_when_the_family_has_moved_on(tmp_path: Pa
     (ann,) = graded(tmp_path, rows, Assignment(path)).students
     assert [part.judged.verdict for part in ann.parts] == ["missing", "right", "right"]
     assert ann.parts[1].problem == "return/1/5@1"
+
+
+def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, ids=False)
+    version = made.versions[0]
+    seeds = {str(exercise.problem.identity.seed) for exercise in version.exercises}
+    rows = [("Ann", "", "1", "z", "1"), ("Ann", "", "2", "a", "1"), ("Ann", "", "td-zero/2/1", "a", "1")]
+    report = graded(tmp_path, rows, Assignment(path))
+    assert [part.problem for part in report.parts] == ["problem 1", "problem 2", "problem 2"]
+    tried = graded(tmp_path, [("Ann", "", str(version.exercises[0].id), "a", "1")], Assignment(path))
+    assert tried.parts[0].judged.verdict == "missing"
+    assert "called by their numbers" in tried.students[0].extra[0]
+    told = json.dumps(report.to_json("key"), ensure_ascii=False)
+    for seed in seeds:
+        assert f"/{seed}" not in told
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ def _properties(student: StudentReport) -> Iterator[tuple[str, str]]:
 
 
 def _case(student: str, part: MarkedPart, feedback: str) -> Element:
-    case = Element("testcase", classname=student, name=f"{part.name} {part.problem}" if part.slot else part.name)
+    case = Element("testcase", classname=student, name=f"{part.problem} ({part.part})")
     case.set("time", "0")
     if not part.judged.accepted and feedback != "none":
         failure = SubElement(case, "failure", message=one_line(sentence(part, feedback)), type=part.judged.verdict)
