@@ -1,6 +1,7 @@
 """An assignment: which problems a student was given, and which answers are to none of them."""
 
 import unicodedata
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -79,8 +80,11 @@ class Assignment:
             return number - 1 if number <= len(version.ids) else f"the exam has {len(version.ids)} problems, no {name}"
         if not looks_like_id(name):
             return f"{name!r} is a file of one's own"
-        if not self._ids_printed:  # nor is it told which exist: by trying them out the keys could be found
-            return f"{name} is an ID, and the problems of this exam are called by their numbers"
+        if (
+            not self._ids_printed
+        ):  # a sitting in the terminal writes whole IDs; more is not told of what was not printed
+            found = version.ids.index(name) if name in version.ids else None
+            return f"{name} is not in this exam" if found is None else found
         family, level, seed, revision = split_id(name)
         for place, printed_id in enumerate(version.ids):
             if printed_id is None or not looks_like_id(printed_id):
@@ -97,6 +101,11 @@ class Assignment:
         if same and all(split_id(one)[1] != level for one in same):
             return f"{name} is of another level than the exam's"
         return f"{name} is not in this exam"
+
+    def guesses(self, entries: Sequence[Entry], version: Printed) -> bool:
+        """Whether somebody tries IDs out, to learn which ones the exam has, and redraw their keys."""
+        ids = {entry.problem for entry in entries if looks_like_id(entry.problem)}
+        return not self._ids_printed and len(ids) > 2 * len(version.ids) + 10
 
     def called(self, version: Printed, place: int) -> str:
         """What reports call a problem: its ID only where that was printed, for an ID names its own key."""

@@ -188,9 +188,12 @@ class _Run:
             return self._named(entries), ()
         answered: dict[int, list[Entry]] = {place: [] for place in range(len(version.ids))}
         extra: dict[str, None] = {}
+        guesses = self._assignment.guesses(entries, version)
         for entry in entries:
             place = self._assignment.place(entry, version)
-            if isinstance(place, int):
+            if guesses and looks_like_id(entry.problem):
+                extra["So many IDs are guesses; the problems of this exam are called by their numbers."] = None
+            elif isinstance(place, int):
                 answered[place].append(entry)
             else:
                 extra[f"{entry.where}: {place}; it is not marked."] = None

@@ -159,9 +159,15 @@ def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
     rows = [("Ann", "", "1", "z", "1"), ("Ann", "", "2", "a", "1"), ("Ann", "", "td-zero/2/1", "a", "1")]
     report = graded(tmp_path, rows, Assignment(path))
     assert [part.problem for part in report.parts] == ["problem 1", "problem 2", "problem 2"]
-    tried = graded(tmp_path, [("Ann", "", str(version.exercises[0].id), "a", "1")], Assignment(path))
+    # A sitting in the terminal writes whole IDs; of somebody who tries them out none is taken.
+    whole = str(version.exercises[0].id)
+    assert graded(tmp_path, [("Ann", "", whole, "a", "1")], Assignment(path)).parts[0].judged.verdict == "wrong"
+    tries = [("Ann", "", f"td-zero/1/{seed}@2", "a", "1") for seed in range(20)]
+    tried = graded(tmp_path, [*tries, ("Ann", "", whole, "a", "1")], Assignment(path))
     assert tried.parts[0].judged.verdict == "missing"
-    assert "called by their numbers" in tried.students[0].extra[0]
+    assert tried.students[0].extra == (
+        "So many IDs are guesses; the problems of this exam are called by their numbers.",
+    )
     told = json.dumps(report.to_json("key"), ensure_ascii=False)
     for seed in seeds:
         assert f"/{seed}" not in told
