@@ -176,4 +176,6 @@ def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> Non
     text = "\n".join(form.written(report, feedback) for form in forms) + github.summary(report, feedback)
     assert ("21/2" in text) == (feedback == "key")  # the key of (b)
     assert ("misconception" in text) == (feedback != "none")
+    seen = github.summary(report, feedback) + junit.written(report, feedback)
+    assert ("points" in seen) == (feedback != "none")
     assert ("first reward" in text) == (feedback in ("reason", "key"))

@@ -22,14 +22,16 @@ def written(report: Report, feedback: str) -> str:
 
 def summary(report: Report, feedback: str) -> str:
     """The table for ``$GITHUB_STEP_SUMMARY``, as Markdown."""
-    score = report.score
-    lines = [f"### {_cell(report.title or 'rldrill')}: {float(score.points):g} of {score.of} points\n", ""]
-    lines += ["| Student | Problem | Part | Verdict | Points |", "|---|---|---|---|---:|"]
+    score, tells = report.score, feedback != "none"
+    earned = f": {float(score.points):g} of {score.of} points" if tells else ""
+    lines = [f"### {_cell(report.title or 'rldrill')}{earned}\n", ""]
+    lines += ["| Student | Problem | Part | Verdict | Points |", "|---|---|---|---|---:|"] if tells else []
     lines += [
         f"| {_cell(student.student or ', '.join(student.paths))} | {_cell(part.problem)} | {part.part} "
         f"| {_cell(sentence(part, feedback))} | {float(part.score.points):g} of {part.score.of} |"
         for student in report.students
         for part in student.parts
+        if tells
     ]
     lines += [""] + [f"- {_cell(refusal.says)}" for refusal in report.refused]
     lines += [f"- {_cell(said)}" for student in report.students for said in student.extra]

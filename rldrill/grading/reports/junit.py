@@ -29,9 +29,10 @@ def written(report: Report, feedback: str) -> str:
 def _suite(suites: Element, student: StudentReport, feedback: str) -> None:
     name = one_line(student.student or ", ".join(student.paths) or "answers")
     suite = SubElement(suites, "testsuite", name=name)
-    properties = SubElement(suite, "properties")
-    for key, value in _properties(student):
-        SubElement(properties, "property", name=key, value=value)
+    if feedback != "none":
+        properties = SubElement(suite, "properties")
+        for key, value in _properties(student):
+            SubElement(properties, "property", name=key, value=value)
     for part in student.parts:
         suite.append(_case(name, part, feedback))
     _counted(suite)
