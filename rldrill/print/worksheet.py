@@ -85,9 +85,8 @@ def options(part: Part) -> str:
     """What there is to choose from, where there is."""
     if not isinstance(part.kind, parts.Choice):
         return ""
-    return "".join(
-        f"#block[#checkbox #h(0.4em) {text(f'({key}) {option}')}]\n" for key, option in part.kind.options.items()
-    )
+    lines = (text(f"({key}) {option}") for key, option in part.kind.options.items())
+    return "".join(f"#block[#checkbox #h(0.4em) {line}]\n" for line in lines)
 
 
 def _field(exercise: Exercise, part: Part, told: Words) -> str:

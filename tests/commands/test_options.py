@@ -1,7 +1,6 @@
 """What commands do without options, and how much may be asked of them: what courses' scripts rely on."""
 
 import inspect
-from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
@@ -17,9 +16,12 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "minutes": (None, 1, 600),
     },
     worksheet: {
-        "count": (8, 1, 100), "level": (None, 1, 3), "seed": (None, 0, None), "versions": (1, 1, 200),
-        "paper": ("a4", None, None), "output": (Path("worksheet.pdf"), None, None), "title": (None, None, None),
-        "as_json": (False, None, None),
+        "count": (None, 1, 100), "minutes": (None, 1, 600), "level": (None, 1, 3), "exclude": (None, None, None),
+        "seed": (None, 0, None), "versions": (None, 1, 999), "roster": (None, None, None),
+        "paper": (None, None, None), "space": (None, None, None), "solutions": (None, None, None),
+        "ids": (None, None, None), "duplex": (None, None, None), "title": (None, None, None),
+        "output": (None, None, None), "force": (False, None, None), "init": (None, None, None),
+        "source": (None, None, None), "key": (False, None, None), "as_json": (False, None, None),
     },
     verify: {
         "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),

@@ -12,7 +12,6 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent.parent / "shared"))
 
 from layout import Measured, measured
-
 from rldrill.exam.exam import Exam, Head, Layout, Version
 from rldrill.exercise import draw
 from rldrill.print.key import key_source

@@ -149,7 +149,7 @@ def test_mathematics_is_written_explicitly(source: str, written: str) -> None:
 
 
 def test_text_is_a_string_and_mathematics_an_equation() -> None:
-    assert text('a "b" \\ $x$') == r'#"a \"b\" \\ ";#box[$x$]'
+    assert text('a "b" \\ $x$') == r'#"a \"b\" \\ ";#kept("x", $x$)'
 
 
 def long_sum(terms: int) -> Math:
