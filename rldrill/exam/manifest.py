@@ -177,13 +177,13 @@ def codes(path: str | Path) -> tuple[str, ...]:
 class Printed:
     """What a manifest says of a version without solving it: whose it is, and its problems in their order.
 
-    ``ids`` holds None for a problem of somebody's own; ``points`` are those of each problem.
+    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0.
     """
 
     code: str
     person: Person | None
     ids: tuple[str | None, ...]
-    points: tuple[int, ...]
+    slots: tuple[int, ...]
 
 
 def printed(path: str | Path) -> tuple[Printed, ...]:
@@ -197,7 +197,7 @@ def printed(path: str | Path) -> tuple[Printed, ...]:
             version.code,
             None if version.person is None else Person(version.person.name, version.person.number),
             tuple(problem.id for problem in version.problems),
-            tuple(sum(part.points for part in problem.parts) for problem in version.problems),
+            _slots(version),
         )
         for version in _checked(path).versions
     )
@@ -244,9 +244,13 @@ def _made(version: _Version, where: str) -> Version:
         _exercise(problem, f"{where}, version {version.code}, problem {number}")
         for number, problem in enumerate(version.problems, 1)
     )
-    slots = tuple(index if problem.slot is None else problem.slot for index, problem in enumerate(version.problems))
+    slots = _slots(version)
     person = None if version.person is None else Person(version.person.name, version.person.number)
     return Version(version.code, exercises, slots, person)
+
+
+def _slots(version: _Version) -> tuple[int, ...]:
+    return tuple(index if problem.slot is None else problem.slot for index, problem in enumerate(version.problems))
 
 
 def _exercise(entry: _Problem, where: str) -> Exercise:

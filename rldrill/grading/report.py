@@ -71,7 +71,7 @@ class MarkedPart:
         path: the file of answers; empty for what was not answered.
         line: the line of the file, where its format has one for every answer.
         column: the field of the line, in a spreadsheet.
-        slot: the problem's place in the exam, counted from 1; 0 without an exam.
+        slot: the problem's place in the blueprint, which versions have in common, from 1; 0 without an exam.
     """
 
     problem: str

@@ -198,7 +198,10 @@ class _Run:
             else:
                 extra[f"{entry.where}: {place}; it is not marked."] = None
         tasks = [
-            (place + 1, Task((version.code, place), self._assignment.called(version, place), tuple(found)))
+            (
+                version.slots[place] + 1,
+                Task((version.code, place), self._assignment.called(version, place), tuple(found)),
+            )
             for place, found in answered.items()
         ]
         return tasks, tuple(extra)
