@@ -1,18 +1,26 @@
-"""The catalogue is the tree: every file in a topic's folder is a family."""
+"""The catalogue is the tree: every file in a topic's folder is a family.
+
+Packages add trees of their own: an entry point of the group ``rldrill.families`` names a package with the folders
+``problems`` and ``solutions``, laid out as rldrill's own are.
+"""
 
 import difflib
 from collections.abc import Sequence
 from functools import cache
+from importlib.metadata import entry_points
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rldrill.problems.errors import UsageError
+from rldrill.problems.errors import BrokenFamily, UsageError
 from rldrill.problems.headers import Header, header
 
 if TYPE_CHECKING:
     from rldrill.problems.family import Family
 
 _ROOT = Path(__file__).parent
+_OWN = "rldrill"
+_GROUP = "rldrill.families"
 
 #: The order of the sheet; a topic that is not named here comes after these.
 _ORDER = (
@@ -32,15 +40,58 @@ _ORDER = (
 
 
 @cache
-def topics() -> dict[str, tuple[str, ...]]:
-    """Every topic with the names of its families, read from the folders without importing anything."""
-    found = {
+def trees() -> dict[str, Path]:
+    """By package the folders that hold topics: rldrill's own, then those of other packages.
+
+    Raises:
+        BrokenFamily: an entry point names no package with a folder ``problems``.
+    """
+    found = {_OWN: _ROOT}
+    for point in sorted(entry_points(group=_GROUP), key=lambda point: point.value):
+        spec = find_spec(point.value) if point.value.isidentifier() else None
+        places = (spec.submodule_search_locations if spec else None) or ()
+        folder = next((Path(place, "problems") for place in places if Path(place, "problems").is_dir()), None)
+        if folder is None:
+            raise BrokenFamily(
+                f"The entry point {point.name!r} of {_GROUP} names {point.value!r}, which is no package with a folder "
+                "'problems'; correct it, or uninstall what declares it."
+            )
+        found[point.value] = folder
+    return found
+
+
+@cache
+def packages() -> dict[str, str]:
+    """For every family the package that it is of.
+
+    Raises:
+        BrokenFamily: two packages have a family of the same name.
+    """
+    found: dict[str, str] = {}
+    for package, tree in trees().items():
+        for name in (name for names in _topics(tree).values() for name in names):
+            if found.setdefault(name, package) != package:
+                raise BrokenFamily(f"{package}: there is a family {name!r} in {found[name]}; call this one otherwise.")
+    return found
+
+
+def _topics(tree: Path) -> dict[str, tuple[str, ...]]:
+    return {
         folder.name: tuple(
             sorted(file.stem.replace("_", "-") for file in folder.glob("*.py") if file.stem != "__init__")
         )
-        for folder in _ROOT.iterdir()
+        for folder in tree.iterdir()
         if (folder / "__init__.py").is_file()
     }
+
+
+@cache
+def topics() -> dict[str, tuple[str, ...]]:
+    """Every topic with the names of its families, read from the folders without importing anything."""
+    found: dict[str, tuple[str, ...]] = {}
+    for tree in trees().values():
+        for topic, names in _topics(tree).items():
+            found[topic] = (*found.get(topic, ()), *names)
     order = [*[topic for topic in _ORDER if topic in found], *sorted(set(found) - set(_ORDER))]
     return {topic: found[topic] for topic in order}
 
@@ -59,7 +110,8 @@ def family(name: str) -> "Family":
     """
     from rldrill.problems.family import Family
 
-    return Family.load(*_place(name))
+    topic, wanted = _place(name)
+    return Family.load(topic, wanted, packages()[wanted])
 
 
 def headers(names: Sequence[str] = ()) -> tuple[Header, ...]:
@@ -68,7 +120,8 @@ def headers(names: Sequence[str] = ()) -> tuple[Header, ...]:
     Raises:
         UsageError: a name is neither a topic nor a family.
     """
-    return tuple(header(*_place(name)) for name in chosen(names))
+    placed = (_place(name) for name in chosen(names))
+    return tuple(header(topic, name, trees()[packages()[name]]) for topic, name in placed)
 
 
 def selection(names: Sequence[str]) -> tuple["Family", ...]:

@@ -93,16 +93,18 @@ class Family:
     question: Callable[[Any], Question]
     levels: tuple[int, ...] = LEVELS
     distractors: tuple[str, ...] = ()
+    package: str = "rldrill"
 
     @classmethod
-    def load(cls, topic: str, name: str) -> "Family":
-        """Load a family from its module.
+    def load(cls, topic: str, name: str, package: str = "rldrill") -> "Family":
+        """Load a family from its module in a package.
 
         Raises:
             BrokenFamily: the module lacks something that a family must have.
         """
-        module = importlib.import_module(f"rldrill.problems.{topic}.{name.replace('-', '_')}")
+        module = importlib.import_module(f"{package}.problems.{topic}.{name.replace('-', '_')}")
         return cls(
+            package=package,
             name=name,
             topic=topic,
             title=_demanded(module, "TITLE"),

@@ -22,13 +22,13 @@ class Header:
     levels: tuple[int, ...]
 
 
-def header(topic: str, name: str) -> Header:
-    """Read the head of a family's file, down to its first class or function.
+def header(topic: str, name: str, tree: Path) -> Header:
+    """Read the head of a family's file, down to its first class or function; ``tree`` is the folder of the topics.
 
     Raises:
         BrokenFamily: the head lacks something that a family must have.
     """
-    path = Path(__file__).parent / topic / f"{name.replace('-', '_')}.py"
+    path = tree / topic / f"{name.replace('-', '_')}.py"
     head = path.read_text(encoding="utf-8")
     for end in ("\nclass ", "\ndef ", "\n@"):
         head = head.partition(end)[0]

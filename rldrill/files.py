@@ -2,7 +2,9 @@
 
 import json
 import re
+import stat
 import tomllib
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
@@ -51,7 +53,8 @@ def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
     try:
         if path.is_dir():
             raise FileError(f"{where}: this is a directory; name a file in it.")
-        path.stat()
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise FileError(f"{where}: this is no file but a pipe or device; save what it gives to a file.")
         if path.suffix.lower() not in suffixes:
             *others, last = suffixes
             endings = f"{', '.join(others)} or {last}"
@@ -71,11 +74,20 @@ def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
 
 
 def _decoded(content: bytes, where: str) -> str:
+    if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):  # what spreadsheets call Unicode text
+        try:
+            return _without_nulls(content.decode("utf-16"), where)
+        except UnicodeDecodeError:
+            raise FileError(f"{where}: it begins as UTF-16 and is not; save the file as UTF-8.") from None
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise FileError(f"{where}, line {line}: this is not UTF-8 text; save the file as UTF-8.") from None
+    return _without_nulls(text, where)
+
+
+def _without_nulls(text: str, where: str) -> str:
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
         raise FileError(f"{where}, line {line}: there is a null byte, so this is not text; save the file as UTF-8.")

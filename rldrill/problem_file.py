@@ -5,11 +5,35 @@ from typing import Any
 
 from rldrill.files import brief, kind_of, read_data, shown
 from rldrill.model_file import with_files
+from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
 #: The version of the JSON that ``Exercise.data`` gives and that problem files have.
 FORMAT = 1
 _IGNORED = frozenset({"format", "id", "level", "question", "parts", "steps"})
+
+
+def schema_of(name: str) -> dict[str, Any]:
+    """The JSON Schema of the problem files of a family, for editors and other programs.
+
+    It is that of a file that holds its model itself, and names no other file (``{ file = "model.csv" }``).
+
+    Raises:
+        UsageError: there is no such family.
+    """
+    wanted = family(name)
+    given = dict(wanted.schema())
+    hoisted = {"$defs": given.pop("$defs")} if "$defs" in given else {}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"A problem file of {wanted.name}",
+        "description": wanted.summary,
+        "type": "object",
+        "properties": {"format": {"const": FORMAT}, "family": {"const": wanted.name}, "given": given}
+        | {key: {} for key in sorted(_IGNORED - {"format"})},
+        "required": ["family", "given"],
+        "additionalProperties": False,
+    } | hoisted
 
 
 def read_problem(path: str | Path) -> dict[str, Any]:

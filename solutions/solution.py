@@ -37,9 +37,9 @@ def solver(family: Family) -> Solver:
     Raises:
         BrokenFamily: there is none, or it lacks something that a solver must have.
     """
-    name = f"rldrill.solutions.{family.topic}.{family.name.replace('-', '_')}"
-    if importlib.util.find_spec(name) is None:
-        path = name.removeprefix("rldrill.").replace(".", "/")
+    name = f"{family.package}.solutions.{family.topic}.{family.name.replace('-', '_')}"
+    if not _exists(name):
+        path = name.removeprefix(f"{family.package}.").replace(".", "/")
         raise BrokenFamily(f"{family.name}: there is no {path}.py to solve it; write its solver there.")
     module = importlib.import_module(name)
     return Solver(
@@ -49,6 +49,13 @@ def solver(family: Family) -> Solver:
         _demanded(module, "oracle"),
         getattr(module, "possible", _anything),
     )
+
+
+def _exists(name: str) -> bool:
+    try:
+        return importlib.util.find_spec(name) is not None
+    except ModuleNotFoundError:
+        return False  # nor is there its topic's folder
 
 
 def _anything(_: Any) -> bool:

@@ -28,7 +28,7 @@ MAY_IMPORT = {
     "library": {"problems", "solutions", "render"},
     "exam": {"problems", "solutions", "library"},
     "print": {"problems", "solutions", "library", "render", "exam"},
-    "grading": {"problems", "solutions", "library"},
+    "grading": {"problems", "solutions", "library", "exam"},
     "generation": {"problems", "solutions", "library", "render"},
     "history": {"problems"},
     "quiz": {"problems", "solutions", "library", "render", "exam", "history"},

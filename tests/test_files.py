@@ -41,7 +41,7 @@ BAD = [
     ("blank.json", " \n\t", "the file is empty"),
     ("null.toml", 'a = 1\nb = "\0"', "line 2: there is a null byte"),
     ("latin.json", b'{\n"a": "\xe4"}', "line 2: this is not UTF-8"),
-    ("utf16.toml", "a = 1".encode("utf-16"), "not UTF-8"),
+    ("utf16.toml", "a = 1".encode("utf-16") + b"\x00", "begins as UTF-16"),
     ("large.json", b" " * (10**7 + 1), "larger than 10 MB"),
     ("problem.yaml", "a: 1", "must end in .toml or .json"),
     ("problem", "a = 1", "must end in .toml or .json"),

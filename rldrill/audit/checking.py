@@ -2,11 +2,13 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rldrill.audit.figures import Figures
+from rldrill.exam.manifest import read_exam
 from rldrill.exam.selection import MAX_DRAWN
 from rldrill.problems.catalogue import selection
 from rldrill.problems.draws import Draws
@@ -99,14 +101,36 @@ def audit(
             yield finding
 
 
-def examine(solution: Solution, finding: Finding) -> None:
-    """Check one problem, and add what is found."""
+def audit_exam(path: str | Path, progress: Callable[[], None] = lambda: None) -> Iterator[Finding]:
+    """Check every problem of a saved exam, made again from the givens that its manifest holds.
+
+    Args:
+        path: the manifest.
+        progress: called after every version.
+
+    Raises:
+        FileError: the manifest cannot be read, or a problem in it cannot be made.
+    """
+    findings: dict[tuple[str, int], Finding] = {}
+    for make in read_exam(path)[1]:
+        version = make()
+        for number, exercise in enumerate(version.exercises, 1):
+            problem = exercise.problem
+            key = (problem.family.name, problem.level or 0)
+            finding = findings.setdefault(key, Finding(problem.family, problem.level or 0))
+            examine(exercise.solution, finding, f"version {version.code}, problem {number}")
+        progress()
+    yield from findings.values()
+
+
+def examine(solution: Solution, finding: Finding, called: str = "") -> None:
+    """Check one problem, and add what is found; ``called`` is its name where it is not the ID."""
     finding.drawn += 1
     problem = solution.problem
     expected = solver(problem.family).oracle(problem.given)
     for part, other in zip(problem.parts, expected, strict=True):
         answer = solution.answers[part.label]
-        where = f"{problem.identity} ({part.label})"
+        where = f"{called or problem.identity} ({part.label})"
         if not agrees(part, answer, other):
             finding.disagreements.append(f"{where}: exact {answer}, independent {other}")
         if isinstance(part.kind, Policy) and not part.ties:
@@ -114,7 +138,7 @@ def examine(solution: Solution, finding: Finding) -> None:
         if judge(solution, part.label, answer_kind(part.kind).write(answer)).outcome is not Outcome.RIGHT:
             finding.refused.append(where)
     if not solver(problem.family).possible(problem.given):
-        finding.impossible.append(str(problem.identity))
+        finding.impossible.append(called or str(problem.identity))
     finding.figures.add(solution)
     for misconception, answers in solution.mistakes:
         finding.made += 1
@@ -122,7 +146,7 @@ def examine(solution: Solution, finding: Finding) -> None:
         if any(_recognised(solution, part, misconception.name, answers) for part in problem.parts):
             finding.recognised += 1
         else:
-            finding.unrecognised.append(f"{problem.identity}: {misconception.name}")
+            finding.unrecognised.append(f"{called or problem.identity}: {misconception.name}")
 
 
 def agrees(part: Part, answer: Any, expected: Any) -> bool:

@@ -1,5 +1,10 @@
 """``rldrill verify``."""
 
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import Enum
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,22 +15,76 @@ from rldrill.commands.arguments import Json, tell
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from rldrill.grading.verification import Report, Score, StudentReport
+    from rldrill.grading.report import Report, StudentReport
+    from rldrill.render.terminal import Span
 
 NAME = "verify"
 _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
+#: So many things that could not be graded are told one by one.
+_TOLD = 50
+#: Of more students than this the terminal shows the totals only.
+_TABLES = 30
+
+
+class Feedback(Enum):
+    """How much of the judgement is told."""
+
+    NONE = "none"
+    VERDICT = "verdict"
+    REASON = "reason"
+    KEY = "key"
+
+
+class HandIns(Enum):
+    """Which of several hand-ins of one student counts."""
+
+    LAST = "last"
+    FIRST = "first"
+    BEST = "best"
 
 
 def command(
     files: Annotated[
-        list[Path], typer.Argument(metavar="FILE", help="Files of answers: .toml, .json, .csv or .jsonl.")
-    ],
+        list[Path] | None, typer.Argument(metavar="FILE", help="Files of answers: .toml, .json, .csv or .jsonl.")
+    ] = None,
+    exam: Annotated[
+        Path | None, typer.Option("--for", metavar="EXAM.json", help="Grade exactly this exam's problems.")
+    ] = None,
+    version: Annotated[str | None, typer.Option("--version", metavar="A", help="The version that all sat.")] = None,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="FILE.csv", help="Who sat which: student, number, version.")
+    ] = None,
+    reports: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--report",
+            metavar="FORM=PATH",
+            help="Also write text, json, junit, github, gradescope, csv or html; again for more; - is the output.",
+        ),
+    ] = None,
+    enough: Annotated[
+        str | None, typer.Option("--pass", metavar="60%", help="What every student needs; all right, if not given.")
+    ] = None,
+    feedback: Annotated[Feedback, typer.Option("--feedback", help="How much is told.")] = Feedback.REASON,
+    show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too: --feedback key.")] = False,
+    hand_ins: Annotated[
+        HandIns | None, typer.Option("--hand-ins", help="Which counts of one student's; with an exam the last.")
+    ] = None,
+    allow_files: Annotated[
+        bool, typer.Option("--allow-files", help="Open problem files that answers name, beside the answers.")
+    ] = False,
+    strict: Annotated[
+        bool, typer.Option("--strict/--keep-going", help="Grade nothing where something cannot be graded.")
+    ] = False,
+    seconds: Annotated[
+        float, typer.Option("--seconds", min=0.1, max=3600, help="The time to grade one student in.")
+    ] = 30,
+    schema: Annotated[bool, typer.Option("--schema", help="Print the JSON Schema of the report, and end.")] = False,
     json: Json = False,
-    show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too.")] = False,
 ) -> None:
     """Check files of answers, and say of each answer what is wrong and why.
 
-    A file holds a problem's ID (or a problem file), the part, and what was typed:
+    A file holds a problem's ID (or its number in the exam, or a problem file), the part, and what was typed:
 
     \b
       TOML   student = "Ann"
@@ -38,56 +97,175 @@ def command(
 
     An answer is right if it is exact, or right to 3 significant digits.
 
-    A part that was not answered counts as missing.
+    A part that was not answered counts as missing. What cannot be graded is told, and costs nobody else anything.
 
-    Exit codes: 0 all right, 1 not all right, 3 a bad file, 4 no answers.
+    Exit codes: 0 all right, or enough of it; 1 not; 3 something could not be graded; 4 no answers.
 
-    Examples: rldrill verify answers.toml · rldrill verify handed-in/*.csv --json
+    Examples: rldrill verify answers.toml · rldrill verify in/*.csv --for exam.json --pass 50% --report html=class.html
     """
-
     from rldrill.commands.output import print_json
-    from rldrill.grading.verification import verify
 
-    report = verify(files)
-    for failure in report.failures:
-        typer.echo(f"rldrill: {failure.says}", err=True)
-    for problem, notes in report.notes.items():
-        tell(notes, f"{problem}: ")
+    if schema:
+        from rldrill.grading.reports.data import schema as schema_of
+
+        print_json(schema_of())
+        return
+    from rldrill.grading.assignment import Assignment
+    from rldrill.grading.marking import Rules
+    from rldrill.grading.verification import Settings, verify
+    from rldrill.problems.errors import UsageError
+    from rldrill.render.encodable import shows_all
+
+    if not files:
+        raise UsageError("Which answers? Name a file, as in 'rldrill verify answers.toml'.")
+    if exam is None and (version or roster):
+        raise UsageError("A version is one of an exam; name its manifest, --for exam.json.")
+    told = "key" if show_key else feedback.value
+    wanted = [_wanted(each) for each in reports or ()]
+    settings = Settings(
+        assignment=None if exam is None else Assignment(exam, version, roster),
+        allow_files=allow_files,
+        hand_ins=None if hand_ins is None else hand_ins.value,
+        strict=strict,
+        isolated=True,
+        needed=None if enough is None else _share(enough),
+        rules=Rules(causes=told in ("reason", "key"), keys=told == "key"),
+        student=seconds,
+    )
+    with _progress() as advance:
+        report = verify(files, settings, advance)
+    for form, path in wanted:
+        _write(report, form, path, told)
+    _complain(report)
     if json:
-        print_json(report.to_json(show_key=show_key))
-    else:
-        _print(report, show_key=show_key)
+        from rldrill.grading.reports.data import written
+
+        typer.echo(written(report, told, ascii_only=not shows_all(sys.stdout.encoding)), nl=False)
+    elif ("-" not in {path for _, path in wanted}) and told != "none":
+        if len(report.students) > _TABLES:
+            from rldrill.grading.reports.text import totals
+
+            typer.echo(totals(report), nl=False)
+        else:
+            _print(report, told)
     raise typer.Exit(report.exit_code)
 
 
-def _print(report: "Report", *, show_key: bool) -> None:
+def _complain(report: "Report") -> None:
+    """What could not be graded, and what is not marked, beside the output."""
+    from rldrill.grading.reports.said import one_line
+
+    said = [refusal.says for refusal in report.refused]
+    said += [each for student in report.students for each in student.extra]
+    for sentence in said[:_TOLD]:
+        typer.echo(f"rldrill: {one_line(sentence)}", err=True)
+    if len(said) > _TOLD:
+        typer.echo(f"rldrill: and {len(said) - _TOLD} more; --report json=FILE holds all of them.", err=True)
+    for problem, notes in report.notes.items():
+        tell(notes, f"{problem}: ")
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[int, int], None] | None]:
+    """A line on stderr that counts the students; none where nobody looks."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+
+    def advance(count: int, total: int) -> None:
+        if total > 1 and (count % 10 == 0 or count == total):
+            print(f"\rgraded {count} of {total}", end="\n" if count == total else "", file=sys.stderr, flush=True)
+
+    yield advance
+
+
+_FORMS = ("text", "json", "junit", "github", "gradescope", "csv", "html")
+
+
+def _wanted(text: str) -> tuple[str, str]:
+    from rldrill.problems.errors import UsageError
+
+    form, _, path = text.partition("=")
+    if form not in _FORMS or (not path and form != "github"):
+        raise UsageError(f"{text[:60]!r} is no report; say FORM=PATH, with one of {', '.join(_FORMS)} as the form.")
+    return form, path or "-"
+
+
+def _share(text: str) -> Fraction:
+    from rldrill.problems.errors import UsageError
+
+    try:
+        share = Fraction(text.removesuffix("%").strip()) / (100 if text.endswith("%") else 1)
+    except (ValueError, ZeroDivisionError):
+        share = Fraction(-1)
+    if not 0 <= share <= 1:
+        raise UsageError(f"{text[:20]!r} is no share of the points; write one as 60%.")
+    return share
+
+
+def _write(report: "Report", form: str, path: str, feedback: str) -> None:
+    """Write a report to a file, or to the output."""
+    import os
+    from importlib import import_module
+
+    modules = {"json": "data", "csv": "tables", "html": "page"}
+    module = import_module(f"rldrill.grading.reports.{modules.get(form, form)}")
+    text = module.written(report, feedback)
+    if form == "csv" and path != "-":
+        file = Path(path)
+        _put(module.totals(report), file.with_name(f"{file.stem}-totals{file.suffix}"))
+    if form == "github" and (summary := os.environ.get("GITHUB_STEP_SUMMARY")):
+        with Path(summary).open("a", encoding="utf-8") as page:
+            page.write(module.summary(report, feedback))
+    if path == "-":
+        typer.echo(text, nl=False)
+    else:
+        _put(text, Path(path))
+
+
+def _put(text: str, path: Path) -> None:
+    from rldrill.files import shown
+    from rldrill.problems.errors import FileError
+
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="")
+    except OSError as error:
+        raise FileError(f"{shown(path)}: it cannot be written ({(error.strerror or str(error)).lower()}).") from None
+
+
+def _print(report: "Report", feedback: str) -> None:
     from rich.text import Text
 
+    from rldrill.grading.reports.text import points
     from rldrill.render.terminal import console, words
 
     out = console()
-    students = [(file, student) for file in report.files for student in file.students]
-    for file, student in students:
-        whose = student.student or ("no name" if len(file.students) > 1 else "")
-        out.print(words((f"{file.path}: {whose}" if whose else file.path, "bold")))
-        out.print(_table(student, show_key=show_key))
-        out.print(Text(f"\nScore: {_points(student.score)}\n"))
-    if len(students) > 1:
-        out.print(Text(f"All together: {_points(report.score)}"))
+    for student in report.students:
+        whose = student.student or ("no name" if len(report.students) > 1 else "")
+        where = ", ".join(student.paths)
+        named = ": ".join(filter(None, (where, whose))) + (f", version {student.version}" if student.version else "")
+        out.print(words((named, "bold")))
+        if feedback != "none":
+            out.print(_table(student, feedback))
+        out.print(Text(f"\nScore: {points(student.score)}\n"))
+    if len(report.students) > 1:
+        out.print(Text(f"All together: {points(report.score)}"))
 
 
-def _table(student: "StudentReport", *, show_key: bool) -> "RenderableType":
+def _table(student: "StudentReport", feedback: str) -> "RenderableType":
+    from rldrill.grading.reports.said import one_line
     from rldrill.render.terminal import table
 
-    header = ("Problem", "Part", "Read as", "Verdict", "Why", "Points", *(["Key"] if show_key else []))
+    why = feedback in ("reason", "key")
+    header = ["Problem", "Part", "Read as", "Verdict", *(["Why"] if why else []), "Points"]
+    header += ["Key"] if feedback == "key" else []
     rows = []
-    for row in student.parts:
-        why = "" if row.verdict == "right" else row.reason
-        points = f"{row.score.points} of {row.score.of}"
-        verdict = (row.verdict, _COLOURS.get(row.verdict, "red"))
-        rows.append((row.problem, row.part, row.read or "–", verdict, why, points, row.key)[: len(header)])
+    for part in student.parts:
+        judged = part.judged
+        reason = [one_line("" if judged.verdict == "right" else judged.reason)] if why else []
+        points = f"{judged.score.points} of {judged.score.of}"
+        verdict = (judged.verdict, _COLOURS.get(judged.verdict, "red"))
+        row: list[Span] = [part.problem, part.part, one_line(judged.read) or "–", verdict, *reason, points, judged.key]
+        rows.append(row[: len(header)])
     return table(header, rows, whole=("Part", "Points"), ruled=True)
-
-
-def _points(score: "Score") -> str:
-    return f"{score.points} of {score.of} ({float(100 * score.points / score.of):.3g} %)"

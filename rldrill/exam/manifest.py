@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -173,6 +173,36 @@ def codes(path: str | Path) -> tuple[str, ...]:
     return tuple(version.code for version in _checked(path).versions)
 
 
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """What a manifest says of a version without solving it: whose it is, and its problems in their order.
+
+    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0.
+    """
+
+    code: str
+    person: Person | None
+    ids: tuple[str | None, ...]
+    slots: tuple[int, ...]
+
+
+def printed(path: str | Path) -> tuple[Printed, ...]:
+    """The versions of a manifest; nothing is solved for it.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return tuple(
+        Printed(
+            version.code,
+            None if version.person is None else Person(version.person.name, version.person.number),
+            tuple(problem.id for problem in version.problems),
+            _slots(version),
+        )
+        for version in _checked(path).versions
+    )
+
+
 def typst_of(path: str | Path) -> str | None:
     """The version of Typst that a manifest's PDFs were made with, where it says so.
 
@@ -214,9 +244,13 @@ def _made(version: _Version, where: str) -> Version:
         _exercise(problem, f"{where}, version {version.code}, problem {number}")
         for number, problem in enumerate(version.problems, 1)
     )
-    slots = tuple(index if problem.slot is None else problem.slot for index, problem in enumerate(version.problems))
+    slots = _slots(version)
     person = None if version.person is None else Person(version.person.name, version.person.number)
     return Version(version.code, exercises, slots, person)
+
+
+def _slots(version: _Version) -> tuple[int, ...]:
+    return tuple(index if problem.slot is None else problem.slot for index, problem in enumerate(version.problems))
 
 
 def _exercise(entry: _Problem, where: str) -> Exercise:

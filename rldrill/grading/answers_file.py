@@ -1,12 +1,16 @@
-"""Reads files of typed answers (TOML, JSON, CSV, JSON Lines) into one form: an entry for every answer."""
+"""Reads files of typed answers (TOML, JSON, CSV, JSON Lines) into one form: an entry for every answer.
+
+What is wrong with one answer is refused with its line, and costs only that answer.
+"""
 
 import csv
 import io
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TypeAlias
 
 from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
 from rldrill.problems.errors import FileError, NothingToGrade, UsageError
@@ -15,19 +19,29 @@ from rldrill.typed import typed
 
 #: What the names of files of answers end in.
 SUFFIXES = (".toml", ".json", ".csv", ".jsonl", ".ndjson")
-_NAMED = ("student", "problem", "part")
-_COLUMNS = (*_NAMED, "answer")
+_NAMED = ("student", "number", "problem", "part")
+_COLUMNS = ("student", "problem", "part", "answer")
+_KNOWN = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
 #: What other programs call the columns, and the two halves of a name.
 _ALSO = {
     "problem id": "problem", "id": "problem", "question": "problem", "problem part": "part", "response": "answer",
-    "name": "student", "student name": "student", "full name": "student", "student id": "student",
+    "name": "student", "student name": "student", "full name": "student", "student id": "number", "sid": "number",
+    "student number": "number", "matriculation number": "number", "matrikelnummer": "number", "matriculation": "number",
 }  # fmt: skip
 _FIRST = ("first name", "firstname", "given name", "vorname")
 _LAST = ("last name", "lastname", "surname", "family name", "nachname")
 _AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
 _SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
 _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
+#: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
+JOINERS = "\u200c\u200d"
+#: No name has more characters.
+_LONGEST = 200
+#: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
+_MOST_BROKEN = 20
+#: A problem's number in an exam.
+PLACE = re.compile(r"[1-9][0-9]{0,2}")
 _BARE_ID = re.compile(r"^\s*\[?\s*(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
@@ -43,6 +57,8 @@ class Entry:
         line: the line of the file, where its format has one for every answer.
         path: the file of answers.
         commas: whether commas may be decimal commas: semicolons part the file's columns, and no answer has a point.
+        number: the student's matriculation number, where there is a column for it.
+        column: which field of its line the answer is, counted from 1, in a spreadsheet.
     """
 
     student: str
@@ -52,6 +68,8 @@ class Entry:
     line: int | None
     path: Path
     commas: bool = False
+    number: str = ""
+    column: int | None = None
 
     @property
     def where(self) -> str:
@@ -59,8 +77,42 @@ class Entry:
         return shown(self.path) if self.line is None else f"{shown(self.path)}, line {self.line}"
 
 
-def read_answers(path: str | Path) -> tuple[Entry, ...]:
-    """Every answer in a file, in the file's order.
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """What could not be graded: a file, a row, or all that a student answered to a problem.
+
+    Args:
+        path: the file of answers, as it is shown.
+        line: the line, where it is one.
+        student: whose it is; empty where that is not known.
+        says: the sentence with the place, the reason and what to do.
+        exit_code: 3 for what is unreadable, 4 for a file without answers.
+        problem: the problem, where it is known.
+    """
+
+    path: str
+    line: int | None
+    student: str
+    says: str
+    exit_code: int = FileError.exit_code
+    problem: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class HandedIn:
+    """What a file of answers holds: the answers, and what of it could not be read."""
+
+    path: Path
+    entries: tuple[Entry, ...]
+    refused: tuple[Refusal, ...] = field(default=())
+
+
+#: An answer, or what is wrong with its line.
+Row: TypeAlias = Entry | Refusal
+
+
+def read_answers(path: str | Path) -> HandedIn:
+    """Every answer in a file, in the file's order; what is wrong with single answers is told beside.
 
     Raises:
         FileError: the file cannot be read, or is not a file of answers.
@@ -70,27 +122,43 @@ def read_answers(path: str | Path) -> tuple[Entry, ...]:
     text = read_text(path, SUFFIXES)
     suffix = path.suffix.lower()
     if not text.strip():
-        entries: tuple[Entry, ...] = ()
+        rows: tuple[Row, ...] = ()
     elif suffix == ".csv":
-        entries = tuple(_csv(text, path))
+        rows = tuple(_csv(text, path))
     elif suffix in DATA_SUFFIXES:
-        entries = tuple(_tables(text, path))
+        rows = tuple(_tables(text, path))
     else:
-        entries = tuple(_json_lines(text, path))
-    if not any(entry.text.strip() for entry in entries):
+        rows = tuple(_json_lines(text, path))
+    entries = tuple(row for row in rows if isinstance(row, Entry))
+    refused = tuple(row for row in rows if isinstance(row, Refusal))
+    if not refused and not any(entry.text.strip() for entry in entries):
         raise NothingToGrade(f"{shown(path)}: there are no answers in it; write some, or leave it out.")
-    return entries
+    return HandedIn(path, entries, refused)
 
 
-def _entry(fields: Mapping[str, object], line: int | None, path: Path) -> Entry:
+def _row(fields: Mapping[str, object], line: int | None, path: Path, column: int | None = None) -> Row:
+    """An entry from what a file holds, or why there is none."""
+    try:
+        return _entry(fields, line, path, column)
+    except FileError as error:
+        student = fields.get("student") or fields.get("number")
+        whose = student if isinstance(student, str | int) else ""
+        return Refusal(shown(path), line, _in_one_line(str(whose)), str(error))
+
+
+def _entry(fields: Mapping[str, object], line: int | None, path: Path, column: int | None) -> Entry:
     """An entry from what a file holds.
 
     Raises:
         FileError: a field is not what it should be.
     """
     place = Entry("", "", "", "", line, path).where
-    student, problem, part = (_word(fields.get(column), column, place) for column in _NAMED)
-    if not looks_like_id(problem) and Path(problem).suffix.lower() not in DATA_SUFFIXES:
+    student, number, problem, part = (_word(fields.get(name), name, place) for name in _NAMED)
+    if (
+        not looks_like_id(problem)
+        and not PLACE.fullmatch(problem)
+        and Path(problem).suffix.lower() not in DATA_SUFFIXES
+    ):
         raise FileError(
             f"{place}: {_quoted(problem)} is neither a problem ID nor a problem file; "
             "IDs look like value-iteration/2/7 (family/level 1-3/seed)."
@@ -99,22 +167,29 @@ def _entry(fields: Mapping[str, object], line: int | None, path: Path) -> Entry:
         text = typed(fields.get("answer"), f"{place}: the answer to {problem}")
     except UsageError as error:
         raise FileError(str(error)) from None
-    return Entry(student, problem, part, text, line, path)
+    return Entry(student or number, problem, part, text, line, path, number=number, column=column)
 
 
-def _word(value: object, field: str, place: str) -> str:
+def _word(value: object, name: str, place: str) -> str:
     """A name in one line; whole numbers are taken too, for students are often numbered."""
     if value is None:
         return ""
     if isinstance(value, bool) or not isinstance(value, str | int):
-        raise FileError(f"{place}: '{field}' must be a text; write it in quotes.")
-    word = unicodedata.normalize("NFC", str(value).strip())
-    if not word.isprintable():
-        raise FileError(f"{place}: '{field}' holds a character that cannot be printed; retype it.")
+        raise FileError(f"{place}: '{name}' must be a text; write it in quotes.")
+    word = " ".join(unicodedata.normalize("NFC", str(value)).split())
+    if len(word) > _LONGEST:
+        raise FileError(f"{place}: '{name}' has {len(word)} characters; shorten it.")
+    if not all(sign.isprintable() or sign in JOINERS for sign in word):
+        raise FileError(f"{place}: '{name}' holds a character that cannot be printed; retype it.")
     return word
 
 
-def _tables(text: str, path: Path) -> Iterator[Entry]:
+def _in_one_line(text: str) -> str:
+    """A name that may hold anything, as it can be shown."""
+    return "".join(sign if sign.isprintable() or sign in JOINERS else repr(sign)[1:-1] for sign in text.strip())[:80]
+
+
+def _tables(text: str, path: Path) -> Iterator[Row]:
     """TOML and JSON: problem → part → answer, or problem → answer where there is one part."""
     where = shown(path)
     try:
@@ -134,67 +209,115 @@ def _tables(text: str, path: Path) -> Iterator[Entry]:
     for problem, parts in answers.items():
         for part, answer in parts.items() if isinstance(parts, dict) else [("", parts)]:
             fields = {"student": student, "problem": problem, "part": part, "answer": answer}
-            yield _entry(fields, None, path)
+            yield _row(fields, None, path)
 
 
-def _json_lines(text: str, path: Path) -> Iterator[Entry]:
+def _json_lines(text: str, path: Path) -> Iterator[Row]:
     """One object a line, with the columns of the CSV as its fields."""
     for number, line in enumerate(text.split("\n"), 1):
         if not line.strip():
             continue
-        data = parse_line(line, path, number)
-        here = f"{shown(path)}, line {number}"
-        if not isinstance(data, dict):
-            raise FileError(f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.')
-        for field in _NEEDED:
-            if field not in data:
-                raise FileError(f"{here}: the field '{field}' is missing; give it.")
-        yield _entry(data, number, path)
+        try:
+            data = _object(line, path, number)
+        except FileError as error:
+            yield Refusal(shown(path), number, "", str(error))
+        else:
+            yield _row(data, number, path)
 
 
-def _csv(text: str, path: Path) -> Iterator[Entry]:
+def _object(line: str, path: Path, number: int) -> dict[str, object]:
+    data = parse_line(line, path, number)
+    here = f"{shown(path)}, line {number}"
+    if not isinstance(data, dict):
+        raise FileError(f'{here}: a line is an object, as in {{"problem": "td-zero/2/7", "answer": "7/2"}}.')
+    for name in _NEEDED:
+        if name not in data:
+            raise FileError(f"{here}: the field '{name}' is missing; give it.")
+    return data
+
+
+def _csv(text: str, path: Path) -> Iterator[Row]:
     """A header line that names the columns, then one answer a line."""
+    separator, header, records = table(text, path, _COLUMNS, _NEEDED)
+    column = header.index("answer") + 1
+    rows = [
+        Refusal(shown(path), line, _whose(found), found["says"])
+        if "says" in found
+        else _row({name: found[name] for name in _KNOWN if name in found}, line, path, column)
+        for line, found in records
+    ]
+    commas = separator == ";" and not any(isinstance(row, Entry) and _POINT.search(row.text) for row in rows)
+    return iter([replace(row, commas=True) if commas and isinstance(row, Entry) else row for row in rows])
+
+
+def _whose(found: Mapping[str, str]) -> str:
+    return _in_one_line(found.get("student") or found.get("number") or "")
+
+
+def table(
+    text: str, path: Path, wanted: Sequence[str], needed: Sequence[str]
+) -> tuple[str, Sequence[str], Iterator[tuple[int, dict[str, str]]]]:
+    """What separates the columns of a CSV file, their names, and its rows with their lines.
+
+    First and last name become the student. A row that cannot be read has what is wrong with it under ``says``.
+
+    Args:
+        text: what the file holds.
+        path: the file, for complaints.
+        wanted: the columns as they are told.
+        needed: those of them that must be there.
+
+    Raises:
+        FileError: a needed column is missing, or one stands twice.
+    """
     where = shown(path)
-    separator, first, text = _separator(text)
-    records = ((line + first, fields) for line, fields in _numbered(text, separator, where))
+    separator, first, text = _separator(text, wanted)
+    records = _numbered(text, separator, first, where)
     line, named = next(((line, fields) for line, fields in records if any(map(str.strip, fields))), (1, []))
+    if isinstance(named, str):
+        raise FileError(named)
     header = _names(named)
     while header and not header[-1]:
         del header[-1]
-    missing = [column for column in _NEEDED if column not in header]
+    missing = [column for column in needed if column not in header]
     if missing:
         raise FileError(
             f"{where}, line {line}: the column '{missing[0]}' is missing; "
-            f"the first line names the columns: {','.join(_COLUMNS)}."
+            f"the first line names the columns: {','.join(wanted)}."
         )
-    for column in _COLUMNS:
+    for column in {*_KNOWN, *wanted}:
         if header.count(column) > 1:
             raise FileError(f"{where}, line {line}: the column '{column}' stands twice; keep one of them.")
-    entries = [_record(header, fields, line, path) for line, fields in records if any(map(str.strip, fields))]
-    commas = separator == ";" and not any(_POINT.search(entry.text) for entry in entries)
-    return (replace(entry, commas=commas) for entry in entries)
+    rows = (
+        (line, {"says": fields} if isinstance(fields, str) else _record(header, fields, f"{where}, line {line}"))
+        for line, fields in records
+        if isinstance(fields, str) or any(map(str.strip, fields))
+    )
+    return separator, header, rows
 
 
-def _record(header: Sequence[str], fields: Sequence[str], line: int, path: Path) -> Entry:
-    """An answer in a line of a CSV file; spreadsheets leave blank fields at its end."""
+def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[str, str]:
+    """A line of a CSV file; spreadsheets leave blank fields at its end."""
     fields = list(fields)
     while len(fields) > len(header) and not fields[-1].strip():
         del fields[-1]
+    named = zip(header, fields, strict=False)
+    found = {name: _AS_TEXT.sub(r"\1", field.strip()) for name, field in named if name and name != "says"}
+    whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
+    found = {"student": whole} | found if whole else found
     if len(fields) != len(header):
-        raise FileError(
-            f"{shown(path)}, line {line}: {len(fields)} fields where the first line names {len(header)}; "
+        found["says"] = (
+            f"{where}: {len(fields)} fields where the first line names {len(header)}; "
             "put an answer that holds the separator in double quotes."
         )
-    found = {name: _AS_TEXT.sub(r"\1", field.strip()) for name, field in zip(header, fields, strict=True) if name}
-    whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
-    return _entry({"student": whole} | found if whole else found, line, path)
+    return found
 
 
 def _half(found: Mapping[str, str], names: Sequence[str]) -> str:
     return next((found[name].strip() for name in names if name in found), "")
 
 
-def _separator(text: str) -> tuple[str, int, str]:
+def _separator(text: str, wanted: Sequence[str]) -> tuple[str, int, str]:
     """What separates the columns, how many lines come before the header, and the text from there on.
 
     Spreadsheets may say it in a line of its own, ``sep=;``; else the header decides.
@@ -202,7 +325,7 @@ def _separator(text: str) -> tuple[str, int, str]:
     if told := _SEPARATED.match(text):
         return told[1], text.count("\n", 0, told.end()), text[told.end() :]
     first = text.lstrip("\r\n").partition("\n")[0]
-    return max(",;\t", key=lambda sign: len(set(_COLUMNS) & set(_names(first.split(sign))))), 0, text
+    return max(",;\t", key=lambda sign: len(set(wanted) & set(_names(first.split(sign))))), 0, text
 
 
 def _names(fields: Sequence[str]) -> list[str]:
@@ -210,15 +333,29 @@ def _names(fields: Sequence[str]) -> list[str]:
     return [_ALSO[name] if _ALSO.get(name) not in (None, *names) else name for name in names]
 
 
-def _numbered(text: str, separator: str, where: str) -> Iterator[tuple[int, list[str]]]:
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
-    line = 1
-    try:
-        for fields in reader:
-            yield line, fields
-            line = reader.line_num + 1
-    except csv.Error as error:
-        raise FileError(f"{where}, line {line}: its quotes are broken ({error}); fix them.") from None
+def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:
+    """The records with the lines where they begin, or a sentence where the quotes of one are broken.
+
+    Reading goes on in the line after that where such a record begins: an unclosed quote takes no other rows with it.
+    """
+    lines = io.StringIO(text, newline="").readlines()
+    start = 0
+    for _ in range(_MOST_BROKEN):
+        reader = csv.reader(lines[start:], delimiter=separator, strict=True)
+        begun = start
+        try:
+            for fields in reader:
+                yield begun + before + 1, fields
+                begun = start + reader.line_num
+            return
+        except csv.Error as error:
+            line = begun + before + 1
+            yield line, f"{where}, line {line}: its quotes are broken ({error}); fix them."
+            start = begun + 1
+    yield (
+        start + before + 1,
+        f"{where}, line {start + before + 1}: {_MOST_BROKEN} rows before have broken quotes; the rest is not read.",
+    )
 
 
 def _quoted(text: str) -> str:

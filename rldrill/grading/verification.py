@@ -1,313 +1,249 @@
 """Judges files of answers: the library under ``rldrill verify``."""
 
 import os
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from time import perf_counter
 
-from rldrill.diagnosis import Diagnosis
-from rldrill.exercise import Exercise, load
 from rldrill.files import shown
-from rldrill.grading.answers_file import Entry, read_answers
+from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
+from rldrill.grading.assignment import Assignment, Sitting, folded
+from rldrill.grading.isolation import Marker, marker
+from rldrill.grading.marking import Ref, Rules, Task, refusal
+from rldrill.grading.report import MarkedPart, Report, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
-from rldrill.problems.identity import looks_like_id
-from rldrill.problems.parts import Part
-from rldrill.solutions.answers.judging import Verdict
-from rldrill.solutions.answers.kinds import Unreadable, answer_kind
+from rldrill.problems.identity import looks_like_id, split_id
 
-#: The version of the JSON that ``Report.to_json`` gives.
-FORMAT = 1
-#: The verdict on a part that was not answered; all others are values of ``Outcome``.
-MISSING = "missing"
-_COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
-
-
-@dataclass(frozen=True, slots=True)
-class Score:
-    """Points earned, of how many."""
-
-    points: Fraction
-    of: int
-
-    def to_json(self) -> dict[str, Any]:
-        """The score as JSON has it: the points exactly and as a decimal."""
-        return {"exact": str(self.points), "decimal": f"{float(self.points):.6g}", "of": self.of}
+#: How long the grading of one student may take, and that of a run, in seconds.
+STUDENT = 30.0
+RUN = 3600.0
+#: So much of an answer is kept to be shown.
+SHOWN = 1000
+#: Which of several hand-ins of one student counts.
+HAND_INS = ("last", "first", "best")
 
 
 @dataclass(frozen=True, slots=True)
-class MarkedPart:
-    """The judgement of one part of one problem.
+class Settings:
+    """What is graded, and how.
 
     Args:
-        problem: the problem's ID with its revision, or its file as the answers name it.
-        part: the label of the part.
-        typed: what was typed.
-        read: how that was read; empty if it was not.
-        verdict: a value of ``Outcome``, or ``missing``.
-        accepted: whether the part is right, or follows rightly from an earlier answer.
-        reason: one or two sentences to the person.
-        score: what the answer earns, and what a right one would.
-        key: the right answer, as it would be typed.
-        diagnosis: what a wrong answer comes from; None where there is nothing to explain.
-        line: the line of the file, where its format has one for every answer.
+        assignment: the exam; None to grade whatever is answered.
+        allow_files: whether problem files that answers name are opened, in the folder of the answers.
+        hand_ins: which of several hand-ins counts; None, without an exam, grades every file for itself.
+        strict: whether nothing is graded where something cannot be read.
+        isolated: whether marking has a process of its own.
+        needed: the share of the points that every student must reach.
+        rules: how single answers are marked.
+        student: how many seconds the grading of one student may take.
     """
 
-    problem: str
-    part: str
-    typed: str
-    read: str
-    verdict: str
-    accepted: bool
-    reason: str
-    score: Score
-    key: str
-    diagnosis: Diagnosis | None
-    line: int | None
-
-    def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
-        """The part as JSON has it."""
-        data: dict[str, Any] = {"problem": self.problem, "part": self.part, "line": self.line}
-        data |= {"typed": self.typed, "read": self.read, "verdict": self.verdict, "accepted": self.accepted}
-        data |= {"reason": self.reason, "points": self.score.to_json()}
-        data |= {"diagnosis": None if self.diagnosis is None else self.diagnosis.to_json()}
-        return data | ({"key": self.key} if show_key else {})
+    assignment: Assignment | None = None
+    allow_files: bool = False
+    hand_ins: str | None = None
+    strict: bool = False
+    isolated: bool = False
+    needed: Fraction | None = None
+    rules: Rules = field(default_factory=Rules)
+    student: float = STUDENT
 
 
-@dataclass(frozen=True, slots=True)
-class StudentReport:
-    """The answers of one student in one file; the name is empty where the file gives none."""
-
-    student: str
-    parts: tuple[MarkedPart, ...]
-
-    @property
-    def score(self) -> Score:
-        """The points of all parts."""
-        return _total(part.score for part in self.parts)
-
-
-@dataclass(frozen=True, slots=True)
-class FileReport:
-    """One file of answers."""
-
-    path: str
-    students: tuple[StudentReport, ...]
-
-    @property
-    def score(self) -> Score:
-        """The points of all students."""
-        return _total(student.score for student in self.students)
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """A file that could not be judged, the sentence that says why, and the exit code of that."""
-
-    path: str
-    says: str
-    exit_code: int
-
-
-@dataclass(frozen=True, slots=True)
-class Report:
-    """The judgement of some files.
+def verify(
+    paths: Iterable[str | Path], settings: Settings | None = None, advance: Callable[[int, int], None] | None = None
+) -> Report:
+    """Judge files of answers; what cannot be graded is told, and does not stop the rest.
 
     Args:
-        files: those that could be judged.
-        failures: those that could not.
-        notes: by problem file, what was read in it otherwise than it is written, such as 0.3333333333333333 as 1/3.
+        paths: the files.
+        settings: what is graded, and how.
+        advance: called with how many students are graded, and how many there are.
     """
-
-    files: tuple[FileReport, ...]
-    failures: tuple[Failure, ...] = ()
-    notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    @property
-    def parts(self) -> tuple[MarkedPart, ...]:
-        """The parts of all files."""
-        return tuple(part for file in self.files for student in file.students for part in student.parts)
-
-    @property
-    def score(self) -> Score:
-        """The points of all files."""
-        return _total(file.score for file in self.files)
-
-    @property
-    def exit_code(self) -> int:
-        """0 all right, 1 not all right, 3 a file was unreadable, 4 no file held an answer."""
-        codes = {failure.exit_code for failure in self.failures}
-        if FileError.exit_code in codes:
-            return FileError.exit_code
-        if not self.files:
-            return NothingToGrade.exit_code
-        return int(bool(codes) or not all(part.accepted for part in self.parts))
-
-    def to_json(self, *, show_key: bool = False) -> dict[str, Any]:
-        """The report as versioned JSON; the right answers are in it only if they are asked for."""
-        return {
-            "format": FORMAT,
-            "files": [
-                {
-                    "file": file.path,
-                    "students": [
-                        {
-                            "student": student.student,
-                            "points": student.score.to_json(),
-                            "answers": [part.to_json(show_key=show_key) for part in student.parts],
-                        }
-                        for student in file.students
-                    ],
-                    "points": file.score.to_json(),
-                }
-                for file in self.files
-            ],
-            "failures": [
-                {"file": failure.path, "says": failure.says, "exit_code": failure.exit_code}
-                for failure in self.failures
-            ],
-            "notes": {problem: list(notes) for problem, notes in self.notes.items()},
-            "points": self.score.to_json(),
-            "exit_code": self.exit_code,
-        }
-
-
-def verify(paths: Iterable[str | Path]) -> Report:
-    """Judge files of answers; a file that cannot be judged becomes a failure and does not stop the others."""
-    problems = _Problems()
-    files: list[FileReport] = []
-    failures: list[Failure] = []
+    settings = settings or Settings()
+    handed: list[HandedIn] = []
+    refused: list[Refusal] = []
     for path in paths:
         try:
-            files.append(FileReport(shown(path), tuple(_students(read_answers(path), problems))))
+            handed.append(read_answers(path))
+            refused += handed[-1].refused
         except (FileError, NothingToGrade) as error:
-            failures.append(Failure(shown(path), str(error), error.exit_code))
-    return Report(tuple(files), tuple(failures), problems.notes)
-
-
-class _Problems:
-    """The problems that answers name, each loaded once."""
-
-    def __init__(self) -> None:
-        self._loaded: dict[str, Exercise] = {}
-
-    @property
-    def notes(self) -> dict[str, tuple[str, ...]]:
-        """By problem file, what was read otherwise than it is written."""
-        return {shown(name): exercise.notes for name, exercise in self._loaded.items() if exercise.notes}
-
-    def of(self, entry: Entry) -> Exercise:
-        """The problem that an answer is for.
-
-        Raises:
-            FileError: it does not exist or is broken.
-        """
-        name = entry.problem if looks_like_id(entry.problem) else str(entry.path.parent / entry.problem)
-        if name not in self._loaded:
-            try:
-                self._loaded[name] = load(name)
-            except UserError as error:
-                raise FileError(f"{entry.where}: {error}") from None
-        return self._loaded[name]
+            refused.append(Refusal(shown(path), None, "", str(error), error.exit_code))
+    if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
+        return Report((), tuple(refused))
+    run = _Run(settings, refused)
+    students = list(run.students(handed))
+    manifest = None if settings.assignment is None else settings.assignment.manifest
+    with marker(manifest, run.rules, isolated=settings.isolated) as desk:
+        reports = []
+        for count, student in enumerate(students, 1):
+            report = run.report(student, desk)
+            if report is not None:
+                reports.append(report)
+            if advance is not None:
+                advance(count, len(students))
+    title = "" if settings.assignment is None else settings.assignment.title
+    if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
+        reports = []
+    return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed)
 
 
 @dataclass(slots=True)
-class _Submission:
-    """What one student answered to one problem."""
+class _Student:
+    """One student's answers, one list for every file."""
 
-    exercise: Exercise
-    name: str
-    entries: dict[str, Entry] = field(default_factory=dict)
+    sitting: Sitting
+    hand_ins: dict[Path, list[Entry]] = field(default_factory=dict)
 
-    def put(self, entry: Entry) -> None:
-        """Take an answer in.
 
-        Raises:
-            FileError: the problem has no such part, or the part has been answered already.
-        """
-        label = self._label(entry)
-        before = self.entries.setdefault(label, entry)
-        if before is not entry:
-            lines = "" if entry.line is None else f" (first in line {before.line})"
-            whose = f" by {entry.student}" if entry.student else ""
-            raise FileError(f"{entry.where}: {self.name} ({label}) is answered twice{whose}{lines}; keep one answer.")
+class _Run:
+    """One run of grading; what cannot be graded is added to ``refused``."""
 
-    def _label(self, entry: Entry) -> str:
-        labels = [part.label for part in self.exercise.parts]
-        wanted = entry.part.strip(" ().").lower()
-        if wanted in labels:
-            return wanted
-        if not wanted and len(labels) == 1:
-            return labels[0]
-        fault = f"there is no part {entry.part[:20]!r}" if wanted else "the part is missing"
-        raise FileError(f"{entry.where}: {fault}; {self.name} has {', '.join(labels)}.")
+    def __init__(self, settings: Settings, refused: list[Refusal]) -> None:
+        self._settings, self._refused = settings, refused
+        self._assignment = settings.assignment
+        self._hand_ins = settings.hand_ins or (HAND_INS[0] if settings.assignment else "")
+        self._begun = perf_counter()
+        self.notes: dict[str, tuple[str, ...]] = {}
 
-    def parts(self) -> Iterator[MarkedPart]:
-        """Every part, answered or not."""
-        texts = {part.label: self._text(part) for part in self.exercise.parts if part.label in self.entries}
-        graded = self.exercise.grade(texts)
-        verdicts = {each.part: each.verdict for each in graded.parts}
-        for part, given in zip(self.exercise.parts, graded.parts, strict=True):
-            entry = self.entries.get(part.label)
-            verdict = given.verdict
-            diagnosis = None
-            if verdict is not None and not given.accepted:
-                found = self.exercise.diagnosed(part.label, texts[part.label], verdict, verdicts)
-                diagnosis = found if found.explains else None
-            yield MarkedPart(
-                problem=self.name,
-                part=part.label,
-                typed="" if entry is None else entry.text,
-                read="" if verdict is None else verdict.read,
-                verdict=MISSING if verdict is None else verdict.outcome.value,
-                accepted=given.accepted,
-                reason=_reason(verdict, diagnosis),
-                score=Score(given.points, given.of),
-                key=answer_kind(part.kind).write(self.exercise.solution.answers[part.label]),
-                diagnosis=diagnosis,
-                line=None if entry is None else entry.line,
-            )
+    @property
+    def rules(self) -> Rules:
+        """How single answers are marked: the exam's rule for parts of points goes before the usual one."""
+        repeated = "" if self._settings.hand_ins in (None, "best") else self._settings.hand_ins
+        rules = replace(self._settings.rules, repeated=repeated)
+        return rules if self._assignment is None else replace(rules, partial=self._assignment.partial)
 
-    def _text(self, part: Part) -> str:
-        """What was typed for a part, with points for decimal commas where only so it can be read.
+    def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
+        """Who answered, in the order of the files."""
+        found: dict[tuple[str, ...], _Student] = {}
+        unknown: set[str] = set()
+        for each in handed:
+            for entry in each.entries:
+                sitting = Sitting(entry.student, entry.number, None)
+                if self._assignment is not None:
+                    sitting = self._assignment.sitting(entry)
+                    if sitting.version is None:
+                        if entry.student not in unknown:
+                            unknown.add(entry.student)
+                            self._refused.append(refusal(entry, sitting.why, ""))
+                        continue
+                who = folded(sitting.number or sitting.student)
+                key = (who,) if self._hand_ins and who else (who, str(entry.path))
+                student = found.setdefault(key, _Student(sitting))
+                student.hand_ins.setdefault(entry.path, []).append(entry)
+        yield from found.values()
 
-        The file has to allow it: its columns are parted by semicolons, and no answer in it has a decimal point.
-        """
-        entry = self.entries[part.label]
-        pointed = _COMMA.sub(r"\1.\2", entry.text)
-        if not entry.commas or pointed == entry.text or self._readable(part, entry.text):
-            return entry.text
-        return pointed if self._readable(part, pointed) else entry.text
+    def report(self, student: _Student, desk: Marker) -> StudentReport | None:
+        """One student's report; None where nothing of it could be graded."""
+        chosen = list(student.hand_ins.values())
+        if self._hand_ins == "last":
+            chosen = chosen[-1:]
+        elif self._hand_ins == "first":
+            chosen = chosen[:1]
+        left = self._settings.student
+        reports = []
+        for entries in chosen:
+            begun = perf_counter()
+            reports.append(self._graded(student.sitting, entries, desk, left))
+            left -= perf_counter() - begun
+        found = [report for report in reports if report is not None]
+        return max(found, key=lambda report: report.score.points, default=None)  # the first of the best
 
-    def _readable(self, part: Part, text: str) -> bool:
-        problem = self.exercise.problem
+    def _graded(self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, seconds: float) -> StudentReport | None:
+        tasks, extra = self._tasks(sitting, entries)
+        parts: list[MarkedPart] = []
+        for slot, task in tasks:
+            begun = perf_counter()
+            parts += self._parts(slot, task, desk, seconds)
+            seconds = max(0.0, seconds - (perf_counter() - begun))
+        if not parts and not extra:
+            return None
+        version = "" if sitting.version is None else sitting.version.code
+        paths = dict.fromkeys(shown(entry.path) for entry in entries)
+        return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
+
+    def _parts(self, slot: int, task: Task, desk: Marker, seconds: float) -> Iterator[MarkedPart]:
         try:
-            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
-        except Unreadable:
-            return False
-        return True
+            if perf_counter() - self._begun > RUN:
+                raise FileError(f"the run took more than {RUN:g} seconds; grade the rest in another one.")
+            marked = desk.mark(task, seconds)
+        except UserError as error:
+            whose = [refusal(entry, str(error), task.name) for entry in task.entries[:1]]
+            self._refused += whose or [Refusal("", None, "", str(error), problem=task.name)]
+            return
+        self._refused += marked.refused
+        if marked.notes:
+            self.notes[task.ref if isinstance(task.ref, str) else task.name] = marked.notes
+        for label, entry, judged in marked.parts:
+            if entry is None:
+                yield MarkedPart(task.name, label, "", judged, slot=slot)
+            else:
+                typed = entry.text if len(entry.text) <= SHOWN else f"{entry.text[:SHOWN]}…"
+                yield MarkedPart(task.name, label, typed, judged, shown(entry.path), entry.line, entry.column, slot)
 
+    def _tasks(self, sitting: Sitting, entries: Sequence[Entry]) -> tuple[list[tuple[int, Task]], tuple[str, ...]]:
+        """What is to be marked, with its place in the exam; and what is not."""
+        version = sitting.version
+        if self._assignment is None or version is None:
+            return self._named(entries), ()
+        answered: dict[int, list[Entry]] = {place: [] for place in range(len(version.ids))}
+        extra: dict[str, None] = {}
+        guesses = self._assignment.guesses(entries, version)
+        for entry in entries:
+            place = self._assignment.place(entry, version)
+            if guesses and looks_like_id(entry.problem):
+                extra["So many IDs are guesses; the problems of this exam are called by their numbers."] = None
+            elif isinstance(place, int):
+                answered[place].append(entry)
+            else:
+                extra[f"{entry.where}: {place}; it is not marked."] = None
+        tasks = [
+            (
+                version.slots[place] + 1,
+                Task((version.code, place), self._assignment.called(version, place), tuple(found)),
+            )
+            for place, found in answered.items()
+        ]
+        return tasks, tuple(extra)
 
-def _reason(verdict: Verdict | None, diagnosis: Diagnosis | None) -> str:
-    """What is said of an answer: what it comes from, where that is known."""
-    if verdict is None:
-        return "Not answered."
-    return verdict.says if diagnosis is None else diagnosis.of(verdict)
+    def _named(self, entries: Sequence[Entry]) -> list[tuple[int, Task]]:
+        """The problems that are answered, where no exam says which count."""
+        answered: dict[tuple[Ref, str], list[Entry]] = {}
+        for entry in entries:
+            if looks_like_id(entry.problem):
+                ref, name = self._identity(entry.problem), self._identity(entry.problem)
+            elif PLACE.fullmatch(entry.problem):
+                says = f"problem {entry.problem} of which exam? Name the exam, or give the problem's ID."
+                self._refused.append(refusal(entry, says, ""))
+                continue
+            elif said := self._forbidden(entry):
+                self._refused.append(refusal(entry, said, entry.problem))
+                continue
+            else:
+                name = os.path.normpath(entry.problem)
+                ref = str(entry.path.parent / name)
+            answered.setdefault((ref, name), []).append(entry)
+        return [(0, Task(ref, name, tuple(found))) for (ref, name), found in answered.items()]
 
+    def _identity(self, name: str) -> str:
+        """The ID with its revision, where its family exists."""
+        from rldrill.problems.catalogue import family
 
-def _students(entries: Sequence[Entry], problems: _Problems) -> Iterator[StudentReport]:
-    students: dict[str, dict[str, _Submission]] = {}
-    for entry in entries:
-        exercise = problems.of(entry)
-        name = exercise.id or os.path.normpath(entry.problem)
-        submissions = students.setdefault(entry.student, {})
-        submissions.setdefault(name, _Submission(exercise, name)).put(entry)
-    for student, answered in students.items():
-        yield StudentReport(student, tuple(part for submission in answered.values() for part in submission.parts()))
+        try:
+            text, level, seed, revision = split_id(name)
+            return f"{text}/{level}/{seed}@{family(text).revision if revision is None else revision}"
+        except UserError:
+            return name
 
-
-def _total(scores: Iterable[Score]) -> Score:
-    every = tuple(scores)
-    return Score(sum((score.points for score in every), Fraction(0)), sum(score.of for score in every))
+    def _forbidden(self, entry: Entry) -> str:
+        """Why a problem file that answers name is not opened; nothing if it is."""
+        if not self._settings.allow_files:
+            return (
+                f"{entry.problem!r} is a file of one's own, and files that answers name are not opened without leave."
+            )
+        folder = entry.path.parent.resolve()
+        try:
+            inside = (folder / entry.problem).resolve().is_relative_to(folder)
+        except (OSError, RuntimeError, ValueError):
+            inside = False
+        return "" if inside else f"{entry.problem[:60]!r} is not in the folder of the answers; it is never opened."

@@ -23,8 +23,14 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "output": (None, None, None), "force": (False, None, None), "init": (None, None, None),
         "source": (None, None, None), "key": (False, None, None), "as_json": (False, None, None),
     },
-    verify: {"json": (False, None, None), "show_key": (False, None, None)},
-    solve: {"json": (False, None, None)},
+    verify: {
+        "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),
+        "reports": (None, None, None), "enough": (None, None, None), "feedback": (verify.Feedback.REASON, None, None),
+        "show_key": (False, None, None), "hand_ins": (None, None, None), "allow_files": (False, None, None),
+        "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
+        "json": (False, None, None),
+    },
+    solve: {"json": (False, None, None), "schema": (None, None, None)},
     show: {"json": (False, None, None)},
     sheet: {
         "output": (None, None, None), "paper": ("a4", None, None), "latex": (False, None, None),
@@ -36,7 +42,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
         "number": (10, 1, 10**6), "level": (None, 1, 3), "seed": (None, 0, None), "answers": (False, None, None),
         "more": (None, None, None),
     },
-    audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "json": (False, None, None)},
+    audit: {"number": (200, 1, 10**5), "seed": (0, 0, None), "exam": (None, None, None), "json": (False, None, None)},
 }  # fmt: skip
 _ARGUMENTS = {"names", "files", "problem", "family"}
 

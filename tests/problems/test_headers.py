@@ -20,8 +20,7 @@ def test_a_head_says_what_the_family_says() -> None:
     ]
 
 
-def test_a_head_that_lacks_something_says_what(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_head_that_lacks_something_says_what(tmp_path: Path) -> None:
     (tmp_path / "new.py").write_text('"""Something."""\n\nTITLE = "New"\nSOURCE = "a book"\n\n\ndef draw(): ...\n')
-    monkeypatch.setattr("rldrill.problems.headers.__file__", str(tmp_path / "headers.py"))
     with pytest.raises(BrokenFamily, match=r"new\.py: a family must have REVISION, above its first class; add it\."):
-        header(".", "new")
+        header(".", "new", tmp_path)

@@ -1,0 +1,1 @@
+"""Problems: How unknown actions come to be tried."""

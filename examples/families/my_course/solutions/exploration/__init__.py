@@ -1,0 +1,1 @@
+"""Solutions: How unknown actions come to be tried."""

@@ -1,0 +1,140 @@
+"""An assignment: which problems a student was given, and which answers are to none of them."""
+
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rldrill.exam.manifest import Printed, printed, read_exam
+from rldrill.files import read_text, shown
+from rldrill.grading.answers_file import PLACE, Entry, table
+from rldrill.problems.errors import FileError, UsageError
+from rldrill.problems.identity import looks_like_id, split_id
+
+
+@dataclass(frozen=True, slots=True)
+class Sitting:
+    """A student's exam: the name and number that reports use, and the version; None where the student has none.
+
+    ``why`` says then what is missing.
+    """
+
+    student: str
+    number: str
+    version: Printed | None
+    why: str = ""
+
+
+class Assignment:
+    """An exam as it is graded: exactly its problems, all of them.
+
+    Args:
+        manifest: the file that was written beside the exam.
+        version: the code of the version that everybody sat; None to go by the roster.
+        roster: a table of the students with their versions; None to go by the manifest's own.
+
+    Raises:
+        FileError: the manifest or the roster cannot be read.
+        UsageError: there is no such version, or nothing says who sat which.
+    """
+
+    def __init__(self, manifest: Path, version: str | None = None, roster: Path | None = None) -> None:
+        self.manifest = manifest
+        exam = read_exam(manifest)[0]
+        self.title, self.partial, self._ids_printed = exam.head.title, exam.partial, exam.layout.ids
+        self.versions = {each.code: each for each in printed(manifest)}
+        self._all: Printed | None = None
+        self._roster: dict[str, Sitting] = {}
+        self._known = f"the versions of {shown(manifest)} are {', '.join(self.versions)}"
+        if version is not None:
+            if version.upper() not in self.versions:
+                raise UsageError(f"There is no version {version[:20]!r}; {self._known}.")
+            self._all = self.versions[version.upper()]
+        elif roster is not None:
+            self._roster = self._read(roster)
+        elif any(each.person for each in self.versions.values()):
+            for each in self.versions.values():
+                if each.person is not None:
+                    self._put(Sitting(each.person.name, each.person.number, each))
+        elif len(self.versions) == 1:
+            (self._all,) = self.versions.values()
+        else:
+            raise UsageError(f"Who sat which version? {self._known}; say --version CODE or --roster FILE.csv.")
+
+    def sitting(self, entry: Entry) -> Sitting:
+        """The exam of whoever typed an answer."""
+        known = self._roster.get(folded(entry.number)) if entry.number else None
+        known = known or self._roster.get(folded(entry.student))
+        if known is not None:
+            return known
+        if self._all is not None:
+            return Sitting(entry.student, entry.number, self._all)
+        whose = f"{entry.student!r} is" if entry.student else "an answer without a student is"
+        return Sitting(entry.student, entry.number, None, f"{whose} not on the roster; correct the name or number.")
+
+    def place(self, entry: Entry, version: Printed) -> int | str:
+        """Where in the version an answer belongs, from 0; or why it does not."""
+        name = entry.problem
+        if PLACE.fullmatch(name):
+            number = int(name)
+            return number - 1 if number <= len(version.ids) else f"the exam has {len(version.ids)} problems, no {name}"
+        if not looks_like_id(name):
+            return f"{name!r} is a file of one's own"
+        if (
+            not self._ids_printed
+        ):  # a sitting in the terminal writes whole IDs; more is not told of what was not printed
+            found = version.ids.index(name) if name in version.ids else None
+            return f"{name} is not in this exam" if found is None else found
+        family, level, seed, revision = split_id(name)
+        for place, printed_id in enumerate(version.ids):
+            if printed_id is None or not looks_like_id(printed_id):
+                continue
+            other = split_id(printed_id)
+            if other[:3] == (family, level, seed):
+                if revision in (None, other[3]):
+                    return place
+                return f"{name} is of another revision than the exam's"
+        for each in self.versions.values():
+            if any(one and looks_like_id(one) and split_id(one)[:3] == (family, level, seed) for one in each.ids):
+                return f"{name} is of version {each.code}, and version {version.code} was sat"
+        same = [one for one in version.ids if one and looks_like_id(one) and split_id(one)[0] == family]
+        if same and all(split_id(one)[1] != level for one in same):
+            return f"{name} is of another level than the exam's"
+        return f"{name} is not in this exam"
+
+    def guesses(self, entries: Sequence[Entry], version: Printed) -> bool:
+        """Whether somebody tries IDs out, to learn which ones the exam has, and redraw their keys."""
+        ids = {entry.problem for entry in entries if looks_like_id(entry.problem)}
+        return not self._ids_printed and len(ids) > 2 * len(version.ids) + 10
+
+    def called(self, version: Printed, place: int) -> str:
+        """What reports call a problem: its ID only where that was printed, for an ID names its own key."""
+        return (self._ids_printed and version.ids[place]) or f"problem {place + 1}"
+
+    def _put(self, sitting: Sitting) -> None:
+        for name in filter(None, (sitting.number, sitting.student)):
+            key = folded(name)
+            if self._roster.setdefault(key, sitting) is not sitting:
+                self._roster[key] = Sitting(
+                    sitting.student, "", None, f"several students on the roster are called {name!r}; give the number."
+                )
+
+    def _read(self, path: Path) -> dict[str, Sitting]:
+        """A roster: columns for the name (or first and last name) or the number, and for the version."""
+        text = read_text(path, (".csv",))
+        for line, row in table(text, path, ("student", "number", "version"), ("version",))[2]:
+            if "says" in row:
+                raise FileError(row["says"])
+            code = row.get("version", "").upper()
+            if code not in self.versions:
+                raise FileError(f"{shown(path)}, line {line}: there is no version {code[:20]!r}; {self._known}.")
+            student = row.get("student", "")
+            if not student and not row.get("number"):
+                raise FileError(f"{shown(path)}, line {line}: neither a name nor a number stands there; give one.")
+            self._put(Sitting(student or row["number"], row.get("number", ""), self.versions[code]))
+        return self._roster
+
+
+def folded(name: str) -> str:
+    """A name as names are compared: without regard to case, normal form and spaces."""
+    return " ".join(unicodedata.normalize("NFC", unicodedata.normalize("NFKC", name).casefold()).split())

@@ -1,0 +1,163 @@
+"""Marks in a process of its own: whatever happens there, a crash, an endless search, costs one task only."""
+
+import multiprocessing
+import pickle
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any, Protocol
+
+from rldrill.grading.marking import Desk, Marked, Rules, Task
+from rldrill.grading.report import Judged
+from rldrill.problems.errors import FileError, UserError
+
+#: How long a problem may take to be solved, and the memory that there is for marking.
+LOADING = 60.0
+MEMORY = 4 * 2**30
+
+
+class Marker(Protocol):
+    """What marks a task within some seconds."""
+
+    def mark(self, task: Task, seconds: float) -> Marked:
+        """Mark it.
+
+        Raises:
+            UserError: it cannot be marked.
+        """
+
+
+class Here:
+    """Marks in this very process, without a bound."""
+
+    def __init__(self, manifest: Path | None, rules: Rules) -> None:
+        self._desk = Desk(manifest, rules)
+
+    def mark(self, task: Task, seconds: float) -> Marked:  # noqa: ARG002
+        """Mark it."""
+        return self._desk.mark(task)
+
+
+class Apart:
+    """Marks in a process of its own, which is ended and begun anew where it takes too long or breaks down."""
+
+    def __init__(self, manifest: Path | None, rules: Rules) -> None:
+        self._arguments = (manifest, rules)
+        self._connection: Connection | None = None
+        self._process: Any = None
+        self._judged: dict[bytes, Judged] = {}
+        self._hopeless: dict[Any, str] = {}
+
+    def mark(self, task: Task, seconds: float) -> Marked:
+        """Mark it.
+
+        Raises:
+            FileError: it cannot be marked, takes too long, or breaks the process down.
+        """
+        if said := self._hopeless.get(task.ref):
+            raise FileError(said)
+        connection = self._open()
+        connection.send(task)
+        problem, stage = f"solving {task.name}", "loading"
+        try:
+            if (said := self._received(LOADING)) is None:
+                problem, stage = f"grading what was answered to {task.name}", "marking"
+                said = self._received(seconds)
+        except TimeoutError as error:
+            return self._given_up(task, stage, f"{problem} took more than {error} seconds")
+        except (EOFError, OSError):
+            return self._given_up(task, stage, f"{problem} broke the interpreter down")
+        if isinstance(said, str):
+            raise FileError(said)
+        parts, refused, notes = said
+        entries = (*task.entries, None)
+        return Marked(tuple((label, entries[place], self._of(blob)) for label, place, blob in parts), refused, notes)
+
+    def _of(self, blob: bytes) -> Judged:
+        """What was judged, kept once."""
+        if blob not in self._judged:
+            self._judged[blob] = pickle.loads(blob)
+        return self._judged[blob]
+
+    def _received(self, seconds: float) -> Any:
+        assert self._connection is not None
+        if not self._connection.poll(max(seconds, 0.01)):
+            raise TimeoutError(f"{seconds:.3g}")
+        return self._connection.recv()
+
+    def _given_up(self, task: Task, stage: str, says: str) -> Marked:
+        self.close()
+        says = f"{says}; it is not graded, all else is."
+        if stage == "loading":
+            self._hopeless[task.ref] = says
+        raise FileError(says)
+
+    def _open(self) -> Connection:
+        if self._connection is None:
+            context: Any = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+            self._connection, other = context.Pipe()
+            self._process = context.Process(target=_work, args=(other, *self._arguments), daemon=True)
+            self._process.start()
+            other.close()
+        return self._connection
+
+    def close(self) -> None:
+        """End the process."""
+        if self._connection is not None:
+            self._process.kill()
+            self._process.join()
+            self._connection.close()
+            self._connection = None
+
+
+@contextmanager
+def marker(manifest: Path | None, rules: Rules, *, isolated: bool) -> Iterator[Marker]:
+    """What marks, in a process of its own or here."""
+    if not isolated:
+        yield Here(manifest, rules)
+        return
+    apart = Apart(manifest, rules)
+    try:
+        yield apart
+    finally:
+        apart.close()
+
+
+def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
+    """The other process: for every task None once its problem is solved, then the marks, or a sentence."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who asked ends this process
+    _bound_memory()
+    desk = Desk(manifest, rules)
+    blobs: dict[int, tuple[Judged, bytes]] = {}
+
+    def blob(judged: Judged) -> bytes:
+        if id(judged) not in blobs:
+            blobs[id(judged)] = (judged, pickle.dumps(judged))  # with the object, so that its id stays its own
+        return blobs[id(judged)][1]
+
+    with suppress(EOFError, OSError):  # nobody asks any more
+        while True:
+            task: Task = connection.recv()
+            try:
+                desk.problem(task.ref)
+                connection.send(None)
+                marked = desk.mark(task)
+                places = {id(entry): place for place, entry in enumerate(task.entries)}
+                parts = [(label, places.get(id(entry), -1), blob(judged)) for label, entry, judged in marked.parts]
+                connection.send((parts, marked.refused, marked.notes))
+            except UserError as error:
+                connection.send(str(error))
+            except MemoryError:
+                connection.send(f"{task.name} needs more than {MEMORY // 2**30} GB of memory; it is not graded.")
+            except Exception as error:  # one student's answer must not end the run
+                connection.send(f"rldrill itself failed on it ({type(error).__name__}: {str(error)[:200]}); report it.")
+
+
+def _bound_memory() -> None:
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))

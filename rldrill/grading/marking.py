@@ -1,0 +1,307 @@
+"""Marks what one student answered to one problem; the same answer to the same part is judged once."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from rldrill.exam.exam import Version
+from rldrill.exam.manifest import read_exam
+from rldrill.exercise import Exercise, draw, load
+from rldrill.files import shown
+from rldrill.grading.answers_file import Entry, Refusal
+from rldrill.grading.report import MISSING, Judged, Score
+from rldrill.problems.parts import Part, Policy
+from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge
+from rldrill.solutions.answers.kinds import Unreadable, answer_kind
+
+#: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
+Ref: TypeAlias = str | tuple[str, int]
+#: The label of a part, what was typed, and the earlier answers that it may go on from.
+_Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
+#: How long is searched for what one wrong answer comes from, in seconds.
+SEARCH = 2.0
+#: So many judgements are kept.
+_KEPT = 50_000
+#: Entries that are the same in so many other draws are the same in every draw.
+_OTHER_DRAWS = 4
+_COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
+_MONTH = "(?:jan|feb|m[aä]r|apr|ma[iy]|jun|jul|aug|sep|o[ck]t|nov|de[cz])[a-z]*"
+#: What a spreadsheet makes of 3/4: 3-Apr, 4-Mar, Apr-03, 03. Apr, 2024-04-03, 03.04.2024, 3/4/2024.
+_DATE = re.compile(
+    rf"\d{{1,2}}(?:\. ?|[- ]){_MONTH}(?:[- ]\d{{2,4}})?|{_MONTH}[- ]\d{{1,2}}|"
+    r"(?:19|20)\d\d-\d\d-\d\d(?:[ T]00:00(?::00)?)?|\d{1,2}\.\d{1,2}\.(?:19|20)\d\d|\d{1,2}/\d{1,2}/(?:19|20)\d\d",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """How answers are marked.
+
+    Args:
+        partial: what wrong entries of a table or matrix cost: all of the part's points, or their share of them.
+        repeated: which of several answers of a student to one part counts; "" refuses the later ones.
+        causes: whether it is searched for what wrong answers come from.
+        keys: whether the right answers are written.
+    """
+
+    partial: str = "entries"
+    repeated: str = ""
+    causes: bool = True
+    keys: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What one student answered to one problem.
+
+    Args:
+        ref: the problem.
+        name: what reports call it.
+        entries: the answers.
+    """
+
+    ref: Ref
+    name: str
+    entries: tuple[Entry, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """The marks for a task: for every part its label, which entry answers it, and the judgement."""
+
+    parts: tuple[tuple[str, Entry | None, Judged], ...]
+    refused: tuple[Refusal, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+class Desk:
+    """Where answers are marked: the problems, each loaded once, and what was judged.
+
+    Args:
+        manifest: of the exam; None without one.
+        rules: how is marked.
+    """
+
+    def __init__(self, manifest: Path | None, rules: Rules) -> None:
+        self._manifest, self._rules = manifest, rules
+        self._problems: dict[Ref, _Problem] = {}
+        self._versions: dict[str, Version] = {}
+
+    def problem(self, ref: Ref) -> "_Problem":
+        """A problem, solved.
+
+        Raises:
+            UserError: it does not exist or is broken.
+        """
+        if ref not in self._problems:
+            if isinstance(ref, str):
+                exercise = load(ref)
+            else:
+                code, number = ref
+                if code not in self._versions:
+                    self._versions[code] = self._makes[code]()
+                exercise = self._versions[code].exercises[number]
+            self._problems[ref] = _Problem(exercise, self._rules)
+        return self._problems[ref]
+
+    @cached_property
+    def _makes(self) -> Mapping[str, Callable[[], Version]]:
+        from rldrill.exam.manifest import codes
+
+        assert self._manifest is not None, "a number in a version needs an exam"
+        return dict(zip(codes(self._manifest), read_exam(self._manifest)[1], strict=True))
+
+    def mark(self, task: Task) -> Marked:
+        """Mark every part of a problem, answered or not.
+
+        Raises:
+            UserError: the problem does not exist or is broken.
+        """
+        problem = self.problem(task.ref)
+        taken: dict[str, Entry] = {}
+        refused: list[Refusal] = []
+        for entry in task.entries:
+            says = self._take(entry, taken, problem, task.name)
+            if says:
+                refused.append(refusal(entry, says, task.name))
+        return Marked(tuple(problem.marks(taken)), tuple(refused), problem.exercise.notes)
+
+    def _take(self, entry: Entry, taken: dict[str, Entry], problem: "_Problem", name: str) -> str:
+        """Take an answer in; a sentence if it cannot be."""
+        labels = [part.label for part in problem.exercise.parts]
+        label = entry.part.strip(" ().").lower()
+        if not label and len(labels) == 1:
+            label = labels[0]
+        if label not in labels:
+            fault = f"there is no part {entry.part[:20]!r}" if label else "the part is missing"
+            return f"{fault}; {name} has {', '.join(labels)}."
+        before = taken.get(label)
+        if before is None or self._rules.repeated == "last":
+            taken[label] = entry
+        elif not self._rules.repeated:
+            whose = f" by {entry.student}" if entry.student else ""
+            lines = "" if entry.line is None else f" (first in line {before.line})"
+            return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
+        return ""
+
+
+def refusal(entry: Entry, says: str, problem: str) -> Refusal:
+    """That an answer could not be graded, and why."""
+    return Refusal(shown(entry.path), entry.line, entry.student, f"{entry.where}: {says}", problem=problem)
+
+
+class _Problem:
+    """A problem and the answers to it that were judged."""
+
+    def __init__(self, exercise: Exercise, rules: Rules) -> None:
+        self.exercise, self._rules = exercise, rules
+        self._verdicts: dict[_Typed, Verdict] = {}
+        self._judged: dict[_Typed, Judged] = {}
+        self._keys: dict[str, str] = {}
+        self._same: dict[str, frozenset[str]] = {}
+
+    def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
+        """The judgement of every part."""
+        result: list[tuple[str, Entry | None, Judged]] = []
+        given: dict[str, tuple[str, Verdict]] = {}
+        own = False  # whether an earlier answer is another than the key: only then something else may follow
+        for part in self.exercise.parts:
+            entry = entries.get(part.label)
+            text = "" if entry is None else self._text(part, entry)
+            if entry is None or not text.strip():
+                result.append((part.label, entry, self._missing(part)))
+            elif entry.column is not None and _DATE.fullmatch(text.strip()):
+                result.append((part.label, entry, self._date(part, text)))
+            else:
+                verdict, judged = self._answer(part, text, given if own else {})
+                result.append((part.label, entry, judged))
+                if verdict.value is not None:
+                    given[part.label] = (text, verdict)
+                    own = own or not self._is_key(part.label, verdict.value)
+        return result
+
+    def _answer(self, part: Part, text: str, carried: Mapping[str, tuple[str, Verdict]]) -> tuple[Verdict, Judged]:
+        """The judgement of one answer, going on from those before."""
+        if len(self._judged) > _KEPT:
+            self._judged.clear()
+            self._verdicts.clear()
+        for earlier in ({}, carried):
+            key = (part.label, text, tuple((label, typed) for label, (typed, _) in earlier.items()))
+            if key not in self._verdicts:
+                self._verdicts[key] = self._verdict(part.label, text, earlier)
+            verdict = self._verdicts[key]
+            if earlier is carried or verdict.outcome in (Outcome.RIGHT, Outcome.UNREADABLE):
+                if key not in self._judged:
+                    before = {label: each for label, (_, each) in earlier.items()}
+                    self._judged[key] = self._told(part, text, verdict, before)
+                break
+        return verdict, self._judged[key]
+
+    def _verdict(self, label: str, text: str, carried: Mapping[str, tuple[str, Verdict]]) -> Verdict:
+        earlier = {other: verdict.value for other, (_, verdict) in carried.items()}
+        verdict = judge(self.exercise.solution, label, text, earlier)
+        return self.exercise.diagnosing.unmasked(label, text, verdict) if self._rules.causes else verdict
+
+    def _is_key(self, label: str, value: Any) -> bool:
+        """Whether what somebody goes on from is the key itself, to the last digit: then nothing else follows."""
+        try:
+            return bool(value == self.exercise.solution.answers[label])
+        except (TypeError, ValueError):
+            return False
+
+    def _told(self, part: Part, text: str, verdict: Verdict, before: Mapping[str, Verdict]) -> Judged:
+        diagnosis = None
+        if self._rules.causes and not verdict.accepted:
+            wrong = {label: each for label, each in before.items() if not each.accepted}
+            found = self.exercise.diagnosed(part.label, text, verdict, wrong, SEARCH)
+            diagnosis = replace(found, wrong=None, right=None) if found.explains else None
+        reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
+        mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence
+        score = Score(part.points * self._credit(part, verdict), part.points)
+        outcome = verdict.outcome.value
+        return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
+
+    def _credit(self, part: Part, verdict: Verdict) -> Fraction:
+        """The share of the points; an entry that is the same in every draw earns nothing."""
+        if verdict.accepted or not verdict.credit:
+            return verdict.credit
+        if self._rules.partial == "all":
+            return Fraction(0)
+        same = self._same_everywhere(part)
+        if not same:
+            return verdict.credit
+        cells = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
+        counted = [name for name in cells if name not in same or name in verdict.wrong_cells]
+        kind = part.kind
+        if isinstance(kind, Policy):
+            kind = replace(kind, actions={name: kind.actions[name] for name in counted})
+        return credit(kind, len(counted), len(verdict.wrong_cells))
+
+    def _same_everywhere(self, part: Part) -> frozenset[str]:
+        """The entries of a part whose right answer is the same in other draws: whoever knows the family knows them."""
+        identity = self.exercise.problem.identity
+        if identity is None:
+            return frozenset()
+        if part.label not in self._same:
+            cells = answer_kind(part.kind).cells(self.exercise.solution.answers[part.label])
+            same = set(cells)
+            for seed in range(_OTHER_DRAWS):
+                same &= _agreeing(cells, part.label, draw(identity.family, identity.level, seed))
+            self._same[part.label] = frozenset(same)
+        return self._same[part.label]
+
+    def _key(self, part: Part) -> str:
+        if not self._rules.keys:
+            return ""
+        if part.label not in self._keys:
+            self._keys[part.label] = answer_kind(part.kind).write(self.exercise.solution.answers[part.label])
+        return self._keys[part.label]
+
+    def _missing(self, part: Part) -> Judged:
+        return self._nothing(part, MISSING, "Not answered.")
+
+    def _date(self, part: Part, text: str) -> Judged:
+        says = (
+            f"{text.strip()!r} is a date: a spreadsheet makes one of a fraction such as 3/4. "
+            'Format the column as text, or type ="3/4".'
+        )
+        return self._nothing(part, Outcome.UNREADABLE.value, says)
+
+    def _nothing(self, part: Part, verdict: str, reason: str) -> Judged:
+        key = (part.label, reason, ((verdict, ""),))
+        if key not in self._judged:
+            self._judged[key] = Judged("", verdict, False, reason, Score(Fraction(0), part.points), self._key(part))
+        return self._judged[key]
+
+    def _text(self, part: Part, entry: Entry) -> str:
+        """What was typed for a part, with points for decimal commas where only so it can be read.
+
+        The file has to allow it: its columns are parted by semicolons, and no answer in it has a decimal point.
+        """
+        if not entry.commas:
+            return entry.text
+        pointed = _COMMA.sub(r"\1.\2", entry.text)
+        if pointed == entry.text or self._readable(part, entry.text):
+            return entry.text
+        return pointed if self._readable(part, pointed) else entry.text
+
+    def _readable(self, part: Part, text: str) -> bool:
+        problem = self.exercise.problem
+        try:
+            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+        except Unreadable:
+            return False
+        return True
+
+
+def _agreeing(cells: Mapping[str, Any], label: str, other: Exercise) -> set[str]:
+    part = next((part for part in other.parts if part.label == label), None)
+    if part is None:
+        return set()
+    answers = answer_kind(part.kind).cells(other.solution.answers[label])
+    return {name for name, content in cells.items() if name in answers and answers[name] == content}

@@ -1,0 +1,45 @@
+"""The report as Gradescope's ``results.json``: one submission, a test for every part."""
+
+import json
+from typing import Any
+
+from rldrill.grading.report import Report
+from rldrill.grading.reports.said import one_line, sentence
+
+
+def written(report: Report, feedback: str) -> str:
+    """The results of one submission; what is in several files of it counts together."""
+    tests: list[dict[str, Any]] = [
+        {
+            "name": one_line(f"{part.problem} ({part.part})"),
+            "number": str(number),
+            "score": round(float(part.score.points), 2),
+            "max_score": part.score.of,
+            "output": one_line(sentence(part, feedback)),
+            "output_format": "text",
+            "visibility": "visible",
+        }
+        | ({} if feedback == "none" else {"status": "passed" if part.judged.accepted else "failed"})
+        for number, part in enumerate(report.parts, 1)
+    ]
+    said = [refusal.says for refusal in report.refused]
+    said += [each for student in report.students for each in student.extra]
+    score = report.score
+    if feedback == "none":
+        tests = []
+        said.insert(0, "Your answers were read; the points are told later.")
+    results: dict[str, Any] = {
+        "score": round(float(score.points), 2),
+        "output": "\n".join(map(one_line, said)),
+        "output_format": "text",
+        "test_output_format": "text",
+        "visibility": "hidden" if feedback == "none" else "visible",
+        "stdout_visibility": "hidden",
+        "extra_data": {"of": score.of, "exact": str(score.points), "versions": _versions(report)},
+        "tests": tests,
+    }
+    return json.dumps(results, ensure_ascii=False, indent=2) + "\n"
+
+
+def _versions(report: Report) -> list[str]:
+    return sorted({student.version for student in report.students if student.version})

@@ -1,0 +1,34 @@
+"""The report as plain text, a line for every part."""
+
+from rldrill.grading.report import Report, Score, StudentReport
+from rldrill.grading.reports.said import one_line, sentence
+
+
+def written(report: Report, feedback: str) -> str:
+    """All students with all their parts, and what could not be graded."""
+    lines = [one_line(report.title), ""] if report.title else []
+    for student in report.students:
+        lines += [f"{named(student)}: {points(student.score)}"]
+        for part in student.parts:
+            earned = f"{part.score.points} of {part.score.of}"
+            lines.append(f"  {part.problem} ({part.part})  {earned}  {one_line(sentence(part, feedback))}".rstrip())
+        lines += [f"  {one_line(said)}" for said in student.extra]
+    lines += [f"Not graded: {one_line(refusal.says)}" for refusal in report.refused]
+    return "\n".join([*lines, f"All together: {points(report.score)}"]) + "\n"
+
+
+def totals(report: Report) -> str:
+    """A line for every student, and the sum."""
+    lines = [f"{named(student)}: {points(student.score)}" for student in report.students]
+    return "\n".join([*lines, f"All together: {points(report.score)}"]) + "\n"
+
+
+def named(student: StudentReport) -> str:
+    """Who it is, and of which version."""
+    who = student.student or ", ".join(student.paths)
+    return one_line(f"{who}, version {student.version}" if student.version else who)
+
+
+def points(score: Score) -> str:
+    """The points, with their share."""
+    return f"{score.points} of {score.of} ({float(100 * score.share):.3g} %)"

@@ -1,0 +1,193 @@
+"""An exam is graded as it was given out: exactly its problems, all of them, whatever a file of answers says."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rldrill.exam.blueprint import Blueprint
+from rldrill.exam.blueprint import Entry as Asked
+from rldrill.exam.exam import Layout, Person
+from rldrill.exam.manifest import manifest, written
+from rldrill.exam.planning import plan
+from rldrill.grading.assignment import Assignment
+from rldrill.grading.marking import Rules
+from rldrill.grading.report import Report, StudentReport
+from rldrill.grading.verification import Settings, verify
+from rldrill.problems.errors import UsageError
+
+HEAD = "student,number,problem,part,answer\n"
+
+
+def exam(folder: Path, versions: int = 1, roster: tuple[Person, ...] = (), ids: bool = True) -> tuple[Path, Any]:
+    """The manifest of an exam of td-zero (1 part) and return (2 parts), at level 1."""
+    asked = (Asked(topic=("td-zero",), level=1), Asked(topic=("return",), level=1))
+    made = plan(Blueprint(problems=asked, versions=versions, seed=7), roster=roster)
+    made = replace(made, layout=Layout(ids=ids))
+    path = folder / "exam.json"
+    path.write_bytes(written(manifest(made)))
+    return path, made
+
+
+def keys(version: Any) -> dict[tuple[str, str], str]:
+    """By number and part the right answers of a version."""
+    found = {}
+    for number, exercise in enumerate(version.exercises, 1):
+        for part in exercise.parts:
+            answer = exercise.answers()[part.label]
+            text = (
+                ", ".join(f"{state}: {v}" for state, v in answer.items()) if isinstance(answer, dict) else str(answer)
+            )
+            found[str(number), part.label] = text
+    return found
+
+
+def graded(folder: Path, rows: list[tuple[str, ...]], assignment: Assignment, **settings: Any) -> Report:
+    path = folder / "answers.csv"
+    lines = [",".join(f'"{cell}"' for cell in row) for row in rows]
+    path.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+    return verify([path], Settings(assignment=assignment, **settings))
+
+
+def student(report: Report, name: str) -> StudentReport:
+    return next(each for each in report.students if each.student == name)
+
+
+def test_everything_right_is_everything_and_what_is_left_out_counts(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    right = keys(made.versions[0])
+    rows = [("Ann", "", number, part, text) for (number, part), text in right.items()]
+    rows += [("Ben", "", "1", "a", right["1", "a"])]
+    report = graded(tmp_path, rows, Assignment(path))
+    of = made.versions[0].points
+    assert student(report, "Ann").score.points == student(report, "Ann").score.of == of
+    ben = student(report, "Ben")
+    assert ben.score.of == of
+    assert [part.judged.verdict for part in ben.parts] == ["right", "missing", "missing"]
+    assert report.exit_code == 1
+
+
+def test_cheating_earns_nothing(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, versions=2)
+    a, b = made.versions
+    (tmp_path / "easy.toml").write_text('family = "return"\n[given]\nrewards = [1, 1]\ngamma = "1/2"\ntime = 0\n')
+    identity = b.exercises[0].problem.identity
+    attempts = {
+        b.exercises[0].id: "is of version B",  # the neighbour's paper
+        f"td-zero/2/{identity.seed}": "of another level",
+        "return/1/1": "is not in this exam",  # one that is known
+        "easy.toml": "a file of one's own",
+        "../easy.toml": "a file of one's own",
+        f"{str(a.exercises[0].id).split('@')[0]}@99": "of another revision",
+        "3": "the exam has 2 problems",
+    }
+    rows = [("Eve", "", str(name), "a", "3/2") for name in attempts]
+    rows[0] = ("Eve", "", str(b.exercises[0].id), "a", keys(b)["1", "a"])
+    report = graded(tmp_path, rows, Assignment(path, "A"))
+    (eve,) = report.students
+    assert (eve.score.points, eve.score.of) == (0, a.points)
+    for said, reason in zip(eve.extra, attempts.values(), strict=True):
+        assert reason in said
+    assert report.refused == ()
+
+
+def test_the_roster_says_who_sat_which_version(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, versions=2)
+    with pytest.raises(UsageError, match="Who sat which version"):
+        Assignment(path)
+    with pytest.raises(UsageError, match="no version 'C'"):
+        Assignment(path, "C")
+    roster = tmp_path / "roster.csv"
+    roster.write_text("Vorname;Nachname;Matrikelnummer;Version\nJörg;Weiß;007;b\nAnn;Lee;8;A\n", encoding="utf-8")
+    right = {version.code: keys(version)["1", "a"] for version in made.versions}
+    rows = [
+        ("JO\u0308RG  WEISS", "", "1", "a", right["B"]),  # capitals, and the other normal form
+        ("", "8", "1", "a", right["A"]),
+        ("Mallory", "", "1", "a", right["A"]),
+    ]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [(each.student, each.number, each.version) for each in report.students] == [
+        ("Jörg Weiß", "007", "B"),
+        ("Ann Lee", "8", "A"),
+    ]
+    assert all(each.parts[0].judged.accepted for each in report.students)
+    (refusal,) = report.refused
+    assert "'Mallory' is not on the roster" in refusal.says
+
+
+def test_an_exam_for_people_knows_them(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=(Person("Ann Lee", "8"), Person("Ben Ali", "9")))
+    report = graded(tmp_path, [("ann lee", "", "1", "a", "1"), ("", "9", "1", "a", "1")], Assignment(path))
+    assert [(each.student, each.version) for each in report.students] == [
+        (version.person.name, version.code) for version in made.versions
+    ]
+
+
+@pytest.mark.parametrize(("which", "points"), [("last", 0), ("first", 1), ("best", 1)])
+def test_of_several_hand_ins_one_counts(tmp_path: Path, which: str, points: int) -> None:
+    path, made = exam(tmp_path)
+    worth = made.versions[0].exercises[0].parts[0].points
+    files = []
+    for number, text in enumerate((keys(made.versions[0])["1", "a"], "1000")):
+        files.append(tmp_path / f"{number}.csv")
+        files[-1].write_text(f'{HEAD}Ann,,1,a,"{text}"\n')
+    report = verify(files, Settings(assignment=Assignment(path), hand_ins=which))
+    assert [each.score.points for each in report.students] == [points * worth]
+
+
+def test_the_printed_givens_are_graded_when_the_family_has_moved_on(tmp_path: Path) -> None:
+    path, _ = exam(tmp_path)
+    data = json.loads(path.read_text())
+    problem = data["versions"][0]["problems"][1]
+    problem["id"] = "return/1/5@1"
+    problem["problem"]["given"] |= {"rewards": ["3", "-2", "4", "1"], "gamma": "1/2", "time": 1}
+    path.write_text(json.dumps(data))
+    # R₁ = −2 + 1/2 · 4 + 1/4 · 1 = 1/4, then R₀ = 3 + 1/2 · 1/4 = 25/8.
+    rows = [("Ann", "", "return/1/5@1", "a", "1/4"), ("Ann", "", "return/1/5", "b", "25/8")]
+    (ann,) = graded(tmp_path, rows, Assignment(path)).students
+    assert [part.judged.verdict for part in ann.parts] == ["missing", "right", "right"]
+    assert ann.parts[1].problem == "return/1/5@1"
+
+
+def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, ids=False)
+    version = made.versions[0]
+    seeds = {str(exercise.problem.identity.seed) for exercise in version.exercises}
+    rows = [("Ann", "", "1", "z", "1"), ("Ann", "", "2", "a", "1"), ("Ann", "", "td-zero/2/1", "a", "1")]
+    report = graded(tmp_path, rows, Assignment(path))
+    assert [part.problem for part in report.parts] == ["problem 1", "problem 2", "problem 2"]
+    # A sitting in the terminal writes whole IDs; of somebody who tries them out none is taken.
+    whole = str(version.exercises[0].id)
+    assert graded(tmp_path, [("Ann", "", whole, "a", "1")], Assignment(path)).parts[0].judged.verdict == "wrong"
+    tries = [("Ann", "", f"td-zero/1/{seed}@2", "a", "1") for seed in range(20)]
+    tried = graded(tmp_path, [*tries, ("Ann", "", whole, "a", "1")], Assignment(path))
+    assert tried.parts[0].judged.verdict == "missing"
+    assert tried.students[0].extra == (
+        "So many IDs are guesses; the problems of this exam are called by their numbers.",
+    )
+    told = json.dumps(report.to_json("key"), ensure_ascii=False)
+    for seed in seeds:
+        assert f"/{seed}" not in told
+
+
+@pytest.mark.parametrize(
+    ("answer", "share"),
+    [
+        ("1, 2; 0, 1", 0),
+        ("9/10, 2; 0, 1", Fraction(1, 2)),
+        ("9/10, -5/2; 0, 1", 1),
+        ("9/10, -5/2; 0, 2", Fraction(2, 3)),
+    ],
+)
+def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, answer: str, share: Fraction) -> None:
+    # (b) asks for A = [9/10 −5/2; 0 1]; the second row is 0 1 in every draw: the position follows from the velocity.
+    path = tmp_path / "answers.csv"
+    path.write_text(f'{HEAD}Ann,,linearise-affine/1/7,b,"{answer}"\n')
+    (part,) = [part for part in verify([path]).parts if part.part == "b"]
+    assert part.score.points == share * part.score.of
+    rules = Settings(rules=Rules(partial="all"))
+    (part,) = [part for part in verify([path], rules).parts if part.part == "b"]
+    assert part.score.points == (part.score.of if share == 1 else 0)

@@ -1,0 +1,181 @@
+"""Every report is what the program that reads it expects, judged by tools that are not ours."""
+
+import csv
+import io
+import json
+import re
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import jsonschema
+import pytest
+import xmlschema
+from junitparser import JUnitXml
+from typer.testing import CliRunner
+
+from rldrill.cli import app
+from rldrill.grading.marking import Rules
+from rldrill.grading.report import FEEDBACK, Report
+from rldrill.grading.reports import data, github, gradescope, junit, page, tables
+from rldrill.grading.verification import Settings, verify
+
+#: Ann is right, Ben misread the decimal comma, the third one tries what can be tried.
+EVIL = "=cmd|' /C calc'!A0"
+ROWS = [
+    ("student", "problem", "part", "answer"),
+    ("Ann", "td-zero/1/7", "a", "47/5"),
+    ("Ben", "td-zero/1/7", "a", "even: 9,4"),
+    ("Ben", "return/1/7", "a", "11/2"),
+    (EVIL, "return/1/7", "a", "<script>alert(1)</script>"),
+    (EVIL, "return/1/7", "b", "=1+1\n::error::mine"),
+    ("Cem", "td-zero/9/7", "a", "1"),
+]
+#: The schema that Jenkins reads JUnit's XML by, as far as our report goes.
+JUNIT = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="qualified">
+<xs:element name="testsuites"><xs:complexType>
+ <xs:sequence><xs:element ref="testsuite" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
+ <xs:attribute name="name" type="xs:string"/><xs:attribute name="time" type="xs:decimal"/>
+ <xs:attribute name="tests" type="xs:nonNegativeInteger"/><xs:attribute name="failures" type="xs:nonNegativeInteger"/>
+ <xs:attribute name="errors" type="xs:nonNegativeInteger"/></xs:complexType></xs:element>
+<xs:element name="testsuite"><xs:complexType>
+ <xs:sequence><xs:element ref="properties" minOccurs="0"/>
+  <xs:element ref="testcase" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
+ <xs:attribute name="name" type="xs:string" use="required"/><xs:attribute name="time" type="xs:decimal"/>
+ <xs:attribute name="tests" type="xs:nonNegativeInteger" use="required"/>
+ <xs:attribute name="failures" type="xs:nonNegativeInteger"/><xs:attribute name="errors" type="xs:nonNegativeInteger"/>
+ <xs:attribute name="skipped" type="xs:nonNegativeInteger"/></xs:complexType></xs:element>
+<xs:element name="properties"><xs:complexType><xs:sequence>
+ <xs:element name="property" maxOccurs="unbounded"><xs:complexType>
+  <xs:attribute name="name" type="xs:string" use="required"/>
+  <xs:attribute name="value" type="xs:string" use="required"/>
+ </xs:complexType></xs:element></xs:sequence></xs:complexType></xs:element>
+<xs:complexType name="said" mixed="true">
+ <xs:attribute name="message" type="xs:string"/><xs:attribute name="type" type="xs:string"/></xs:complexType>
+<xs:element name="testcase"><xs:complexType>
+ <xs:choice minOccurs="0"><xs:element name="failure" type="said"/><xs:element name="error" type="said"/></xs:choice>
+ <xs:attribute name="name" type="xs:string" use="required"/><xs:attribute name="classname" type="xs:string"/>
+ <xs:attribute name="time" type="xs:decimal"/></xs:complexType></xs:element>
+</xs:schema>"""
+#: https://gradescope-autograders.readthedocs.io/en/latest/specs/
+GRADESCOPE = {
+    "type": "object",
+    "additionalProperties": False,
+    "properties": {
+        "score": {"type": "number"}, "execution_time": {"type": "number"}, "output": {"type": "string"},
+        "output_format": {"enum": ["text", "html", "simple_format", "md", "ansi"]},
+        "test_output_format": {"enum": ["text", "html", "simple_format", "md", "ansi"]},
+        "visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
+        "stdout_visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
+        "extra_data": {"type": "object"},
+        "tests": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "additionalProperties": False,
+                "properties": {
+                    "score": {"type": "number"}, "max_score": {"type": "number"},
+                    "status": {"enum": ["passed", "failed"]},
+                    "name": {"type": "string"}, "number": {"type": "string"}, "output": {"type": "string"},
+                    "output_format": {"const": "text"}, "tags": {"type": "array"},
+                    "visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
+                },
+            },
+        },
+    },
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
+    path = tmp_path_factory.mktemp("a") / "answers.csv"
+    with path.open("w", newline="") as file:
+        csv.writer(file).writerows(ROWS)
+    return verify([path], Settings(rules=Rules(keys=True)))
+
+
+@pytest.mark.parametrize("feedback", FEEDBACK)
+def test_the_json_fits_the_schema_that_is_printed(report: Report, feedback: str) -> None:
+    schema = json.loads(CliRunner().invoke(app, ["verify", "--schema"]).stdout)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(json.loads(data.written(report, feedback)), schema)
+
+
+@pytest.mark.parametrize("feedback", FEEDBACK)
+def test_the_junit_report_fits_its_schema_and_is_read_by_others(report: Report, feedback: str) -> None:
+    text = junit.written(report, feedback)
+    xmlschema.XMLSchema(JUNIT).validate(ElementTree.fromstring(text))
+    read = JUnitXml.fromstring(text.encode())
+    # Ann's part, Ben's three, the third one's two, and the row that is no problem.
+    assert (read.tests, read.errors) == (1 + 3 + 2 + 1, 1)
+    # Ben's comma, his mistake, what he left out, and whatever the third one typed.
+    assert read.failures == (0 if feedback == "none" else 5)
+
+
+@pytest.mark.parametrize("feedback", FEEDBACK)
+def test_the_gradescope_results_fit_their_specification(report: Report, feedback: str) -> None:
+    results = json.loads(gradescope.written(report, feedback))
+    jsonschema.validate(results, GRADESCOPE)
+    assert bool(results["tests"]) == (feedback != "none")
+
+
+def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: Report) -> None:
+    lines = github.written(report, "reason").splitlines()
+    assert len(lines) <= github.MOST
+    for line in lines:
+        assert re.fullmatch(r"::(error|notice) (file=[^:,]*,)?(line=\d+,)?title=[^:,]*::[^\r\n]*", line), line
+    assert any("line=8," in line and "neither a problem ID" in line for line in lines)
+    table = github.summary(report, "reason")
+    assert "<script" not in table
+    assert table.count("\n| ") == 1 + len(report.parts)
+
+
+def test_no_cell_of_a_table_is_a_formula(report: Report) -> None:
+    for text in (tables.written(report, "key"), tables.totals(report)):
+        for row in csv.reader(io.StringIO(text)):
+            for cell in row:
+                assert not cell.startswith(("=", "+", "@", "\t")), cell
+                assert not cell.startswith("-") or re.fullmatch(r"-[0-9.]+", cell)
+    totals = list(csv.DictReader(io.StringIO(tables.totals(report))))
+    assert (totals[0]["student"], totals[0]["points"], totals[0]["of"]) == ("Ann", "1", "1")
+
+
+class _Tags(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.found: list[str] = []
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found.append(tag)
+        for name, value in attrs:
+            assert not name.startswith("on")
+            assert name not in ("src", "href"), value
+        if tag not in ("meta", "rect"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag != "rect":
+            assert self.open.pop() == tag
+
+
+def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
+    text = page.written(report, "reason")
+    tags = _Tags()
+    tags.feed(text)
+    assert tags.open == []
+    assert tags.found.count("svg") == 2
+    assert "script" not in tags.found
+    assert "https://" not in text
+    # 11/2 is 1/2 · 11: the first reward discounted too, once.
+    assert "first reward" in text
+
+
+@pytest.mark.parametrize("feedback", FEEDBACK)
+def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> None:
+    forms = (data, junit, github, gradescope, tables)
+    text = "\n".join(form.written(report, feedback) for form in forms) + github.summary(report, feedback)
+    assert ("21/2" in text) == (feedback == "key")  # the key of (b)
+    assert ("misconception" in text) == (feedback != "none")
+    seen = github.summary(report, feedback) + junit.written(report, feedback)
+    assert ("points" in seen) == (feedback != "none")
+    assert ("first reward" in text) == (feedback in ("reason", "key"))
