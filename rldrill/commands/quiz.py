@@ -123,13 +123,13 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
         raise UsageError(f"{path} does not end in .toml, as files of answers do.")
     saved = path.with_suffix(".json")
     if source.suffix.lower() == ".json":
-        planned = read_manifest(source)
+        saved, planned = source, read_manifest(source)
     elif saved.exists():
         planned = read_manifest(saved)
     else:
         planned = plan(read_blueprint(source).but(seed=seed, versions=1))
         write_bytes_atomically(saved, written(manifest(planned)))
-    sitting = Sitting(planned, version_of(planned, version), path, utc_now())
+    sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():
         sitting.resume()
     if not SittingScreen(console(), line_editor(), utc_now).run(sitting):

@@ -38,6 +38,7 @@ class Sitting:
         version: the version that is sat.
         path: the file of answers; it is written after every answer.
         begun: when it began.
+        manifest: the exam as a file, by which the answers are graded; None where it is nowhere.
         answers: what was typed, by place.
         handed_in: when it was handed in, if it was.
     """
@@ -46,6 +47,7 @@ class Sitting:
     version: Version
     path: Path
     begun: datetime
+    manifest: Path | None = None
     answers: dict[Place, str] = field(default_factory=dict)
     handed_in: datetime | None = None
 

@@ -224,7 +224,9 @@ class SittingScreen:
                     self._indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
                     self._indented(renderable(exercise.answer(own)))
-        self._print(words(f"Your answers are in {sitting.path}; 'rldrill verify {sitting.path}' grades them again."))
+        exam = "" if sitting.manifest is None else f"--for {sitting.manifest} "
+        again = f"rldrill verify {exam}{sitting.path}"
+        self._print(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))
 
     def _graded(self, name: str, part: GradedPart) -> None:
         says = "not answered" if part.verdict is None else part.verdict.says

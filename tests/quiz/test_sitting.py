@@ -12,7 +12,8 @@ from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam
 from rldrill.exam.manifest import manifest, read_manifest, written
 from rldrill.exam.planning import plan
-from rldrill.grading.verification import verify
+from rldrill.grading.assignment import Assignment
+from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.quiz.sitting import Place, Sitting, by_topic, version_of
 from rldrill.quiz.sitting_screen import SittingScreen
@@ -143,6 +144,19 @@ def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) 
         assert verify([sitting.path]).score.points == points
     else:
         assert points == 0
+
+
+def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path) -> None:
+    entries = (Entry(id="return/1/7", points=(5, 3)), Entry(id="td-zero/1/7", points=4))
+    planned = plan(Blueprint(problems=entries, seed=1))
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START, tmp_path / "exam.json")
+    (tmp_path / "exam.json").write_bytes(written(manifest(planned)))
+    a, _, last = right(sitting)
+    _, text, _ = sit(sitting, a, "0", last, "yes")
+    assert "9 of 12 points" in text
+    assert f"rldrill verify --for {tmp_path / 'exam.json'}" in text.replace("\n", " ")
+    settings = Settings(assignment=Assignment(tmp_path / "exam.json"))
+    assert verify([sitting.path], settings).score.points == 9
 
 
 def test_the_manifest_makes_the_same_exam(sitting: Sitting, tmp_path: Path) -> None:
