@@ -29,7 +29,7 @@ from rldrill.solutions.abridging import abridged
 from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.effort import points
+from rldrill.solutions.effort import points, seconds_of
 from rldrill.solutions.exact import NoSolution, TooLong
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.typesetting import typeset
@@ -45,10 +45,12 @@ class Exercise:
 
     What is a page (``question``, ``hint``, ``working``) is readable text as ``str``, and Markdown in a notebook.
     ``notes`` say what was read otherwise than it is written in the file, such as 0.3333333333333333 as 1/3.
+    ``worth`` has the points of every part where an exam sets them; else they follow the minutes.
     """
 
     solution: Solution
     notes: tuple[str, ...] = ()
+    worth: Mapping[str, int] | None = None
 
     @property
     def problem(self) -> Problem:
@@ -63,7 +65,7 @@ class Exercise:
     @cached_property
     def parts(self) -> tuple[Part, ...]:
         """What is asked, with its points."""
-        worth = points(self.solution)
+        worth = self.worth or points(self.solution)
         return tuple(replace(part, points=worth[part.label]) for part in self.problem.parts)
 
     def __repr__(self) -> str:
@@ -116,7 +118,7 @@ class Exercise:
         texts = {
             self._part(label).label: typed(answer, f"The answer to ({label})") for label, answer in answers.items()
         }
-        graded = grade(self.solution, texts)
+        graded = grade(self.solution, texts, self.worth)
         return Graded(
             tuple(
                 part
@@ -202,7 +204,31 @@ class Exercise:
                 block for each in self.parts for block in (Heading(f"({each.label})"), *self.working(each.label))
             )
         lines = self.solution.lines if part is None else self.solution.lines_of(self._part(part).label)
-        return Page(_written(abridged(lines)))
+        return Page(_written(abridged(lines), set()))
+
+    def scheme(self, part: str) -> tuple[tuple[tuple[Block, ...], int], ...]:
+        """The working of a part in pieces, each with the points that are earned when it is reached.
+
+        The points follow the time that the steps take.
+
+        Raises:
+            UsageError: the problem has no such part.
+        """
+        worth = self._part(part).points
+        lines = abridged(self.solution.lines_of(part))
+        times = [seconds_of([line]) if isinstance(line, Step) else Fraction(0) for line in lines]
+        whole, spent, earned = sum(times), Fraction(0), 0
+        stated: set[Formula] = set()
+        result: list[tuple[tuple[Block, ...], int]] = []
+        waiting: tuple[Block, ...] = ()
+        for line, time in zip(lines, times, strict=True):
+            waiting += tuple(_written([line], stated))
+            spent += time
+            reached = int(worth * spent / whole) if whole else 0
+            if time and reached > earned:
+                result.append((waiting, reached - earned))
+                earned, waiting = reached, ()
+        return (*result, (waiting, worth - earned)) if waiting else tuple(result)
 
     def answer(self, part: Part) -> Equation:
         """The answer of a part, exact and as a decimal, as a block; a table has a line for each of its keys."""
@@ -262,9 +288,8 @@ class Exercise:
         return result
 
 
-def _written(lines: Iterable[Line]) -> Iterator[Block]:
-    """A working as blocks; each formula stands there as it is before its first step."""
-    stated: set[Formula] = set()
+def _written(lines: Iterable[Line], stated: set[Formula]) -> Iterator[Block]:
+    """A working as blocks; each formula that is not stated yet stands there as it is before its first step."""
     for line in lines:
         if isinstance(line, Step) and line.formula not in stated:
             stated.add(line.formula)
@@ -284,7 +309,7 @@ def _written(lines: Iterable[Line]) -> Iterator[Block]:
         elif isinstance(line, Result):
             yield from line.equations()
         elif isinstance(line, Elimination):
-            yield from _written(line.lines())
+            yield from _written(line.lines(), set())
 
 
 def _step(step: Step) -> dict[str, str]:

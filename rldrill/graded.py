@@ -67,11 +67,17 @@ class Graded:
         return {part.part: part for part in self.parts}[label]
 
 
-def grade(solution: Solution, texts: Mapping[str, str]) -> Graded:
-    """Judge the texts that were typed for the parts with these labels; blank ones are missing."""
+def grade(solution: Solution, texts: Mapping[str, str], worth: Mapping[str, int] | None = None) -> Graded:
+    """Judge the texts that were typed for the parts with these labels; blank ones are missing.
+
+    Args:
+        solution: the solution.
+        texts: what was typed.
+        worth: the points of every part, where they do not follow the minutes.
+    """
     graded: list[GradedPart] = []
     earlier: dict[str, Any] = {}
-    worth = points(solution)
+    worth = worth or points(solution)
     for part in solution.problem.parts:
         text = texts.get(part.label, "")
         verdict = judge(solution, part.label, text, earlier) if text.strip() else None

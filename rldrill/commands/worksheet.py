@@ -1,59 +1,252 @@
-"""``rldrill worksheet``: printed worksheets with their keys."""
+"""``rldrill worksheet``: printed worksheets and exams with their keys."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from enum import Enum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rldrill.commands.arguments import Json, Level, Names, Seed
+from rldrill.commands.arguments import Json, Level, Seed, complete_ids, complete_names
+
+if TYPE_CHECKING:
+    from rldrill.exam.blueprint import Blueprint
+    from rldrill.print.exam_files import Files
 
 NAME = "worksheet"
+_PROBLEMS, _MOST = 8, 100
+
+
+class Space(Enum):
+    """How much room there is for working."""
+
+    NONE = "none"
+    TIGHT = "tight"
+    NORMAL = "normal"
+    WIDE = "wide"
+
+
+class Solutions(Enum):
+    """Where the solutions are printed."""
+
+    NONE = "none"
+    INLINE = "inline"
+    SEPARATE = "separate"
+
+
+def _complete(incomplete: str) -> list[str]:
+    return [*complete_names(incomplete), *complete_ids(incomplete)]
 
 
 def command(
-    names: Names = None,
-    count: Annotated[int, typer.Option("--count", "-n", min=1, max=100, help="Problems in each version.")] = 8,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="TOPIC|FAMILY|ID|FILE",
+            autocompletion=_complete,
+            help="Topics, families, problem IDs, problem files; or one blueprint (.toml). All topics, if none.",
+        ),
+    ] = None,
+    count: Annotated[
+        int | None,
+        typer.Option("--count", "-n", min=1, max=_MOST, help=f"Problems in each version; {_PROBLEMS}, if not given."),
+    ] = None,
+    minutes: Annotated[
+        int | None, typer.Option("--minutes", "-m", min=1, max=600, help="Choose problems that take so long.")
+    ] = None,
     level: Level = None,
+    exclude: Annotated[
+        list[str] | None,
+        typer.Option("--exclude", "-x", metavar="TOPIC|FAMILY", help="Draw nothing of this.", autocompletion=_complete),
+    ] = None,
     seed: Seed = None,
-    versions: Annotated[int, typer.Option("--versions", min=1, max=200, help="How many versions.")] = 1,
-    paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper.")] = "a4",
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE.pdf", help="Write to this file.")] = Path(
-        "worksheet.pdf"
-    ),
+    versions: Annotated[int | None, typer.Option("--versions", min=1, max=999, help="How many versions.")] = None,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="FILE.csv", help="A version for everybody in it: name, number.")
+    ] = None,
+    paper: Annotated[str | None, typer.Option("--paper", metavar="a4|letter", help="The paper.")] = None,
+    space: Annotated[Space | None, typer.Option("--space", help="How much room for working.")] = None,
+    solutions: Annotated[Solutions | None, typer.Option("--solutions", help="Where the solutions are.")] = None,
+    ids: Annotated[
+        bool | None, typer.Option("--ids/--no-ids", help="Print IDs and seed: whoever has them has the key.")
+    ] = None,
+    duplex: Annotated[
+        bool | None, typer.Option("--duplex/--no-duplex", help="An even number of pages in every PDF.")
+    ] = None,
     title: Annotated[str | None, typer.Option("--title", help="What is printed at the head.")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE.pdf", help="Write to this file; worksheet.pdf, if not given."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", "-f", help="Replace what an earlier run has written.")] = False,
+    init: Annotated[
+        Path | None, typer.Option("--init", metavar="FILE.toml", help="Write a blueprint with comments, and end.")
+    ] = None,
+    source: Annotated[
+        Path | None, typer.Option("--from", metavar="FILE.json", help="Print again what a manifest holds.")
+    ] = None,
+    key: Annotated[bool, typer.Option("--key", help="Print keys alone.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Typeset a worksheet as PDF, with a key for each version.
+    """Typeset a worksheet or an exam as PDF, with a key for each version.
 
-    Versions share topics and levels, and never a problem. A manifest (FILE.json) records what was printed.
+    Versions share topics and levels, and neither a problem nor an answer. A manifest (FILE.json) records all that was
+    printed; 'rldrill worksheet --from FILE.json' prints it again, and goes on with a run that was ended.
 
     Examples:
 
-        rldrill worksheet
-
         rldrill worksheet bellman td-zero -n 6 --level 2 -o exam.pdf
 
-        rldrill worksheet -n 5 --versions 30 --seed 7 -o quiz.pdf
-    """
-    from rldrill.exam.planning import DEFAULT_TITLE, plan
-    from rldrill.exam.selection import fresh_seed
-    from rldrill.print.exam_files import check_output, write
-    from rldrill.print.paper import paper_of
+        rldrill worksheet td-zero/1/7 mine.toml bellman -n 6 --minutes 90 --exclude beyond-the-sheet
 
-    size = paper_of(paper)
-    check_output(output)
-    chosen = fresh_seed() if seed is None else seed
-    typer.echo(f"seed {chosen}", err=True)
-    with _progress(2 * versions) as advance:
-        exam = plan(names or (), count, level, chosen, versions, title=title or DEFAULT_TITLE, advance=advance)
-        written = write(exam, output, size, advance)
+        rldrill worksheet --init exam.toml · rldrill worksheet exam.toml --roster course.csv
+    """
+    from rldrill.problems.errors import UsageError
+
+    changes: dict[str, Any] = {
+        "paper": None if paper is None else _paper(paper),
+        "space": space and space.value,
+        "solutions": solutions and solutions.value,
+        "ids": ids,
+        "duplex": duplex,
+    }
+    if init is not None:
+        _write_template(init, force=force)
+        written = [init]
+    elif source is not None:
+        if names or count or minutes or level or exclude or seed is not None or versions or roster or title:
+            raise UsageError("--from prints what the manifest holds; leave out what would make another exam.")
+        written = _reprinted(source, output, changes, only_keys=key, force=force)
+    else:
+        blueprint, stem = _blueprint(list(names or ()), count, minutes, level)
+        blueprint = blueprint.but(
+            **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
+        )
+        written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, only_keys=key, force=force)
     _print([str(path) for path in written], as_json=as_json)
 
 
+def _paper(name: str) -> str:
+    from rldrill.print.paper import paper_of
+
+    return paper_of(name).name
+
+
+def _write_template(path: Path, *, force: bool) -> None:
+    from rldrill.exam.blueprint import template
+    from rldrill.print.files import write_bytes_atomically
+    from rldrill.problems.errors import UsageError
+
+    if path.suffix.lower() != ".toml":
+        raise UsageError(f"{path} does not end in .toml; a blueprint is a TOML file.")
+    if path.exists() and not force:
+        raise UsageError(f"{path} is there already; choose another name, or replace it with --force.")
+    write_bytes_atomically(path, template().encode())
+
+
+def _blueprint(names: list[str], count: int | None, minutes: int | None, level: int | None) -> "tuple[Blueprint, str]":
+    """What is asked for, and what its file is called if nothing else is said."""
+    from rldrill.exam.blueprint import Blueprint, Entry, is_blueprint, read_blueprint
+    from rldrill.files import read_data
+    from rldrill.problems.errors import UsageError
+    from rldrill.problems.identity import looks_like_id
+
+    paths = [name for name in names if Path(name).suffix.lower() in (".toml", ".json")]
+    plans = [name for name in paths if name.lower().endswith(".toml") and is_blueprint(read_data(name))]
+    if plans:
+        if len(names) > 1 or count or level:
+            raise UsageError(f"{plans[0]} is a blueprint, which names the problems itself; leave the other names out.")
+        return read_blueprint(plans[0]).but(minutes=minutes), Path(plans[0]).stem
+    fixed = [Entry(id=name) if looks_like_id(name) else Entry(file=name) for name in names if _is_problem(name)]
+    rest = tuple(name for name in names if not _is_problem(name))
+    if rest or not fixed:
+        wanted = None if minutes and count is None else max(1, (count or _PROBLEMS) - len(fixed))
+        fixed.append(Entry(topic=rest, count=wanted, level=level))
+    return Blueprint(problems=tuple(fixed), minutes=minutes), "worksheet"
+
+
+def _is_problem(name: str) -> bool:
+    from rldrill.problems.identity import looks_like_id
+
+    return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")
+
+
+def _printed(blueprint: "Blueprint", output: Path, roster: Path | None, *, only_keys: bool, force: bool) -> list[Path]:
+    from rldrill.exam.fairness import fairness
+    from rldrill.exam.manifest import manifest, written
+    from rldrill.exam.planning import plan, version_code
+    from rldrill.exam.roster import read_roster
+    from rldrill.exam.selection import fresh_seed
+    from rldrill.print.exam_files import Files, check_output, make_room, write
+    from rldrill.print.fonts import needs_system_fonts
+    from rldrill.print.paper import typst_version
+
+    check_output(output)
+    people = () if roster is None else read_roster(roster)
+    number = len(people) or blueprint.versions
+    files = Files(output, tuple(map(version_code, range(number))), blueprint.layout, bool(people), only_keys)
+    if needs_system_fonts(blueprint.head, people):
+        typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
+    if blueprint.seed is None:
+        blueprint = blueprint.but(seed=fresh_seed())
+        typer.echo(f"seed {blueprint.seed}", err=True)
+        make_room(files, force=force)  # before any work: with a seed of its own no run goes on with another one
+    with _progress("Drawing", number) as advance:
+        exam = plan(blueprint, roster=people, advance=advance)
+    data = written(manifest(exam, typst_version()))
+    if number > 1:
+        typer.echo(f"{number} versions: {fairness(exam).says()}", err=True)
+    del exam
+    if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
+        make_room(files, force=force)
+    return _counted(files, number, lambda advance: write(files, data, advance))
+
+
+def _reprinted(
+    source: Path, output: Path | None, changes: dict[str, Any], *, only_keys: bool, force: bool
+) -> list[Path]:
+    import json
+    from dataclasses import replace
+
+    from rldrill.exam.manifest import codes, read_exam, typst_of, written
+    from rldrill.print.exam_files import Files, check_output, make_room, print_from, write
+    from rldrill.print.paper import typst_version
+    from rldrill.problems.errors import UsageError
+
+    exam, makes = read_exam(source)
+    personal = makes[0]().person is not None
+    layout = replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
+    target = output or source.with_suffix(".pdf")
+    check_output(target)
+    files = Files(target, codes(source), layout, personal, only_keys)
+    before, now = typst_of(source), typst_version()
+    if before not in (None, now):
+        typer.echo(f"rldrill: {source} was printed with typst {before}, and this is {now}; bytes may differ", err=True)
+    beside = files.manifest.exists() and files.manifest.samefile(source)
+    if beside and not force and layout != exam.layout:
+        raise UsageError(f"{source} prints otherwise; choose another name with -o, or --force to print its PDFs anew.")
+    if beside and force:
+        for path in files.pdfs():
+            path.unlink(missing_ok=True)
+    if beside or only_keys:
+        return _counted(files, len(makes), lambda advance: print_from(source, files, advance))
+    make_room(files, force=force)
+    data = json.loads(source.read_text(encoding="utf-8"))
+    return _counted(files, len(makes), lambda advance: write(files, written(data), advance))
+
+
+def _counted(files: "Files", number: int, run: Callable[[Callable[[], None]], Iterator[Path]]) -> list[Path]:
+    """What was written, and a word on what was there already."""
+    there = sum(path.exists() for path in files.pdfs())
+    if there:
+        typer.echo(f"rldrill: {there} of {len(files.pdfs())} PDFs are there already; the rest is written", err=True)
+    with _progress("Typesetting", number) as advance:
+        return sorted(run(advance), key=[*files.pdfs(), files.manifest].index)
+
+
 @contextmanager
-def _progress(steps: int) -> Iterator[Callable[[], None]]:
+def _progress(what: str, steps: int) -> Iterator[Callable[[], None]]:
     from rich.progress import Progress
 
     from rldrill.render.terminal import console
@@ -63,7 +256,7 @@ def _progress(steps: int) -> Iterator[Callable[[], None]]:
         yield lambda: None
         return
     with Progress(console=screen, transient=True) as progress:
-        task = progress.add_task("Typesetting", total=steps)
+        task = progress.add_task(what, total=steps)
         yield lambda: progress.advance(task)
 
 

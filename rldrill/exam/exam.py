@@ -1,19 +1,82 @@
 """An exam as a thing: versions of one length and difficulty that share no problem."""
 
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
 
 from rldrill.exercise import Exercise
 from rldrill.solutions.effort import minutes, whole
 
+DEFAULT_TITLE = "Reinforcement Learning: worksheet"
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """Somebody on the roster."""
+
+    name: str
+    number: str
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """What is said of the exam as a whole, all of it plain text.
+
+    Args:
+        title: the title.
+        course: the course, or nothing.
+        date: the day, as it is printed, or nothing.
+        duration: the minutes that there are, or None.
+        instructions: what is printed before the first problem, beside the rule for answers.
+        language: of the fixed words.
+        decimal_mark: the sign before the decimals.
+    """
+
+    title: str = DEFAULT_TITLE
+    course: str = ""
+    date: str = ""
+    duration: int | None = None
+    instructions: str = ""
+    language: Literal["en", "de"] = "en"
+    decimal_mark: Literal[".", ","] = "."
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How an exam is printed.
+
+    Args:
+        paper: the name of the paper.
+        space: how much room there is for working.
+        solutions: whether keys are written, and whether beside the exam or in it.
+        ids: whether the problems' IDs and the seed are printed; an ID is its own key.
+        duplex: whether every PDF has an even number of pages.
+    """
+
+    paper: Literal["a4", "letter"] = "a4"
+    space: Literal["none", "tight", "normal", "wide"] = "normal"
+    solutions: Literal["none", "inline", "separate"] = "separate"
+    ids: bool = False
+    duplex: bool = False
+
 
 @dataclass(frozen=True)
 class Version:
-    """One version of an exam: what one person gets."""
+    """One version of an exam: what one person gets.
 
-    title: str
-    seed: int
+    Every exercise carries the points that its parts earn here (``exercise.parts[0].points``).
+
+    Args:
+        code: A, B, …
+        exercises: the problems in the order in which they are printed.
+        slots: for each of them its place in the blueprint, from 0, which versions have in common.
+        person: whose it is, where there is a roster.
+    """
+
     code: str
     exercises: tuple[Exercise, ...]
+    slots: tuple[int, ...]
+    person: Person | None = None
 
     @property
     def points(self) -> int:
@@ -23,18 +86,31 @@ class Version:
     @property
     def minutes(self) -> int:
         """How many minutes the whole version takes by hand."""
-        return sum(map(minutes_of, self.exercises))
+        return whole(self.time)
+
+    @property
+    def time(self) -> Fraction:
+        """The same, not rounded."""
+        return sum((minutes(exercise.solution) for exercise in self.exercises), Fraction(0))
 
 
 @dataclass(frozen=True)
 class Exam:
-    """An exam in all its versions, and what it was planned from."""
+    """An exam in all its versions.
 
-    title: str
+    Args:
+        head: what is said of it.
+        seed: what the choice of problems depends on.
+        versions: all versions.
+        partial: what wrong entries of a table or matrix cost: all of the part's points, or their share of them.
+        layout: how it is printed.
+    """
+
+    head: Head
     seed: int
-    names: tuple[str, ...]
-    level: int | None
     versions: tuple[Version, ...]
+    partial: Literal["all", "entries"] = "all"
+    layout: Layout = Layout()
 
 
 def points_of(exercise: Exercise) -> int:

@@ -1,42 +1,82 @@
-"""The manifest of an exam: what was printed, as JSON."""
+"""The manifest of an exam: all that was printed, as JSON, from which it is graded and printed again years later."""
 
 import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
-from rldrill.exam.exam import Exam, points_of
-from rldrill.exercise import Exercise
+from rldrill.exam.exam import Exam, Head, Layout, Person, Version, minutes_of, points_of
+from rldrill.exam.fairness import fairness
+from rldrill.exercise import Exercise, read
+from rldrill.files import read_data, shown
+from rldrill.problems.errors import FileError, UsageError
+from rldrill.problems.identity import Identity, looks_like_id, split_id
+from rldrill.solutions.effort import minutes_of as part_minutes
 
 #: The version of the manifest's form.
-FORMAT = 1
+FORMAT = 2
+_FORMATS = (1, FORMAT)
 
 
-def manifest(exam: Exam, paper: str) -> dict[str, Any]:
-    """What was printed: enough to print the keys again or to grade, also after a family has changed."""
+def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
+    """All that is printed: enough to print it again or to grade, also after a family has changed.
+
+    Args:
+        exam: the exam.
+        printed_with: the version of Typst, which decides the bytes of the PDFs.
+    """
     return {
         "format": FORMAT,
         "rldrill": __version__,
-        "title": exam.title,
+        "typst": printed_with,
+        **asdict(exam.head),
         "seed": exam.seed,
-        "level": exam.level,
-        "names": list(exam.names),
-        "paper": paper,
-        "versions": [
-            {
-                "code": version.code,
-                "points": version.points,
-                "problems": [_entry(index, item) for index, item in enumerate(version.exercises, 1)],
-            }
-            for version in exam.versions
-        ],
+        "points": exam.versions[0].points,
+        "partial": exam.partial,
+        "layout": asdict(exam.layout),
+        "fairness": fairness(exam).data(),
+        "versions": [_version(version) for version in exam.versions],
     }
 
 
-def _entry(index: int, exercise: Exercise) -> dict[str, Any]:
-    asked = [{"part": part.label, "kind": part.kind.name, "points": part.points} for part in exercise.parts]
-    entry = {"number": index, "id": exercise.id, "points": points_of(exercise), "parts": asked}
-    return entry | {"problem": exercise.problem.data()}
+def written(data: Mapping[str, Any]) -> bytes:
+    """A manifest as its file holds it."""
+    return (json.dumps(data, ensure_ascii=False, indent=1) + "\n").encode()
+
+
+def _version(version: Version) -> dict[str, Any]:
+    whose = {} if version.person is None else {"person": asdict(version.person)}
+    numbered = enumerate(zip(version.slots, version.exercises, strict=True), 1)
+    problems = [_problem(number, slot, exercise) for number, (slot, exercise) in numbered]
+    return {"code": version.code, **whose, "points": version.points, "minutes": version.minutes, "problems": problems}
+
+
+def _problem(number: int, slot: int, exercise: Exercise) -> dict[str, Any]:
+    parts = [
+        {
+            "part": part.label,
+            "kind": part.kind.name,
+            "points": part.points,
+            "minutes": round(float(part_minutes(exercise.solution, part.label)), 1),
+        }
+        for part in exercise.parts
+    ]
+    return {
+        "number": number,
+        "slot": slot,
+        "id": exercise.id,
+        "family": exercise.problem.family.name,
+        "level": exercise.problem.level,
+        "points": points_of(exercise),
+        "minutes": minutes_of(exercise),
+        "parts": parts,
+        "problem": exercise.problem.data(),
+    }
 
 
 def is_manifest(path: Path) -> bool:
@@ -46,3 +86,154 @@ def is_manifest(path: Path) -> bool:
     except (OSError, ValueError):
         return False
     return isinstance(data, dict) and "rldrill" in data and "versions" in data
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="ignore", frozen=True)
+
+
+class _Part(_Table):
+    part: str
+    points: Annotated[int, Field(ge=0)]
+
+
+class _Problem(_Table):
+    id: str | None = None
+    slot: Annotated[int, Field(ge=0)] | None = None
+    parts: Annotated[tuple[_Part, ...], Field(min_length=1)]
+    problem: dict[str, Any]
+
+
+class _Person(_Table):
+    name: str
+    number: str
+
+
+class _Version(_Table):
+    code: Annotated[str, Field(min_length=1, max_length=8)]
+    person: _Person | None = None
+    problems: Annotated[tuple[_Problem, ...], Field(min_length=1)]
+
+
+class _Layout(_Table):
+    paper: Literal["a4", "letter"] = "a4"
+    space: Literal["none", "tight", "normal", "wide"] = "normal"
+    solutions: Literal["none", "inline", "separate"] = "separate"
+    ids: bool = False
+    duplex: bool = False
+
+
+class _Manifest(_Table):
+    typst: str | None = None
+    title: str
+    course: str = ""
+    date: str = ""
+    duration: int | None = None
+    instructions: str = ""
+    language: Literal["en", "de"] = "en"
+    decimal_mark: Literal[".", ","] = "."
+    seed: int
+    partial: Literal["all", "entries"] = "all"
+    paper: Literal["a4", "letter"] = "a4"  # where format 1 has it
+    layout: _Layout | None = None
+    versions: Annotated[tuple[_Version, ...], Field(min_length=1)]
+
+
+def read_manifest(path: str | Path) -> Exam:
+    """The exam that a manifest records, every problem made again from the givens that the manifest holds.
+
+    So it is the exam that was printed also where a family draws other problems by now.
+
+    Raises:
+        FileError: the file cannot be read, is no manifest, or a problem in it cannot be made.
+    """
+    exam, makes = read_exam(path)
+    return replace(exam, versions=tuple(make() for make in makes))
+
+
+def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]]:
+    """The same with no version yet, and for every version what makes it: solving takes a while.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest; a problem that cannot be made is told with its version.
+    """
+    data, where = _checked(path), shown(path)
+    head = Head(**{name: getattr(data, name) for name in Head.__dataclass_fields__})
+    layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
+    makes = tuple(partial(_made, version, where) for version in data.versions)
+    return Exam(head, data.seed, (), data.partial, layout), makes
+
+
+def codes(path: str | Path) -> tuple[str, ...]:
+    """The codes of a manifest's versions; nothing is solved for it.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return tuple(version.code for version in _checked(path).versions)
+
+
+def typst_of(path: str | Path) -> str | None:
+    """The version of Typst that a manifest's PDFs were made with, where it says so.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest.
+    """
+    return _checked(path).typst
+
+
+def _checked(path: str | Path) -> _Manifest:
+    data, where = read_data(path), shown(path)
+    if not isinstance(data, dict) or "rldrill" not in data or "versions" not in data:
+        raise FileError(
+            f"{where}: this is no manifest of an exam; name the .json file that was written beside the PDFs."
+        )
+    version = data.get("format")
+    if version not in _FORMATS or isinstance(version, bool):
+        raise FileError(
+            f"{where}: its format is {str(version)[:20]}, and this release reads formats 1 and {FORMAT}; "
+            f"use the release that wrote it ({str(data['rldrill'])[:20]}) or a newer one."
+        )
+    try:
+        result = _Manifest.model_validate(data)
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(step + 1) if isinstance(step, int) else str(step) for step in first["loc"])
+        raise FileError(
+            f"{where}: the manifest is damaged at {place} ({first['msg'][:1].lower()}{first['msg'][1:]}); "
+            "take it from a backup, or write the exam again."
+        ) from None
+    codes = [each.code for each in result.versions]
+    if twice := next((code for code in codes if codes.count(code) > 1), None):
+        raise FileError(f"{where}: the manifest is damaged: version {twice} stands there twice; take it from a backup.")
+    return result
+
+
+def _made(version: _Version, where: str) -> Version:
+    exercises = tuple(
+        _exercise(problem, f"{where}, version {version.code}, problem {number}")
+        for number, problem in enumerate(version.problems, 1)
+    )
+    slots = tuple(index if problem.slot is None else problem.slot for index, problem in enumerate(version.problems))
+    person = None if version.person is None else Person(version.person.name, version.person.number)
+    return Version(version.code, exercises, slots, person)
+
+
+def _exercise(entry: _Problem, where: str) -> Exercise:
+    try:
+        exercise = read(entry.problem, where)
+    except UsageError as error:
+        raise FileError(f"{where}: {error}") from None
+    worth = {part.part: part.points for part in entry.parts}
+    asked = [part.label for part in exercise.problem.parts]
+    if list(worth) != asked:
+        raise FileError(
+            f"{where}: the manifest has points for {', '.join(worth)}, and in this release the problem asks "
+            f"{', '.join(asked)}; use the release that printed it."
+        )
+    identity = None
+    if entry.id is not None and looks_like_id(entry.id):
+        family, level, seed, revision = split_id(entry.id)
+        identity = Identity(family, level, seed, revision or exercise.problem.family.revision)
+    problem = replace(exercise.problem, identity=identity)
+    return Exercise(replace(exercise.solution, problem=problem), worth=worth)

@@ -1,60 +1,59 @@
-"""Planning an exam: choosing its families, and drawing a problem for every place of every version."""
+"""Planning an exam: a problem for every place of every version, none twice, and no answer twice in the same place."""
 
-import json
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
-from rldrill.exam.exam import Exam, Version, points_of
-from rldrill.exam.selection import sequence
+from rldrill.exam.blueprint import Blueprint
+from rldrill.exam.exam import Exam, Person, Version
+from rldrill.exam.fairness import chosen, content, told
+from rldrill.exam.selection import MAX_DRAWN, fresh_seed
+from rldrill.exam.slots import Slot, slots
+from rldrill.exam.worth import worth
 from rldrill.exercise import Exercise, draw
+from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
-from rldrill.problems.family import Family
+from rldrill.problems.parts import Choice
+from rldrill.solutions.effort import minutes
 
-DEFAULT_TITLE = "Reinforcement Learning: worksheet"
-_LONGEST_TITLE = 120
 #: How many problems are drawn for one place of an exam before the family counts as used up.
 _ATTEMPTS = 400
+#: How many are looked at to find one whose answers nobody else has, and one that keeps yes and no in balance.
+_FRESH, _BALANCED = 60, 6
+#: How far the minutes of a version may be from those of the first one.
+_TOLERANCE = Fraction(4, 100)
 
 
-def plan(
-    names: Sequence[str],
-    count: int,
-    level: int | None,
-    seed: int,
-    versions: int,
-    *,
-    title: str = DEFAULT_TITLE,
-    advance: Callable[[], None] | None = None,
-) -> Exam:
-    """Choose and draw the problems; the same arguments give the same exam.
+def plan(blueprint: Blueprint, *, roster: Sequence[Person] = (), advance: Callable[[], None] = lambda: None) -> Exam:
+    """Choose and draw the problems; the same blueprint with a seed gives the same exam.
 
     Args:
-        names: topics and families; all, if there are none.
-        count: how many problems a version has.
-        level: 1 to 3, or None for a mixture.
-        seed: what the choice depends on.
-        versions: how many versions; they share families and levels, and no problem.
-        title: what is printed at the head.
+        blueprint: what the exam shall be.
+        roster: the people; each gets a version, whatever the blueprint says.
         advance: called after each version.
 
     Raises:
-        UsageError: a name does not exist, the title is too long, or there are too few different problems.
+        FileError: a line of the blueprint's file does not fit.
+        UsageError: the same on a command line; or there are too few different problems.
     """
-    if len(title) > _LONGEST_TITLE:
-        raise UsageError(f"The title has {len(title)} characters; give one of at most {_LONGEST_TITLE}.")
-    slots = [(family, wanted) for family, wanted, _ in islice(sequence(names, level, seed), count)]
-    used: set[str] = set()
-    result: list[Version] = []
-    for index in range(versions):
-        seeds = (drawn for _, _, drawn in sequence(names, level, seed, index))
-        first = result[0].exercises if result else (None,) * len(slots)
-        exercises = tuple(
-            _new_problem(family, wanted, seeds, used, like) for (family, wanted), like in zip(slots, first, strict=True)
-        )
-        result.append(Version(title, seed, version_code(index), exercises))
-        if advance is not None:
-            advance()
-    return Exam(title, seed, tuple(names), level, tuple(result))
+    seed = fresh_seed() if blueprint.seed is None else blueprint.seed
+    places = slots(blueprint, seed)
+    planner = _Planner(places, seed)
+    count = len(roster) or blueprint.versions
+    versions: list[Version] = []
+    points: list[dict[str, int]] = []
+    for index in range(count):
+        exercises = planner.version(index)
+        points = points or worth(places, exercises, blueprint.points, blueprint.place_of_total)
+        worthy = [replace(exercise, worth=each) for exercise, each in zip(exercises, points, strict=True)]
+        order = tuple(range(len(places)))
+        if blueprint.order == "shuffled":
+            order = Draws(f"order {seed} version {index}").shuffled(order)
+        person = roster[index] if roster else None
+        versions.append(Version(version_code(index), tuple(worthy[slot] for slot in order), order, person))
+        advance()
+    return Exam(blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout)
 
 
 def version_code(index: int) -> str:
@@ -63,17 +62,81 @@ def version_code(index: int) -> str:
     return (version_code(head - 1) if head else "") + chr(ord("A") + last)
 
 
-def _new_problem(
-    family: Family, level: int, seeds: Iterator[int], used: set[str], like: Exercise | None = None
-) -> Exercise:
-    """A problem that no version has yet; in later versions it earns what the first one's does in its place."""
-    for seed in islice(seeds, _ATTEMPTS):
-        exercise = draw(family.name, level, seed)
-        content = json.dumps(exercise.problem.data(), sort_keys=True)
-        if content not in used and (like is None or points_of(exercise) == points_of(like)):
-            used.add(content)
-            return exercise
-    raise UsageError(
-        f"{family.name} has too few different problems at level {level} for this worksheet; "
-        "ask for fewer versions or problems, or for more families."
-    )
+@dataclass
+class _Planner:
+    """Draws version after version, and knows what the earlier ones have."""
+
+    slots: tuple[Slot, ...]
+    seed: int
+    used: set[str] = field(default_factory=set)
+    answers: Counter[tuple[int, str, str]] = field(default_factory=Counter)
+    first: tuple[Exercise, ...] = ()
+
+    def version(self, index: int) -> tuple[Exercise, ...]:
+        ahead = Fraction(0)  # by so many minutes this version is longer than the first one, until here
+        result: list[Exercise] = []
+        for slot, place in enumerate(self.slots):
+            exercise = place.fixed or self._best(slot, index, ahead)
+            if place.fixed is None:
+                self.used.add(content(exercise))
+                self.answers.update((slot, *answer) for answer in (*told(exercise), *chosen(exercise)))
+            if self.first:
+                ahead += _minutes(exercise) - _minutes(self.first[slot])
+            result.append(exercise)
+        self.first = self.first or tuple(result)
+        return tuple(result)
+
+    def _best(self, slot: int, index: int, ahead: Fraction) -> Exercise:
+        """The first problem that shares nothing; where none is found soon, the one that shares least."""
+        best: tuple[tuple[int, Fraction, int], Exercise] | None = None
+        for tried, exercise in enumerate(self._possible(slot, index), 1):
+            price = self._price(slot, exercise, ahead)
+            if best is None or price < best[0]:
+                best = price, exercise
+            if not any(best[0]) or tried >= (_FRESH if any(best[0][:2]) else _BALANCED):
+                break
+        if best is None:
+            name, level = self.slots[slot].family, self.slots[slot].level
+            raise UsageError(
+                f"{name} has too few different problems at level {level} for this worksheet; "
+                "ask for fewer versions or problems, or for more families."
+            )
+        return best[1]
+
+    def _possible(self, slot: int, index: int) -> Iterator[Exercise]:
+        """Problems that nobody has yet, with the parts that the first version has here."""
+        place = self.slots[slot]
+        seeds = Draws(f"problems {self.seed} version {index} place {slot}")
+        for _ in range(_ATTEMPTS):
+            exercise = draw(place.family, place.level or 1, seeds.below(MAX_DRAWN))
+            if content(exercise) not in self.used and (not self.first or _alike(exercise, self.first[slot])):
+                yield exercise
+
+    def _price(self, slot: int, exercise: Exercise, ahead: Fraction) -> tuple[int, Fraction, int]:
+        """Answers that somebody has here already, minutes too many or too few, and how one-sided the choices are."""
+        same = sum(self.answers[slot, label, answer] for label, answer in told(exercise))
+        excess = Fraction(0)
+        if self.first:
+            ahead += _minutes(exercise) - _minutes(self.first[slot])
+            excess = max(Fraction(0), abs(ahead) - _TOLERANCE * sum(map(_minutes, self.first)))
+        return same, excess, self._one_sided(slot, exercise)
+
+    def _one_sided(self, slot: int, exercise: Exercise) -> int:
+        result = 0
+        kinds = {part.label: part.kind for part in exercise.problem.parts}
+        for label, answer in chosen(exercise):
+            kind = kinds[label]
+            options = tuple(kind.options) if isinstance(kind, Choice) else ("yes", "no")
+            result += self.answers[slot, label, answer] - min(self.answers[slot, label, each] for each in options)
+        return result
+
+
+def _minutes(exercise: Exercise) -> Fraction:
+    return minutes(exercise.solution)
+
+
+def _alike(one: Exercise, other: Exercise) -> bool:
+    def asked(exercise: Exercise) -> list[tuple[str, str]]:
+        return [(part.label, part.kind.name) for part in exercise.problem.parts]
+
+    return asked(one) == asked(other)

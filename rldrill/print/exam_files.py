@@ -1,17 +1,65 @@
-"""The files of an exam: a worksheet and a key for every version, and the manifest."""
+"""The files of an exam: a worksheet and a key for every version, the manifest, and all of a roster in one."""
 
 import errno
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from rldrill.exam.exam import Exam
-from rldrill.exam.manifest import is_manifest, manifest
+from rldrill.exam.exam import Layout
+from rldrill.exam.manifest import codes, is_manifest
+from rldrill.print.bundle import bundled
 from rldrill.print.files import write_bytes_atomically
-from rldrill.print.key import key_source
-from rldrill.print.paper import Paper, pdf
-from rldrill.print.worksheet import worksheet_source
-from rldrill.problems.errors import UsageError
+from rldrill.print.typesetting import Task, typeset
+from rldrill.problems.errors import FileError, UsageError
+
+_TOLD = 4
+
+
+@dataclass(frozen=True)
+class Files:
+    """Which files an exam has, by the name of the first.
+
+    Args:
+        output: ``FILE.pdf``; beside it come ``FILE-key.pdf`` and ``FILE.json``, and with several versions
+            ``FILE-A.pdf``, ``FILE-A-key.pdf`` and so on in its place.
+        codes: the codes of the versions.
+        layout: which keys there are.
+        personal: whether there is a roster, so that ``FILE.pdf`` holds all versions.
+        only_keys: whether nothing but the keys is printed.
+    """
+
+    output: Path
+    codes: tuple[str, ...]
+    layout: Layout
+    personal: bool = False
+    only_keys: bool = False
+
+    @property
+    def manifest(self) -> Path:
+        """Where the manifest is."""
+        return self.output.with_suffix(".json")
+
+    @property
+    def bundle(self) -> Path | None:
+        """Where all versions stand one after the other, for a roster."""
+        return self.output if self.personal and not self.only_keys else None
+
+    def worksheet(self, code: str) -> Path | None:
+        """Where the worksheet of a version is."""
+        return None if self.only_keys else self._path(code, "")
+
+    def key(self, code: str) -> Path | None:
+        """Where the key of a version is."""
+        return self._path(code, "-key") if self.layout.solutions == "separate" or self.only_keys else None
+
+    def _path(self, code: str, ending: str) -> Path:
+        version = f"-{code}" if len(self.codes) > 1 or self.personal else ""
+        return self.output.with_name(f"{self.output.stem}{version}{ending}{self.output.suffix}")
+
+    def pdfs(self) -> list[Path]:
+        """All PDFs in their order."""
+        found = [path for code in self.codes for path in (self.worksheet(code), self.key(code)) if path is not None]
+        return found if self.bundle is None else [*found, self.bundle]
 
 
 def check_output(output: Path) -> None:
@@ -32,34 +80,83 @@ def check_output(output: Path) -> None:
         raise UsageError(f"{beside} would be overwritten, but is not a worksheet's manifest; choose another name.")
 
 
-def write(exam: Exam, output: Path, paper: Paper, advance: Callable[[], None] | None = None) -> list[Path]:
-    """Write every version, its key, and the manifest; nothing is written before all of it is typeset.
+def earlier(files: Files) -> list[Path]:
+    """What an earlier run has left: its files by these names, and those of versions that there are no more."""
+    names = [files.manifest, *files.pdfs()]
+    if is_manifest(files.manifest):
+        try:
+            old = codes(files.manifest)
+        except FileError:
+            old = ()
+        for personal in (False, True):
+            before = Files(files.output, old, Layout(), personal)
+            names += before.pdfs()
+    return [path for path in dict.fromkeys(names) if path.exists()]
 
-    Args:
-        exam: the exam.
-        output: ``FILE.pdf``; beside it come ``FILE-key.pdf`` and ``FILE.json``, and with several versions
-            ``FILE-A.pdf``, ``FILE-A-key.pdf`` and so on in its place.
-        paper: the paper.
-        advance: called after each version.
 
-    Returns:
-        The files, in the order in which they were written.
+def make_room(files: Files, *, force: bool) -> None:
+    """Take away what an earlier run has left, if that is wanted.
 
     Raises:
-        UsageError: the path does not fit.
+        UsageError: something is there, and it is not to be replaced.
+        OSError: a file cannot be removed.
+    """
+    found = earlier(files)
+    if found and not force:
+        told = ", ".join(path.name for path in found[:_TOLD])
+        more = f" and {len(found) - _TOLD} more" if len(found) > _TOLD else ""
+        raise UsageError(
+            f"An earlier worksheet is there ({told}{more}); --force removes it and writes the new one, "
+            "or choose another name with -o."
+        )
+    for path in found:
+        path.unlink()
+
+
+def write(files: Files, manifest: bytes, advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
+    """Write the manifest, then version after version whatever is not there yet, each file whole or not at all.
+
+    So a run that was ended goes on where it was.
+
+    Args:
+        files: the files.
+        manifest: what the manifest holds.
+        advance: called after each version, also one that was there already.
+
+    Raises:
         OSError: a file cannot be written; ``filename`` says which.
     """
-    check_output(output)
-    files: dict[Path, bytes] = {}
-    for version in exam.versions:
-        ending = f"-{version.code}" if len(exam.versions) > 1 else ""
-        stem = f"{output.stem}{ending}"
-        files[output.with_name(f"{stem}{output.suffix}")] = pdf(worksheet_source(version, paper))
-        files[output.with_name(f"{stem}-key{output.suffix}")] = pdf(key_source(version, paper))
-        if advance is not None:
-            advance()
-    data = json.dumps(manifest(exam, paper.name), ensure_ascii=False, indent=2) + "\n"
-    files[output.with_suffix(".json")] = data.encode()
-    for path, content in files.items():
-        write_bytes_atomically(path, content)
-    return list(files)
+    if not files.manifest.exists():
+        write_bytes_atomically(files.manifest, manifest)
+    yield from print_from(files.manifest, files, advance)
+    yield files.manifest
+
+
+def print_from(manifest: Path, files: Files, advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
+    """Print an exam from its manifest: whatever is not there yet.
+
+    Raises:
+        FileError: the manifest is damaged.
+        OSError: a file cannot be written; ``filename`` says which.
+    """
+    tasks = [
+        Task(manifest, index, files.layout, _missing(files.worksheet(code)), _missing(files.key(code)))
+        for index, code in enumerate(files.codes)
+    ]
+    waiting = [task for task in tasks if task.worksheet or task.key]
+    for _ in range(len(tasks) - len(waiting)):
+        advance()
+    for task in typeset(waiting):
+        advance()
+        yield from filter(None, (task.worksheet, task.key))
+    if files.bundle is not None and (waiting or not files.bundle.exists()):
+        write_bytes_atomically(files.bundle, bundled(_there(files)))
+        yield files.bundle
+
+
+def _missing(path: Path | None) -> Path | None:
+    return None if path is None or path.exists() else path
+
+
+def _there(files: Files) -> Sequence[Path]:
+    return [path for code in files.codes if (path := files.worksheet(code)) is not None]

@@ -1,34 +1,30 @@
-"""The key of a worksheet: for every problem the answers, each exact and as a decimal, then the whole working."""
+"""The key of a worksheet: for every problem what is asked, the answers, the working with points, typical mistakes."""
 
-from rldrill.exam.exam import Version
+from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
-from rldrill.print.heading import heading, setup, title
-from rldrill.print.paper import Paper
-from rldrill.problems.parts import Part
-from rldrill.render.mathematics.typst import text
-from rldrill.render.typst import block, document
-from rldrill.solutions.answers.rule import RULE
+from rldrill.print.exam_page import ending, front, heading, label, setup
+from rldrill.print.solved import solved_part
+from rldrill.print.words import words
+from rldrill.print.worksheet import options
+from rldrill.render.mathematics.typst import plain, text
+from rldrill.render.typst import document
 
 
-def key_source(version: Version, paper: Paper) -> str:
-    """The key: for every problem the answers, then the whole working."""
-    problems = "".join(_solved(index, item) for index, item in enumerate(version.exercises, 1))
+def key_source(exam: Exam, version: Version) -> str:
+    """The key, as Typst source."""
+    told = words(exam.head.language)
+    what = f"{told.key} {version.code}"
+    problems = "".join(_solved(exam, index, item) for index, item in enumerate(version.exercises, 1))
     return (
-        f"{setup(version, paper, f'{version.title} – key')}{title(version, 'Key')}"
-        f"#par[{text(f'Right is {RULE}.')}]\n{problems}"
+        f"{setup(exam, version, what)}{front(exam, what, f'#par[{plain(told.right)}]')}{problems}{ending(exam, told)}"
     )
 
 
-def _solved(index: int, exercise: Exercise) -> str:
-    answers = "".join(_answer(exercise, part) for part in exercise.parts)
-    return (
-        f"#block(above: 1.8em, sticky: true, {heading(index, exercise)})\n"
-        f"#block(width: 100%, fill: luma(240), radius: 2pt, inset: 0.7em, sticky: true)[{answers}]\n"
-        f"{document(exercise.working())}"
+def _solved(exam: Exam, index: int, exercise: Exercise) -> str:
+    parts = "".join(
+        f"#asked-short[{label(exercise, part.label)} {text(part.ask)}{options(part)}]\n"
+        f"{solved_part(exam, exercise, part)}"
+        for part in exercise.parts
     )
-
-
-def _answer(exercise: Exercise, part: Part) -> str:
-    label = text(f"({part.label})") if len(exercise.parts) > 1 else ""
-    body = block(exercise.answer(part))
-    return f"#grid(columns: (auto, 1fr), column-gutter: 0.6em, align: horizon, [{label}], [{body}])\n"
+    question = f"#asked-short[{document(exercise.question())}]\n"
+    return f"{heading(exam, index, exercise, identified=True)}{question}{parts}"

@@ -1,11 +1,17 @@
 """Paper: the page set-up that all PDFs share, and their compilation."""
 
 from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from typing import TYPE_CHECKING
 
 from rldrill.problems.errors import UsageError
 from rldrill.render.mathematics.typst import quoted, text
 from rldrill.render.typst import PREAMBLE
 from rldrill.render.typst_files import typst_file
+
+if TYPE_CHECKING:
+    import typst
 
 #: Every PDF carries this time, so that the same arguments give the same bytes.
 _TIMESTAMP = 0
@@ -62,16 +68,35 @@ def page_setup(
     return f"{typst_file('rldrill.print', 'page.typ')}#show: page-setup.with({arguments})\n{PREAMBLE}"
 
 
-def pdf(source: str) -> bytes:
+def pdf(source: str, *, accessible: bool = False, system_fonts: bool = False) -> bytes:
     """Typeset a Typst source; the same source gives the same bytes in every process.
+
+    Args:
+        source: the source.
+        accessible: as PDF/UA-1, with tags, a language and words for all that is drawn.
+        system_fonts: with the fonts of this computer too, where those that come along lack a letter.
 
     Raises:
         RuntimeError: Typst cannot compile the source.
     """
+    result = _compiler(system_fonts).compile(
+        input=source.encode(), timestamp=_TIMESTAMP, pdf_standards="ua-1" if accessible else None
+    )
+    assert isinstance(result, bytes)
+    return result
+
+
+@cache
+def _compiler(system_fonts: bool) -> "typst.Compiler":
+    """One compiler, which keeps its fonts and what several documents have in common."""
     import typst
 
-    result: bytes = typst.compile(source.encode(), ignore_system_fonts=True, timestamp=_TIMESTAMP)
-    return result
+    return typst.Compiler(ignore_system_fonts=not system_fonts)
+
+
+def typst_version() -> str:
+    """The version of Typst, which decides the bytes of a PDF."""
+    return version("typst")
 
 
 def png_of_svg(svg: bytes) -> bytes:

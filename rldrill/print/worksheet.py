@@ -1,103 +1,109 @@
 """The worksheet that is handed out: problems with room for working and answers."""
 
 import math
+from fractions import Fraction
 
-from rldrill.exam.exam import Version, points_of
+from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.print.heading import heading, setup, title, written_points
-from rldrill.print.paper import Paper
+from rldrill.print.exam_page import broken, ending, front, heading, label, setup
+from rldrill.print.solved import solved_part
+from rldrill.print.words import Words, words
 from rldrill.problems import parts
 from rldrill.problems.parts import Part
-from rldrill.problems.pictures import Picture
-from rldrill.render.mathematics.typst import text, typst
+from rldrill.render.mathematics.typst import equation, plain, text
 from rldrill.render.typst import document
-from rldrill.render.typst_files import typst_file
-from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.answers.rule import RULE
+from rldrill.solutions.effort import minutes_of
 
-#: How many signs a person writes on a line.
-_BY_HAND = 60
-#: The most room for working that a problem demands, in centimetres; pages give more where they have it.
-_MOST_SPACE = 9.0
+#: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
+#: ticked has a minute and a half without any, and what takes long has room for ten minutes.
+SPACES = {"none": Fraction(0), "tight": Fraction(35, 100), "normal": Fraction(6, 10), "wide": Fraction(12, 10)}
+_LEAST, _LONGEST = Fraction(8, 10), 10
+_TICKED = Fraction(3, 2)
 _PER_LINE = 14
 _COLUMNS = 5
 
 
-def worksheet_source(version: Version, paper: Paper) -> str:
-    """The worksheet that is handed out, as Typst source."""
-    problems = "".join(_problem(index, item) for index, item in enumerate(version.exercises, 1))
-    return (
-        f"{setup(version, paper, version.title)}{typst_file('rldrill.print', 'worksheet.typ')}"
-        f"#packed([{_front(version)}], ({problems}))\n"
-    )
+def worksheet_source(exam: Exam, version: Version) -> str:
+    """The worksheet that is handed out, as Typst source; with the solutions in it where they are wanted inline."""
+    told = words(exam.head.language)
+    what = f"{told.version} {version.code}"
+    problems = "".join(_problem(exam, index, item) for index, item in enumerate(version.exercises, 1))
+    lines = f"{_points_tables(version, told)}#par[{_instructions(exam, version, told)}]\n"
+    return f"{setup(exam, version, what)}{front(exam, what, lines)}{problems}{ending(exam, told)}"
 
 
-def _front(version: Version) -> str:
-    return (
-        f"{title(version, 'Version')}"
-        "#block(above: 1.6em, grid(columns: (2fr, 1fr), column-gutter: 1.5em, "
-        "[Name: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))], "
-        "[Date: #box(width: 1fr, height: 0.9em, stroke: (bottom: 0.5pt))]))\n"
-        f"{_points_tables(version)}"
-        f"#par[{text(f'Answer with {RULE}. Show your working. {_time(version)}')}]\n"
-    )
+def _instructions(exam: Exam, version: Version, told: Words) -> str:
+    duration = exam.head.duration
+    time = told.expected.format(version.minutes) if duration is None else told.duration.format(duration)
+    own = f"{broken(exam.head.instructions)} " if exam.head.instructions else ""
+    return own + plain(f"{told.rule} {told.show} {time}")
 
 
-def _time(version: Version) -> str:
-    return f"Expect to work for about {version.minutes} minutes."
-
-
-def _points_tables(version: Version) -> str:
+def _points_tables(version: Version, told: Words) -> str:
     columns = [(str(index), str(points_of(item))) for index, item in enumerate(version.exercises, 1)]
-    columns.append(("Total", str(version.points)))
+    columns.append((told.total, str(version.points)))
     result = []
     width = math.ceil(len(columns) / math.ceil(len(columns) / _PER_LINE))
     for start in range(0, len(columns), width):
         group = columns[start : start + width]
-        lines = [("Problem", *(head for head, _ in group)), ("Points", *(value for _, value in group))]
-        lines.append(("Reached", *("" for _ in group)))
-        cells = ", ".join("(" + ", ".join(f"[{text(cell)}]" for cell in line) + ")" for line in lines)
-        result.append(f"#block(text(0.9em, points-table({cells})))\n")
+        lines = [
+            (told.problem, *(head for head, _ in group)),
+            (told.points.capitalize(), *(value for _, value in group)),
+            (told.reached, *("" for _ in group)),
+        ]
+        cells = ", ".join("(" + ", ".join(f"[{plain(cell)}]" for cell in line) + ")" for line in lines)
+        result.append(f"#points-table({cells})\n")
     return "".join(result)
 
 
-def _problem(index: int, exercise: Exercise) -> str:
-    spaces = zip(exercise.parts, _spaces(exercise), strict=True)
-    asked = "".join(f", {_part(exercise, part, space)}" for part, space in spaces)
-    return f"problem({heading(index, exercise)}, [{document(exercise.question())}]{asked}),\n"
+def _problem(exam: Exam, index: int, exercise: Exercise) -> str:
+    asked = "".join(_part(exam, exercise, part) for part in exercise.parts)
+    question = document(exercise.question())
+    return f"{heading(exam, index, exercise, identified=exam.layout.ids)}#statement[{question}]\n{asked}"
 
 
-def _part(exercise: Exercise, part: Part, space: float) -> str:
-    several = len(exercise.parts) > 1
-    return (
-        f"(label: [{text(f'({part.label})') + '#h(0.5em)' if several else ''}], ask: [{text(part.ask)}], "
-        f"points: [{text(written_points(part.points))}], space: {space:.1f}cm, "
-        f"field: [{_field(exercise, part)}])"
-    )
+def _part(exam: Exam, exercise: Exercise, part: Part) -> str:
+    told = words(exam.head.language)
+    ask = f"#asked([{label(exercise, part.label)}], [{text(part.ask)}], [{part.points}])\n"
+    if exam.layout.solutions == "inline":
+        return f"{ask}{options(part)}{solved_part(exam, exercise, part)}"
+    space = space_of(exercise, part, exam.layout.space)
+    return f"{ask}#working({float(space):.1f}cm, {float(space):.1f})\n#field[{_field(exercise, part, told)}]\n"
 
 
-def _spaces(exercise: Exercise) -> list[float]:
-    """The least room for working in every part, in centimetres: it grows with the printed working."""
-    heights = []
-    for part in exercise.parts:
-        written = (item for item in exercise.working(part.label) if not isinstance(item, Picture))
-        lengths = [len(unicode_text(item)) for item in written]
-        heights.append(1.2 + 0.6 * sum(math.ceil(length / _BY_HAND) for length in lengths))
-    most = _MOST_SPACE / max(_MOST_SPACE, sum(heights))
-    return [height * most for height in heights]
+def space_of(exercise: Exercise, part: Part, space: str) -> Fraction:
+    """The room for working in a part, in centimetres: it follows the minutes that the part takes."""
+    ticked = isinstance(part.kind, parts.Choice | parts.YesNo)
+    time = minutes_of(exercise.solution, part.label) - (_TICKED if ticked else 0)
+    room = max(Fraction(0), time) * SPACES[space]
+    least = 0 if ticked or space == "none" else _LEAST
+    return min(max(room, Fraction(least)), max(Fraction(least), _LONGEST * SPACES[space]))
 
 
-def _field(exercise: Exercise, part: Part) -> str:
+def options(part: Part) -> str:
+    """What there is to choose from, where there is."""
+    if not isinstance(part.kind, parts.Choice):
+        return ""
+    return "".join(f"#block[#checkbox {text(f'({key}) {option}')}]\n" for key, option in part.kind.options.items())
+
+
+def _field(exercise: Exercise, part: Part, told: Words) -> str:
     match part.kind:
         case parts.Matrix(rows, columns) if rows * columns > 1:
-            return f"Answer: #empty-matrix({rows}, {columns})"
-        case parts.Choice(options):
-            return " ".join(f"#block[#checkbox {text(f'({key}) {option}')}]" for key, option in options.items())
+            return f"#empty-matrix([{plain(told.answer)}], {rows}, {columns})"
+        case parts.Choice():
+            return options(part)
         case parts.YesNo():
-            return "#checkbox yes #h(2em) #checkbox no"
+            return f"#checkbox {plain(told.yes)} #h(2em) #checkbox {plain(told.no)}"
         case kind:
             lines = answer_kind(kind).lines(exercise.solution.answers[part.label])
-            names = [f"${typst(left)}$" for left, _ in lines if left is not None]
-            groups = [names[start : start + _COLUMNS] for start in range(0, len(names), _COLUMNS)]
-            return "".join(f"#empty-table({', '.join(group)})\n" for group in groups) or "#answer-line"
+            names = [f"[{equation(left)}]" for left, _ in lines if left is not None]
+            columns = even_columns(len(names))
+            table = f"#empty-table({columns}, {', '.join(names)})"
+            return table if names else f"#answer-line([{plain(told.answer)}])"
+
+
+def even_columns(cells: int) -> int:
+    """How many cells stand side by side, so that no line is much shorter than the others."""
+    return math.ceil(cells / math.ceil(cells / _COLUMNS)) if cells else 1

@@ -80,7 +80,7 @@ def quoted(text: str) -> str:
 
 def text(text: str) -> str:
     """Running text as Typst markup, its mathematics in equations."""
-    return "".join(f"#{quoted(piece)};" if isinstance(piece, str) else _inline(piece) for piece in pieces(text))
+    return "".join(plain(piece) if isinstance(piece, str) else _inline(piece) for piece in pieces(text))
 
 
 def _inline(math: Math) -> str:
@@ -93,7 +93,17 @@ def _inline(math: Math) -> str:
 
 
 def _kept_together(math: Math) -> str:
-    return f"#box[${typst(math)}$]" if len(unicode(math)) <= SHORT else f"${typst(math)}$"
+    return equation(math, "kept" if len(unicode(math)) <= SHORT else "eq")
+
+
+def equation(math: Math, function: str = "eq") -> str:
+    """Mathematics as an equation within a line, with its Unicode as what is read aloud."""
+    return f"#{function}({quoted(unicode(math))}, ${typst(math)}$)"
+
+
+def plain(text: str) -> str:
+    """Text without mathematics as Typst markup, dollar signs and all."""
+    return f"#{quoted(text)};" if text else ""
 
 
 def relation(sign: str) -> str:

@@ -6,6 +6,7 @@ from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.mathematics.typst import quoted, typst
+from rldrill.render.pictures.described import described
 from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 
@@ -14,9 +15,9 @@ from rldrill.render.pictures.scenes import scene_of
 def picture(block: Picture) -> str:
     """A picture as Typst markup; nothing where it cannot be drawn readably."""
     if isinstance(block, Timeline):
-        return _timeline(block)
+        return f"#drawing({quoted(described(block))}, {_timeline(block)})\n"
     scene = scene_of(block)
-    return "" if scene is None else f"#block(breakable: false, {scene_box(scene)})\n"
+    return "" if scene is None else f"#drawing({quoted(described(block))}, {scene_box(scene)})\n"
 
 
 def scene_box(scene: Scene) -> str:
@@ -92,4 +93,4 @@ def _timeline(line: Timeline) -> str:
             reward = f"[{small(line.rewards[time])}]" if time < last else "none"
             parts.append(f"time-arrow({action}, {reward})")
         steps.append(f"box({{{'; '.join(parts)}}})")
-    return f"#timeline({', '.join(steps)})\n"
+    return f"timeline({', '.join(steps)})"

@@ -1,0 +1,209 @@
+"""Blueprints: what an exam shall be, read from a TOML file or put together from a command line."""
+
+import re
+from collections.abc import Sequence
+from datetime import date
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+
+from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
+from rldrill.files import parse, read_text, shown
+from rldrill.problems.complaints import nearest
+from rldrill.problems.errors import FileError
+
+#: So many problems and versions an exam has at most.
+MOST_PROBLEMS, MOST_VERSIONS = 100, 999
+_WAYS = ("family", "topic", "id", "file")
+_EACH = re.compile(r"^\s*\[\[\s*problems\s*\]\]", re.MULTILINE)
+_SAID = {
+    "missing": "it is missing",
+    "int_type": "write a whole number",
+    "bool_type": "write true or false",
+    "string_type": "write a text, in quotes",
+    "list_type": "write a list, in square brackets",
+}
+
+
+def _listed(value: object) -> object:
+    return [value] if isinstance(value, str | int) and not isinstance(value, bool) else value
+
+
+def _written_date(value: object) -> object:
+    return value.isoformat() if isinstance(value, date) else value
+
+
+_Points = Annotated[int, Field(ge=1, le=1000)]
+_Names = Annotated[tuple[str, ...], BeforeValidator(_listed), Field(strict=False)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class Entry(_Table):
+    """One ``[[problems]]``: a family, so many of a topic, one ID or a problem file."""
+
+    family: str | None = None
+    topic: _Names | None = None
+    id: str | None = None
+    file: str | None = None
+    level: Annotated[int, Field(ge=1, le=3)] | None = None
+    count: Annotated[int, Field(ge=1, le=MOST_PROBLEMS)] | None = None
+    points: _Points | Annotated[tuple[_Points, ...], Field(strict=False, min_length=1)] | None = None
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it is one problem, the same in every version."""
+        return self.id is not None or self.file is not None
+
+
+class Blueprint(_Table):
+    """What an exam shall be; ``rldrill worksheet --init exam.toml`` writes one with comments."""
+
+    title: Annotated[str, Field(max_length=200)] = DEFAULT_TITLE
+    course: Annotated[str, Field(max_length=200)] = ""
+    date: Annotated[str, BeforeValidator(_written_date), Field(max_length=60)] = ""
+    duration: Annotated[int, Field(ge=1, le=1440)] | None = None
+    instructions: Annotated[str, Field(max_length=2000)] = ""
+    language: Literal["en", "de"] = "en"
+    decimal_mark: Literal[".", ","] = "."
+    seed: Annotated[int, Field(ge=0)] | None = None
+    versions: Annotated[int, Field(ge=1, le=MOST_VERSIONS)] = 1
+    order: Literal["fixed", "shuffled"] = "fixed"
+    minutes: Annotated[int, Field(ge=1, le=600)] | None = None
+    points: Annotated[int, Field(ge=1, le=10_000)] | None = None
+    partial: Literal["all", "entries"] = "all"
+    exclude: _Names = ()
+    paper: Literal["a4", "letter"] = "a4"
+    space: Literal["none", "tight", "normal", "wide"] = "normal"
+    solutions: Literal["none", "inline", "separate"] = "separate"
+    ids: bool = False
+    duplex: bool = False
+    problems: Annotated[tuple[Entry, ...], Field(strict=False, min_length=1)] = (Entry(topic=(), count=8),)
+    _where: str = PrivateAttr("")
+    _lines: tuple[int, ...] = PrivateAttr(())
+    _total: str = PrivateAttr("")
+    _folder: Path = PrivateAttr(Path())
+
+    @property
+    def head(self) -> Head:
+        """What is said of the exam as a whole."""
+        return Head(**{name: getattr(self, name) for name in Head.__dataclass_fields__})
+
+    @property
+    def layout(self) -> Layout:
+        """How it is printed."""
+        return Layout(**{name: getattr(self, name) for name in Layout.__dataclass_fields__})
+
+    @property
+    def folder(self) -> Path:
+        """Where the paths of problem files begin."""
+        return self._folder
+
+    def place(self, index: int | None = None) -> str:
+        """Where an entry, or the whole, is written: what complaints begin with."""
+        if not self._where:
+            return ""
+        if index is None or index >= len(self._lines):
+            return f"{self._where}: "
+        return f"{self._where}, line {self._lines[index]}: "
+
+    @property
+    def place_of_total(self) -> str:
+        """Where the total of the points is written."""
+        return self._total or self.place()
+
+    def but(self, **changes: Any) -> "Blueprint":
+        """The same with some fields changed; what is None stays as it is."""
+        given = {name: value for name, value in changes.items() if value is not None}
+        return self.model_copy(update=given)
+
+
+def template() -> str:
+    """A blueprint with comments, to begin with."""
+    return files("rldrill.exam").joinpath("blueprint.toml").read_text(encoding="utf-8")
+
+
+def read_blueprint(path: str | Path) -> Blueprint:
+    """The blueprint in a TOML file.
+
+    Raises:
+        FileError: the file cannot be read, or is no blueprint; the sentence names the line.
+    """
+    text = read_text(path, (".toml",))
+    where = shown(path)
+    data = parse(text, path)
+    try:
+        blueprint = Blueprint.model_validate(data)
+    except ValidationError as error:
+        raise FileError(_sentence(error, text, where)) from None
+    blueprint._where, blueprint._folder = where, Path(path).parent
+    if line := _line(text, ["points"]):
+        blueprint._total = f"{where}, line {line}: "
+    starts = [text.count("\n", 0, found.end()) + 1 for found in _EACH.finditer(text)]
+    blueprint._lines = tuple(starts) if len(starts) == len(blueprint.problems) else ()
+    for index, entry in enumerate(blueprint.problems):
+        if flaw := _flaw(entry):
+            raise FileError(f"{blueprint.place(index)}{flaw}")
+    return blueprint
+
+
+def is_blueprint(data: object) -> bool:
+    """Whether what a TOML file holds is meant as a blueprint, not as one problem."""
+    return isinstance(data, dict) and "given" not in data and "family" not in data
+
+
+def _flaw(entry: Entry) -> str | None:
+    named = [way for way in _WAYS if getattr(entry, way) is not None]
+    if len(named) != 1:
+        found = f"this one names {' and '.join(named)}" if named else "this one names none"
+        return f"a problem is named by family, topic, id or file, and by one of them alone; {found}."
+    way = named[0]
+    if entry.is_fixed and (entry.level or entry.count):
+        return f"{way} names one problem; leave level and count out."
+    return None
+
+
+def _sentence(error: ValidationError, text: str, where: str) -> str:
+    first, *rest = sorted(error.errors(), key=lambda fault: fault["type"] != "extra_forbidden")
+    place = [step for step in first["loc"] if isinstance(step, int) or step in _KNOWN or step is first["loc"][-1]]
+    if first["type"] == "extra_forbidden":
+        place = list(first["loc"])
+    line = _line(text, place)
+    at = f"{where}, line {line}" if line else where
+    more = f" (and {len(rest)} more fault{'s' * (len(rest) > 1)})" if rest else ""
+    name = next((str(step) for step in reversed(place) if isinstance(step, str)), "problems")
+    if first["type"] == "extra_forbidden":
+        known = tuple(Entry.model_fields if len(place) > 1 else Blueprint.model_fields)
+        near = nearest(name, known) or f"; there are {', '.join(known)}"
+        whose = "[[problems]]" if len(place) > 1 else "a blueprint"
+        return f"{at}: {name[:40]!r} is not a field of {whose}{near}{more}."
+    told = _SAID.get(first["type"]) or first["msg"][:1].lower() + first["msg"][1:]
+    return f"{at}: {name}: {told}{more}."
+
+
+_KNOWN = frozenset((*Entry.model_fields, *Blueprint.model_fields))
+
+
+def _line(text: str, place: Sequence[int | str]) -> int | None:
+    """The line where a field stands; the place is as pydantic has it, ``("problems", 2, "level")``."""
+    start, end = 0, len(text)
+    headers = [found.start() for found in _EACH.finditer(text)]
+    if place[:1] == ["problems"] and len(place) > 1 and isinstance(place[1], int) and place[1] < len(headers):
+        start = headers[place[1]]
+        end = next((other for other in headers if other > start), len(text))
+        place = place[2:]
+        if not place:
+            return text.count("\n", 0, text.index("[", start)) + 1
+    name = next((str(step) for step in place if isinstance(step, str)), None)
+    if name is None:
+        return None
+    found = re.compile(
+        rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*=|^\s*\[+\s*{re.escape(name)}\b", re.MULTILINE
+    ).search(text, start, end)
+    if found is None:
+        return text.count("\n", 0, text.index("[", start)) + 1 if start else None
+    return text.count("\n", 0, found.end()) + 1

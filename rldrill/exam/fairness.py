@@ -1,0 +1,114 @@
+"""Whether the versions of an exam are equally hard and nobody can copy: what they share, and how long they take."""
+
+import json
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from rldrill.exam.exam import Exam, Version
+from rldrill.exercise import Exercise
+from rldrill.problems.parts import Choice, Part, Policy, YesNo
+from rldrill.solutions.answers.kinds import answer_kind
+
+
+@dataclass(frozen=True)
+class Fairness:
+    """The figures of an exam's versions.
+
+    Args:
+        shared_problems: how many problems a version has in common with another one, fixed ones aside.
+        shared_answers: how many answers to the same part of the same place a version has in common with another one.
+        minutes: the least and the most expected minutes of a version.
+        spread: how much more the longest version takes than the shortest, in parts of the shortest.
+        balance: how often each answer is right where there are only a few to choose from, as ``3 b: yes 15, no 15``.
+    """
+
+    shared_problems: int
+    shared_answers: int
+    minutes: tuple[int, int]
+    spread: float
+    balance: Mapping[str, Mapping[str, int]]
+
+    def says(self) -> str:
+        """The figures in a sentence."""
+        return (
+            f"shared problems {self.shared_problems}, shared answers {self.shared_answers}, "
+            f"{self.minutes[0]} to {self.minutes[1]} minutes (spread {100 * self.spread:.1f} %)"
+        )
+
+    def data(self) -> dict[str, object]:
+        """The figures as JSON has them."""
+        return {
+            "shared_problems": self.shared_problems,
+            "shared_answers": self.shared_answers,
+            "minutes": list(self.minutes),
+            "spread": round(self.spread, 4),
+            "balance": {place: dict(counts) for place, counts in self.balance.items()},
+        }
+
+
+def fairness(exam: Exam) -> Fairness:
+    """The figures of an exam."""
+    fixed = fixed_slots(exam)
+    contents: Counter[str] = Counter()
+    answers: Counter[tuple[int, str, str]] = Counter()
+    balance: dict[str, Counter[str]] = {}
+    for version in exam.versions:
+        for slot, exercise in placed(version):
+            if slot in fixed:
+                continue
+            contents[content(exercise)] += 1
+            answers.update((slot, label, answer) for label, answer in told(exercise))
+            for label, answer in chosen(exercise):
+                balance.setdefault(f"{slot + 1} {label}", Counter())[answer] += 1
+    times = [version.time for version in exam.versions]
+    return Fairness(
+        sum(count - 1 for count in contents.values()),
+        sum(count - 1 for count in answers.values()),
+        (min(version.minutes for version in exam.versions), max(version.minutes for version in exam.versions)),
+        float(max(times) / min(times) - 1),
+        balance,
+    )
+
+
+def fixed_slots(exam: Exam) -> frozenset[int]:
+    """The places that hold the same problem in every version, because the blueprint says so."""
+    if len(exam.versions) == 1:
+        return frozenset()
+    first, second = (dict(placed(version)) for version in exam.versions[:2])
+    return frozenset(slot for slot in first if content(first[slot]) == content(second[slot]))
+
+
+def placed(version: Version) -> Iterator[tuple[int, Exercise]]:
+    """The problems of a version with their places."""
+    return zip(version.slots, version.exercises, strict=True)
+
+
+def content(exercise: Exercise) -> str:
+    """What is given in a problem, as text: two problems are the same if this is."""
+    return json.dumps(exercise.problem.data(), sort_keys=True)
+
+
+def told(exercise: Exercise) -> Iterator[tuple[str, str]]:
+    """The answers that are worth copying: all but those that are chosen from a few."""
+    for part in exercise.problem.parts:
+        if not _is_chosen(part):
+            yield part.label, _text(exercise, part)
+
+
+def chosen(exercise: Exercise) -> Iterator[tuple[str, str]]:
+    """The answers that are chosen from a few."""
+    for part in exercise.problem.parts:
+        if _is_chosen(part) and not isinstance(part.kind, Policy):
+            yield part.label, _text(exercise, part)
+
+
+def _is_chosen(part: Part) -> bool:
+    return isinstance(part.kind, Choice | YesNo | Policy)
+
+
+def _text(exercise: Exercise, part: Part) -> str:
+    data = answer_kind(part.kind).data(exercise.solution.answers[part.label])
+    if isinstance(part.kind, YesNo):
+        return "yes" if data in (True, "yes") else "no"
+    return data if isinstance(data, str) else json.dumps(data, ensure_ascii=False)

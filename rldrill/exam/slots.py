@@ -1,0 +1,156 @@
+"""The places of an exam: which family and level, or which fixed problem, stands where."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from itertools import chain, islice, zip_longest
+
+from rldrill.exam.blueprint import MOST_PROBLEMS, Blueprint, Entry
+from rldrill.exam.expected import minutes as expected
+from rldrill.exam.selection import MIXED
+from rldrill.exercise import Exercise, load
+from rldrill.problems.catalogue import chosen, headers
+from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.draws import Draws
+from rldrill.problems.errors import FileError, UsageError, UserError
+from rldrill.problems.headers import Header
+
+#: So many random choices are made to fill a time; the one that fits best is taken.
+_TRIALS = 200
+#: Topics without a count share the time as if it were this.
+_SHARE = 3
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A place of an exam.
+
+    Args:
+        family: the name of the family that is drawn from.
+        level: at which level; None for a fixed problem.
+        fixed: the problem, where it is the same in every version.
+        points: of the problem or of its parts, where they are set.
+        where: where the blueprint says so; what complaints begin with.
+    """
+
+    family: str
+    level: int | None
+    fixed: Exercise | None = None
+    points: int | tuple[int, ...] | None = None
+    where: str = ""
+
+    @property
+    def minutes(self) -> int:
+        """How many minutes such a problem takes about."""
+        levels = expected()[self.family]
+        return levels[min(self.level or 2, len(levels)) - 1]
+
+
+def slots(blueprint: Blueprint, seed: int) -> tuple[Slot, ...]:
+    """The places of a blueprint's exam; the same seed makes the same choice.
+
+    Raises:
+        FileError: a name in a file does not exist, or a family has no such level; with the line.
+        UsageError: the same on a command line.
+    """
+    named = {index: _named(blueprint, index, seed) for index in range(len(blueprint.problems))}
+    rest = (blueprint.minutes or 0) - sum(slot.minutes for found in named.values() for slot in found or ())
+    topics = [index for index, found in named.items() if found is None]
+    if blueprint.minutes and topics and rest < 1:
+        raise _error(
+            blueprint.place(), "The problems that are named take all of the time already; leave some out or allow more."
+        )
+    for index in topics:
+        weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
+        time = None if blueprint.minutes is None else max(1, rest * weights[0] // sum(weights))
+        found = _of_topics(blueprint, index, Draws(f"order {seed} {index}"), time)
+        rest -= sum(slot.minutes for slot in found)
+        named[index] = found
+    return tuple(
+        replace(slot, points=entry.points, where=blueprint.place(index))
+        for index, entry in enumerate(blueprint.problems)
+        for slot in named[index] or ()
+    )
+
+
+def _error(where: str, sentence: str) -> UserError:
+    return FileError(f"{where}{sentence}") if where else UsageError(sentence)
+
+
+@contextmanager
+def _told(where: str) -> Iterator[None]:
+    try:
+        yield
+    except UserError as error:
+        if where:
+            raise FileError(f"{where}{error}") from None
+        raise
+
+
+def _named(blueprint: Blueprint, index: int, seed: int) -> list[Slot] | None:
+    """The places of an entry that names its problem or family; None for one that names topics."""
+    entry = blueprint.problems[index]
+    with _told(blueprint.place(index)):
+        if entry.is_fixed:
+            exercise = load(entry.id or blueprint.folder / (entry.file or ""))
+            return [Slot(exercise.problem.family.name, None, exercise)]
+        if entry.family is None:
+            return None
+        (header,) = headers([family_of(entry.family).name])
+        if entry.level is not None and entry.level not in header.levels:
+            raise UsageError(f"{header.name} has no level {entry.level}; it has {', '.join(map(str, header.levels))}.")
+        draws = Draws(f"order {seed} {index}")
+        return [Slot(header.name, _level(header, entry.level, draws)) for _ in range(entry.count or 1)]
+
+
+def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None) -> list[Slot]:
+    entry = blueprint.problems[index]
+    with _told(blueprint.place(index)):
+        candidates = _headers(entry.topic or (), blueprint.exclude)
+    if time is None:
+        return list(islice(_endless(candidates, entry.level, draws), entry.count or 1))
+    trials = (_filled(candidates, entry, draws, time) for _ in range(_TRIALS))
+    return min(trials, key=lambda found: abs(time - sum(slot.minutes for slot in found)))
+
+
+def _headers(names: Sequence[str], exclude: Sequence[str]) -> tuple[Header, ...]:
+    left_out = set(chosen(exclude)) if exclude else set()
+    found = tuple(header for header in headers(tuple(names)) if header.name not in left_out)
+    if not found:
+        raise UsageError(f"Nothing is left of {', '.join(names) or 'all families'} without {', '.join(exclude)}.")
+    return found
+
+
+def _level(header: Header, wanted: int | None, draws: Draws) -> int:
+    level = wanted if wanted is not None else draws.choice(MIXED)
+    return level if level in header.levels else header.levels[-1]
+
+
+def _endless(candidates: Sequence[Header], level: int | None, draws: Draws) -> Iterator[Slot]:
+    """Topic by topic in turn, every family before one comes again."""
+    while True:
+        for header in _interleaved(candidates, draws):
+            yield Slot(header.name, _level(header, level, draws))
+
+
+def _interleaved(candidates: Sequence[Header], draws: Draws) -> Iterator[Header]:
+    topics: dict[str, list[Header]] = {}
+    for header in draws.shuffled(candidates):
+        topics.setdefault(header.topic, []).append(header)
+    rounds = zip_longest(*(topics[name] for name in draws.shuffled(sorted(topics))))
+    return (header for header in chain.from_iterable(rounds) if header is not None)
+
+
+def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int) -> list[Slot]:
+    """One random choice: so many as are asked for, or as many as the time has room for; topics in turn."""
+    endless = _endless(candidates, entry.level, draws)
+    if entry.count is not None:
+        return list(islice(endless, entry.count))
+    result: list[Slot] = []
+    for slot in islice(endless, max(100, 2 * len(candidates))):
+        if slot.minutes <= time or not result:
+            result.append(slot)
+            time -= slot.minutes
+        if time <= 0 or len(result) == MOST_PROBLEMS:
+            break
+    return result

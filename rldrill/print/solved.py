@@ -1,0 +1,61 @@
+"""A part as a marker needs it: the answer, the working with the points of its steps, and typical wrong answers."""
+
+from collections.abc import Iterator
+
+from rldrill.exam.exam import Exam
+from rldrill.exercise import Exercise
+from rldrill.print.exam_page import label
+from rldrill.print.words import words, written_points
+from rldrill.problems.document import Block
+from rldrill.problems.parts import Choice, Part
+from rldrill.render.mathematics.typst import equation, plain, text
+from rldrill.render.typst import block, document
+from rldrill.solutions.answers.key import answer_lines
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.drawing import distinguishable
+
+#: So many typical wrong answers to a part are told.
+_MISTAKES = 5
+
+
+def solved_part(exam: Exam, exercise: Exercise, part: Part) -> str:
+    """The answer of a part, then how it is found and what else is answered."""
+    told = words(exam.head.language)
+    worth = plain(written_points(told, part.points))
+    answer = f"#answer-block([{label(exercise, part.label)}], [{_answer(exercise, part)}], [{worth}])\n"
+    working = "".join(_earned(blocks, points) for blocks, points in exercise.scheme(part.label))
+    return answer + working + _mistakes(exercise, part, told.mistakes)
+
+
+def _answer(exercise: Exercise, part: Part) -> str:
+    if isinstance(part.kind, Choice):
+        letter = answer_kind(part.kind).write(exercise.solution.answers[part.label])
+        return text(f"({letter}) {part.kind.options[letter]}")
+    return block(exercise.answer(part))
+
+
+def _earned(blocks: tuple[Block, ...], points: int) -> str:
+    body = document(blocks)
+    return f"#earning([{points}])[{body}]\n" if points else body
+
+
+def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
+    rows = [f"([{given}], [{text(says)}])" for given, says in _wrong(exercise, part)]
+    return f"#mistakes([{plain(title)}], {', '.join(rows)})\n" if rows else ""
+
+
+def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, str]]:
+    """The wrong answers that typical mistakes give, each once, with what is said of the mistake."""
+    solution, told = exercise.solution, set[str]()
+    for misconception, answers in exercise.solution.mistakes:
+        if len(told) == _MISTAKES:
+            return
+        answer = answers[part.label]
+        written = answer_kind(part.kind).write(answer)
+        if written in told or not distinguishable(solution, {part.label: answer}):
+            continue
+        told.add(written)
+        if isinstance(part.kind, Choice):
+            yield plain(f"({written})"), misconception.says
+        else:
+            yield " #h(0.8em) ".join(map(equation, answer_lines(part, answer))), misconception.says

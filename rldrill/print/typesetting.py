@@ -1,0 +1,101 @@
+"""The PDFs of one version of an exam, made from the manifest alone: in this process, or in several at once."""
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass, replace
+from functools import cache
+from multiprocessing import get_context
+from os import cpu_count
+from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
+
+from rldrill.exam.exam import Exam, Layout, Version
+from rldrill.exam.manifest import read_exam
+from rldrill.print.files import write_bytes_atomically
+from rldrill.print.fonts import needs_system_fonts
+from rldrill.print.key import key_source
+from rldrill.print.paper import pdf
+from rldrill.print.worksheet import worksheet_source
+
+#: From so many versions on, other processes take longer to start than they save.
+_MANY = 6
+#: After so many versions a process is replaced by a fresh one, which has less in its memory.
+_REPLACED = 20
+
+
+@dataclass(frozen=True)
+class Task:
+    """A version that is to be typeset.
+
+    Args:
+        manifest: the file that holds the exam.
+        index: which of its versions.
+        layout: how it is printed, which the command line may have changed.
+        worksheet: where the worksheet is written; None for nowhere.
+        key: where the key is written; None for nowhere.
+    """
+
+    manifest: Path
+    index: int
+    layout: Layout
+    worksheet: Path | None
+    key: Path | None
+
+
+def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
+    """Typeset versions, and tell each when it is written.
+
+    Raises:
+        FileError: the manifest holds a problem that cannot be made.
+        OSError: a file cannot be written.
+    """
+    processes = min(cpu_count() or 1, len(tasks) // (_MANY // 2))
+    if len(tasks) < _MANY or processes < 2:
+        yield from map(_typeset, tasks)
+        return
+    pool = ProcessPoolExecutor(
+        processes, mp_context=get_context("spawn"), initializer=_deaf, max_tasks_per_child=_REPLACED
+    )
+    try:
+        waiting: set[Future[Task]] = set()
+        for task in (*tasks, None):
+            if task is not None:
+                waiting.add(pool.submit(_typeset, task))
+            while waiting and (task is None or len(waiting) > 2 * processes):
+                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+                yield from (future.result() for future in done)
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _deaf() -> None:
+    """Ctrl-C is for the process that waits for this one."""
+    signal(SIGINT, SIG_IGN)
+
+
+def _typeset(task: Task) -> Task:
+    exam, makes = _read(task.manifest, task.manifest.stat().st_mtime_ns)
+    write(replace(exam, layout=task.layout), makes[task.index](), task.worksheet, task.key)
+    return task
+
+
+_read = cache(lambda path, _: read_exam(path))
+
+
+def write(exam: Exam, version: Version, worksheet: Path | None, key: Path | None) -> None:
+    """Typeset one version and write it.
+
+    Args:
+        exam: what all versions have in common.
+        version: the version.
+        worksheet: where the worksheet is written; None for nowhere.
+        key: where the key is written; None for nowhere.
+
+    Raises:
+        OSError: a file cannot be written.
+    """
+    people = () if version.person is None else (version.person,)
+    system = needs_system_fonts(exam.head, people)
+    for path, source in ((worksheet, worksheet_source), (key, key_source)):
+        if path is not None:
+            write_bytes_atomically(path, pdf(source(exam, version), accessible=True, system_fonts=system))
