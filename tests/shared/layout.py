@@ -69,5 +69,3 @@ def _filled(image: NDArray[np.bool_]) -> float:
 def _overfull(image: NDArray[np.bool_]) -> bool:
     side, bottom = int(_SIDE * _CM), int(_BOTTOM * _CM)
     return bool(image[:, :side].any() or image[:, -side:].any() or image[-bottom:].any())
-
-
