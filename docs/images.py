@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typst
 
+from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.planning import plan
 from rldrill.print.formula_sheet import sheet_source
 from rldrill.print.paper import PAPERS
@@ -20,6 +21,6 @@ def write(name: str, source: str, page: int = 0) -> None:
     Path(__file__).with_name(name).write_bytes(pages[page])
 
 
-(version,) = plan(FAMILIES, 3, 1, seed=4, versions=1, title="Robot Learning").versions
-write("worksheet.png", worksheet_source(version, A4))
+exam = plan(Blueprint(problems=(Entry(topic=FAMILIES, count=3, level=1),), seed=4, title="Robot Learning"))
+write("worksheet.png", worksheet_source(exam, exam.versions[0]))
 write("sheet.png", sheet_source([], A4))

@@ -1,7 +1,7 @@
 """The library: a problem with its solution, drawn or of your own, that can be shown, solved, checked and graded."""
 
 import reprlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -216,7 +216,7 @@ class Exercise:
         """
         worth = self._part(part).points
         lines = abridged(self.solution.lines_of(part))
-        times = [seconds_of([line]) if isinstance(line, Step) else Fraction(0) for line in lines]
+        times = [_seconds(lines, index) for index in range(len(lines))]
         whole, spent, earned = sum(times), Fraction(0), 0
         stated: set[Formula] = set()
         result: list[tuple[tuple[Block, ...], int]] = []
@@ -286,6 +286,13 @@ class Exercise:
         if answers:
             result["steps"] = [_step(line) for line in abridged(self.solution.lines) if isinstance(line, Step)]
         return result
+
+
+def _seconds(lines: Sequence[Line], index: int) -> Fraction:
+    """The time that a line takes, which for the solution of equations depends on those before."""
+    if isinstance(lines[index], Result | Elimination):
+        return seconds_of(lines[: index + 1]) - seconds_of(lines[:index])
+    return seconds_of([lines[index]])
 
 
 def _written(lines: Iterable[Line], stated: set[Formula]) -> Iterator[Block]:

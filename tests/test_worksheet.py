@@ -1,4 +1,4 @@
-"""Worksheets: the same arguments print the same bytes, versions share no problem, all fits the page."""
+"""Worksheets: the same arguments print the same bytes, versions share nothing, all fits the page."""
 
 import hashlib
 import json
@@ -6,150 +6,220 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
+from layout import measured
 from printed import poppler, words
-from rldrill import load, read
+from rldrill import draw, load, read
 from rldrill.commands import worksheet as worksheet_command
-from rldrill.exam.exam import Exam, Version, points_of
-from rldrill.exam.manifest import manifest
-from rldrill.exam.planning import plan, version_code
-from rldrill.print.exam_files import write
+from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.exam import Exam, Head, Layout, Version
+from rldrill.exam.planning import plan
 from rldrill.print.files import write_bytes_atomically
+from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
-from rldrill.print.paper import PAPERS, paper_of, pdf
-from rldrill.print.worksheet import worksheet_source
-from rldrill.problems.catalogue import families
+from rldrill.print.paper import paper_of, pdf
+from rldrill.print.worksheet import even_columns, space_of, worksheet_source
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
 
-A4, LETTER = PAPERS["a4"], PAPERS["letter"]
-MARGIN = 2 * 72 / 2.54 - 1
-TITLE = "Quiz #1 *for* <all> $ ] // @x"
+TITLE = "Quiz #1 *for* <all> $ ] // @x costs $5 and $6"
+
+
+def exam_of(*names: str, count: int = 3, seed: int = 5, level: int | None = None, **more: object) -> Exam:
+    return plan(Blueprint(problems=(Entry(topic=names, count=count, level=level),), seed=seed, **more))
+
+
+def printed(exam: Exam, folder: Path, source: object = worksheet_source, version: int = 0) -> Path:
+    path = folder / "x.pdf"
+    path.write_bytes(pdf(source(exam, exam.versions[version]), accessible=True))
+    return path
+
+
+def text_of(path: Path) -> str:
+    return poppler("pdftotext", "-layout", str(path), "-")
 
 
 @pytest.fixture(scope="module")
 def exam() -> Exam:
-    return plan([], len(families()), None, 5, 3, title=TITLE)
+    return exam_of(
+        "td-zero", "bellman", "forward-kinematics", count=8, versions=2, title=TITLE, paper="letter", ids=True,
+        course="Robot Learning", date="2027-02-11", instructions="No $ calculators.", duration=90,
+    )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
-def folder(exam: Exam, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("printed")
-    write(exam, folder / "exam.pdf", LETTER)
-    return folder
+def sheet(exam: Exam, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return printed(exam, tmp_path_factory.mktemp("sheet"), version=1)
 
 
-def test_versions_share_families_and_levels_but_no_problem(exam: Exam) -> None:
-    slots = [
-        [(item.problem.family.name, item.problem.level) for item in version.exercises] for version in exam.versions
-    ]
-    assert slots[0] == slots[1] == slots[2]
-    problems = [json.dumps(item.problem.data()) for version in exam.versions for item in version.exercises]
-    assert len(set(problems)) == len(problems)
+@pytest.fixture(scope="module")
+def key(exam: Exam, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return printed(exam, tmp_path_factory.mktemp("key"), key_source, version=1)
 
 
-def test_a_version_repeats_no_problem() -> None:
-    version = plan(["return"], 40, 1, 3, 1).versions[0]
-    assert len({json.dumps(item.problem.data()) for item in version.exercises}) == 40
+def test_what_stands_on_the_worksheet(exam: Exam, sheet: Path) -> None:
+    pages = [page for page in text_of(sheet).split("\f") if page.strip()]
+    for number, page in enumerate(pages, 1):
+        head = page.strip().splitlines()[0]
+        assert "Name:" in head
+        assert "Number:" in head
+        assert "Version B" in head
+        assert f"{number}/{len(pages)}" in head
+    first = " ".join(pages[0].split())
+    for said in (TITLE, "Robot Learning · 2027-02-11", "No $ calculators.", RULE, "You have 90 minutes.", "Total"):
+        assert said in first
+    assert all(str(exercise.id) in text_of(sheet) for exercise in exam.versions[1].exercises)
 
 
-def test_versions_earn_the_same_place_by_place() -> None:
-    versions = plan(["control", "bellman"], 5, 2, 8, 3).versions
-    earned = [[points_of(exercise) for exercise in version.exercises] for version in versions]
-    assert earned[0] == earned[1] == earned[2]
-    assert len({exercise.id for version in versions for exercise in version.exercises}) == 15
+def test_no_id_and_no_seed_is_printed_unless_it_is_asked_for(exam: Exam, tmp_path: Path) -> None:
+    hidden = text_of(printed(replace(exam, layout=Layout()), tmp_path))
+    assert "seed" not in hidden
+    assert not any(str(exercise.id).partition("@")[0] in hidden for exercise in exam.versions[0].exercises)
 
 
-def test_versions_are_lettered() -> None:
-    assert [version_code(index) for index in (0, 25, 26, 27, 199)] == ["A", "Z", "AA", "AB", "GR"]
+def test_every_part_has_its_points_and_a_total(exam: Exam, sheet: Path) -> None:
+    version = exam.versions[1]
+    lines = [line for line in text_of(sheet).splitlines() if "Version" not in line]
+    marks = [found[1] for line in lines if (found := re.search(r" {9}/ ?(\d+)$", line))]
+    assert [int(mark) for mark in marks] == [part.points for item in version.exercises for part in item.parts]
+    assert sum(map(int, marks)) == version.points
 
 
-def test_files_of_several_versions(folder: Path) -> None:
-    names = {"exam.json", *(f"exam-{code}{key}.pdf" for code in "ABC" for key in ("", "-key"))}
-    assert {path.name for path in folder.iterdir()} == names
+def test_the_key_has_the_questions_the_answers_and_the_points(exam: Exam, key: Path) -> None:
+    text = text_of(key)
+    assert "Key B" in text
+    assert all(str(exercise.id) in text for exercise in exam.versions[1].exercises)
+    assert "Typical wrong answers" in text
 
 
-def test_files_of_one_version(tmp_path: Path) -> None:
-    written = write(plan(["return"], 1, 1, 1, 1), tmp_path / "one.pdf", A4)
-    assert [path.name for path in written] == ["one.pdf", "one-key.pdf", "one.json"]
+def test_the_key_of_a_choice_says_its_text(tmp_path: Path) -> None:
+    exercise = draw("backup-diagram-name", 1, 3)
+    (part,) = exercise.parts
+    right = part.kind.options[exercise.solve()["a"]]
+    exam = Exam(Head(), 1, (Version("A", (exercise,), (0,)),))
+    source = key_source(exam, exam.versions[0])
+    block = source[source.index("#answer-block") :].partition("\n")[0]
+    assert right.partition("$")[0] in block
 
 
-def test_the_manifest_draws_the_same_problems(exam: Exam, folder: Path) -> None:
-    data = json.loads((folder / "exam.json").read_text())
-    assert data == json.loads(json.dumps(manifest(exam, "letter")))
-    assert (data["seed"], data["title"], data["paper"]) == (5, TITLE, "letter")
-    for version in data["versions"]:
-        assert version["points"] == sum(problem["points"] for problem in version["problems"])
-        for problem in version["problems"]:
-            assert re.fullmatch(r"[a-z-]+/\d/\d+@\d+", problem["id"])
-            assert load(problem["id"]).problem.data() == problem["problem"]
-            assert problem["points"] == sum(part["points"] for part in problem["parts"])
+def test_the_key_tells_the_wrong_number_of_a_typical_mistake() -> None:
+    """R₀ = 1 + 1/2·4 = 3; who forgets γ answers 1 + 4 = 5."""
+    exercise = read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 0}})
+    exam = Exam(Head(), 1, (Version("A", (exercise,), (0,)),))
+    source = key_source(exam, exam.versions[0])
+    assert "$5$" in source[source.index("#mistakes") :]
 
 
-def test_what_stands_on_the_worksheet(exam: Exam, folder: Path) -> None:
-    printed = poppler("pdftotext", "-layout", str(folder / "exam-B.pdf"), "-")
-    pages = [page for page in printed.split("\f") if page.strip()]
-    assert all("Version B" in page and "seed 5" in page for page in pages)
-    assert TITLE in pages[0]
-    assert "Name:" in pages[0]
-    assert "Total" in pages[0]
-    assert RULE in " ".join(pages[0].split())
-    for exercise in exam.versions[1].exercises:
-        assert str(exercise.id) in printed
+def test_the_points_of_a_part_are_earned_by_its_steps() -> None:
+    for name in ("policy-value", "td-zero", "lqr-gain", "backup-diagram-name"):
+        exercise = draw(name, 2, 4)
+        for part in exercise.parts:
+            assert sum(points for _, points in exercise.scheme(part.label)) == part.points
 
 
-def test_the_key_has_every_id_and_title(exam: Exam, folder: Path) -> None:
-    printed = poppler("pdftotext", "-layout", str(folder / "exam-C-key.pdf"), "-")
-    assert all(str(exercise.id) in printed for exercise in exam.versions[2].exercises)
-    assert "Key C" in printed
+@pytest.mark.parametrize("what", ["sheet", "key"])
+def test_nothing_is_in_the_margins_and_pages_are_filled(what: str, request: pytest.FixtureRequest) -> None:
+    pages = measured(request.getfixturevalue(what).read_bytes())
+    assert not any(page.overfull for page in pages)
+    assert all(page.filled > 0.5 for page in pages[:-1])
+    assert min(page.smallest for page in pages) > 4.5
 
 
-@pytest.mark.parametrize("name", ["exam-A", "exam-A-key", "exam-B", "exam-C-key"])
-def test_every_word_is_inside_the_margins(folder: Path, name: str) -> None:
-    found = list(words(folder / f"{name}.pdf"))
-    assert found
-    for word in found:
-        inside = word.left > MARGIN and word.right < 612 - MARGIN and word.top > 20 and word.bottom < 772
-        assert inside, word
+def test_twelve_problems_for_an_hour_take_seven_pages_at_most(tmp_path: Path) -> None:
+    exam = plan(Blueprint(problems=(Entry(topic=(), count=12),), minutes=54, seed=1))
+    assert 49 <= exam.versions[0].minutes <= 59
+    assert len(measured(printed(exam, tmp_path).read_bytes())) <= 7
 
 
-def test_a_problem_is_torn_only_if_no_page_can_hold_it_or_the_first_would_stay_empty(exam: Exam, folder: Path) -> None:
-    pages = poppler("pdftotext", "-layout", str(folder / "exam-A.pdf"), "-").split("\f")
-    identities = [str(exercise.id) for exercise in exam.versions[0].exercises]
-    torn = 0
-    for exercise in exam.versions[0].exercises:
-        page = next(page for page in pages if str(exercise.id) in page)
-        before, rest = page.split(str(exercise.id))
-        several = len(exercise.parts) > 1
-        assert not several or "(a)" in rest, "the first part stays with the statement"
-        if several and not all(f"({part.label})" in rest for part in exercise.parts):
-            torn += page is not pages[0]
-            assert not any(identity in before for identity in identities), "it had a page of its own to begin on"
-    assert torn <= len(identities) // 5
+def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
+    long, short = draw("optimal-value", 3, 1), draw("markov-property", 1, 1)
+    rooms = {
+        (item.problem.family.name, part.label): space_of(item, part, "normal")
+        for item in (long, short)
+        for part in item.parts
+    }
+    assert rooms["optimal-value", "a"] == 5  # ten minutes' worth, the most
+    yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
+    assert rooms["markov-property", yes_no.label] == 0
+    part = long.parts[0]
+    assert space_of(long, part, "none") == 0 < space_of(long, part, "tight") < space_of(long, part, "wide")
 
 
-def test_no_page_is_left_to_the_head_alone(tmp_path: Path) -> None:
-    version = plan(["ddp-backward"], 1, 2, 2, 1).versions[0]
-    (tmp_path / "x.pdf").write_bytes(pdf(worksheet_source(version, paper_of("a4"))))
-    first, second, *_ = poppler("pdftotext", "-layout", str(tmp_path / "x.pdf"), "-").split("\f")
-    assert str(version.exercises[0].id) in first
-    assert "(a)" in first
-    assert "(g)" in second
+@pytest.mark.parametrize(("cells", "columns"), [(1, 1), (5, 5), (6, 3), (7, 4), (11, 4), (16, 4)])
+def test_no_cell_of_a_table_for_answers_is_left_alone(cells: int, columns: int) -> None:
+    assert even_columns(cells) == columns
+
+
+@pytest.mark.parametrize(("problems", "columns"), [(1, [2]), (13, [14]), (14, [8, 7]), (28, [10, 10, 9])])
+def test_points_stand_in_tables_of_at_most_fourteen_columns_as_wide_as_each_other(
+    problems: int, columns: list[int]
+) -> None:
+    exam = exam_of("td-zero", "epsilon-greedy", count=problems, level=1)
+    source = worksheet_source(exam, exam.versions[0])
+    tables = re.findall(r"#points-table\(\(\[#?\"?Problem\"?;?\], ([^)]*)\)", source)
+    assert [len(table.split(", ")) for table in tables] == columns
+
+
+# A person's own words
+
+
+@pytest.mark.parametrize("title", ["$5", "Costs $5 and $6", "x" * 120, "Übung ¼", "امتحان", "#let a = $", "@a <b> *c*"])
+def test_titles_are_plain_text(title: str, tmp_path: Path) -> None:
+    exam = exam_of("return", count=1, level=1, title=title)
+    path = printed(exam, tmp_path)
+    found = "".join(text_of(path).split()).replace("\u200b", "")
+    if title.isascii():
+        assert title.replace(" ", "") in found
+    assert not any(page.overfull for page in measured(path.read_bytes()))
+
+
+def test_a_character_that_no_font_has_is_said() -> None:
+    assert not needs_system_fonts(Head(title="Übung"), ())
+    with pytest.raises(UsageError, match="No font on this computer has"):
+        needs_system_fonts(Head(title="\U0001f9ff\ue123"), ())
+
+
+def test_the_fixed_words_are_german_and_decimals_have_a_comma(tmp_path: Path) -> None:
+    exam = exam_of("return", count=2, level=2, language="de", decimal_mark=",")
+    assert {"Aufgabe", "Punkte", "Summe", "Matrikelnummer:"} <= set(text_of(printed(exam, tmp_path)).split())
+    key = text_of(printed(exam, tmp_path, key_source))
+    assert not re.search(r"\d\.\d", key.replace("\n", " "))
+
+
+def test_solutions_stand_in_the_worksheet_where_they_are_wanted() -> None:
+    exam = exam_of("return", count=1, level=1, solutions="inline")
+    source = worksheet_source(exam, exam.versions[0])
+    assert "#answer-block" in source
+    assert "#field" not in source.partition("#front")[2]
+
+
+def test_duplex_pages_are_even(tmp_path: Path) -> None:
+    for names in (("return",), ("optimal-value",)):
+        exam = exam_of(*names, count=1, level=3, duplex=True)
+        assert len(measured(printed(exam, tmp_path).read_bytes())) % 2 == 0
+
+
+# PDF
 
 
 @pytest.mark.parametrize(("paper", "size"), [("a4", "595.276 x 841.89"), ("letter", "612 x 792")])
-def test_paper_sizes(paper: str, size: str, tmp_path: Path) -> None:
-    version = plan(["return"], 1, 1, 1, 1).versions[0]
-    (tmp_path / "x.pdf").write_bytes(pdf(worksheet_source(version, paper_of(paper))))
-    assert size in poppler("pdfinfo", str(tmp_path / "x.pdf"))
+def test_paper_sizes_tags_and_language(paper: str, size: str, tmp_path: Path) -> None:
+    exam = exam_of("return", count=1, level=1, paper=paper)
+    path = printed(exam, tmp_path)
+    said = poppler("pdfinfo", str(path))
+    assert size in said
+    assert re.search(r"Tagged: +yes", said)
+    assert "Version A" in said
+    assert re.search(rb"/Lang *\(en", path.read_bytes())
 
 
 def test_there_are_two_papers() -> None:
@@ -159,11 +229,13 @@ def test_there_are_two_papers() -> None:
 
 def test_the_same_bytes_in_every_process() -> None:
     program = (
-        "import hashlib\nfrom rldrill.exam.planning import plan\nfrom rldrill.print.key import key_source\n"
-        "from rldrill.print.paper import PAPERS, pdf\nfrom rldrill.print.worksheet import worksheet_source\n"
-        "version = plan(['return', 'value-iteration', 'lqr-gain'], 3, None, 9, 2).versions[1]\n"
-        "sources = (worksheet_source(version, PAPERS['a4']), key_source(version, PAPERS['a4']))\n"
-        "print(*(hashlib.sha256(pdf(source)).hexdigest() for source in sources))\n"
+        "import hashlib\nfrom rldrill.exam.blueprint import Blueprint, Entry\nfrom rldrill.exam.planning import plan\n"
+        "from rldrill.print.key import key_source\nfrom rldrill.print.paper import pdf\n"
+        "from rldrill.print.worksheet import worksheet_source\n"
+        "entry = Entry(topic=('return', 'value-iteration', 'lqr-gain'), count=3)\n"
+        "exam = plan(Blueprint(problems=(entry,), seed=9, versions=2))\n"
+        "for source in (worksheet_source, key_source):\n"
+        "    print(hashlib.sha256(pdf(source(exam, exam.versions[1]), accessible=True)).hexdigest())\n"
     )
     processes = [
         subprocess.Popen(
@@ -176,25 +248,14 @@ def test_the_same_bytes_in_every_process() -> None:
     ]
     first, second = (process.communicate()[0] for process in processes)
     assert first == second
-    version = plan(["return", "value-iteration", "lqr-gain"], 3, None, 9, 2).versions[1]
-    here = [pdf(source(version, A4)) for source in (worksheet_source, key_source)]
+    exam = exam_of("return", "value-iteration", "lqr-gain", seed=9, versions=2)
+    here = [pdf(source(exam, exam.versions[1]), accessible=True) for source in (worksheet_source, key_source)]
     assert first.split() == [hashlib.sha256(data).hexdigest() for data in here]
 
 
 def test_typst_errors_are_runtime_errors() -> None:
     with pytest.raises(RuntimeError):
         pdf("#nothing-of-that-name")
-
-
-def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rldrill.exam.planning._ATTEMPTS", 0)
-    with pytest.raises(UsageError, match="too few different problems"):
-        plan(["return"], 1, 1, 1, 1)
-
-
-def test_a_title_that_is_too_long_is_refused() -> None:
-    with pytest.raises(UsageError, match="121 characters"):
-        plan(["return"], 1, 1, 1, 1, title="x" * 121)
 
 
 def exact_and_decimal(kind: Number | Matrix, value: object) -> str:
@@ -246,69 +307,126 @@ def test_a_file_is_replaced_with_its_rights(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o777 == 0o640
 
 
-def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> None:
-    (tmp_path / "x.json").write_text('{"mine": 1}')
-    with pytest.raises(UsageError, match=r"x\.json would be overwritten"):
-        write(plan(["return"], 1, 1, 1, 1), tmp_path / "x.pdf", A4)
-    assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
-
-
 # The command
 
 
-@pytest.fixture
-def app() -> typer.Typer:
+def run(*arguments: str | Path) -> tuple[list[str], str]:
+    """The files that the command names, and what it says beside them."""
     app = typer.Typer()
     app.command()(worksheet_command.command)
-    return app
+    result = CliRunner().invoke(app, [*map(str, arguments), "--json"], catch_exceptions=False)
+    assert result.exit_code == 0, result.stderr
+    return [Path(path).name for path in json.loads(result.stdout)], result.stderr
 
 
-def test_the_command_prints_the_files_and_echoes_the_seed(app: typer.Typer, tmp_path: Path) -> None:
-    arguments = ["return", "-n", "2", "--seed", "4", "--json", "-o", str(tmp_path / "a.pdf")]
-    result = CliRunner().invoke(app, arguments, catch_exceptions=False)
-    assert json.loads(result.stdout) == [str(tmp_path / name) for name in ("a.pdf", "a-key.pdf", "a.json")]
-    assert result.stderr == "seed 4\n"
+def refused(*arguments: str | Path) -> str:
+    """The sentence that the command refuses with."""
+    with pytest.raises(UsageError) as caught:
+        run(*arguments)
+    return str(caught.value)
+
+
+def bytes_in(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.glob("*.pdf")}
+
+
+def test_the_command_prints_the_files_and_echoes_the_seed(tmp_path: Path) -> None:
+    written, said = run("return", "-n", 2, "--seed", 4, "-o", tmp_path / "a.pdf")
+    assert written == ["a.pdf", "a-key.pdf", "a.json"]
+    assert said == "seed 4\n"
+
+
+def test_a_manifest_prints_the_same_bytes_again_and_keys_alone(tmp_path: Path) -> None:
+    there, again, keys = tmp_path / "there", tmp_path / "again", tmp_path / "keys"
+    for folder in (there, again, keys):
+        folder.mkdir()
+    _, said = run("return", "td-zero/1/7", "-n", 2, "--seed", 4, "--versions", 2, "-o", there / "a.pdf")
+    assert "2 versions: shared problems 0, shared answers 0" in said
+    data = json.loads((there / "a.json").read_text())
+    assert data["typst"]
+    assert (
+        load(data["versions"][0]["problems"][0]["id"]).problem.data() == data["versions"][0]["problems"][0]["problem"]
+    )
+    for version in data["versions"]:  # as if the family had moved on since
+        for problem in version["problems"]:
+            problem["id"] = re.sub(r"@\d+", "@99", problem["id"]) if problem["slot"] else problem["id"]
+    written, _ = run("--from", there / "a.json", "-o", again / "a.pdf")
+    assert written == ["a-A.pdf", "a-A-key.pdf", "a-B.pdf", "a-B-key.pdf", "a.json"]
+    assert bytes_in(there) == bytes_in(again)
+    assert (there / "a.json").read_bytes() == (again / "a.json").read_bytes()
+    (keys / "a.json").write_text(json.dumps(data))
+    assert run("--from", keys / "a.json", "--key")[0] == ["a-A-key.pdf", "a-B-key.pdf"]
+
+
+def test_a_second_run_overwrites_nothing_unless_it_is_forced_and_leaves_nothing_stale(tmp_path: Path) -> None:
+    output = ("-o", tmp_path / "a.pdf")
+    run("return", "-n", 1, "--seed", 4, "--versions", 3, *output)
+    before = bytes_in(tmp_path)
+    told = refused("return", "-n", 1, "--seed", 5, "--versions", 2, *output)
+    assert "a.json" in told
+    assert "--force" in told
+    assert bytes_in(tmp_path) == before
+    run("return", "-n", 1, "--seed", 5, "--versions", 2, "--force", *output)
+    assert set(bytes_in(tmp_path)) == {"a-A.pdf", "a-A-key.pdf", "a-B.pdf", "a-B-key.pdf"}
+    assert bytes_in(tmp_path)["a-A.pdf"] != before["a-A.pdf"]
+
+
+def test_a_run_that_was_ended_goes_on(tmp_path: Path) -> None:
+    arguments = ("return", "-n", 1, "--seed", 4, "--versions", 2, "-o", tmp_path / "a.pdf")
+    run(*arguments)
+    whole = bytes_in(tmp_path)
+    (tmp_path / "a-B.pdf").unlink()
+    written, said = run(*arguments)
+    assert written == ["a-B.pdf", "a.json"]
+    assert "3 of 4 PDFs are there already" in said
+    assert bytes_in(tmp_path) == whole
+
+
+def test_a_roster_gives_everybody_a_version_and_one_pdf_of_all(tmp_path: Path) -> None:
+    (tmp_path / "course.csv").write_text('name,number\n"Lee, Ann",17\nBob,4\n')
+    arguments = ("return", "-n", 1, "--seed", 4, "--solutions", "none", "--roster", tmp_path / "course.csv")
+    written, _ = run(*arguments, "-o", tmp_path / "a.pdf")
+    assert written == ["a-A.pdf", "a-B.pdf", "a.pdf", "a.json"]
+    pages = text_of(tmp_path / "a.pdf").split("\f")
+    assert "Lee, Ann" in pages[0]
+    assert "17" in pages[0]
+    assert "Bob" in pages[1]
+    whole = (tmp_path / "a.pdf").read_bytes()
+    (tmp_path / "a.pdf").unlink()
+    run(*arguments, "-o", tmp_path / "a.pdf")
+    assert (tmp_path / "a.pdf").read_bytes() == whole
+
+
+def test_a_blueprint_is_written_read_and_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run("--init", "exam.toml")
+    assert "is there already" in refused("--init", "exam.toml")
+    assert run("exam.toml", "--versions", 1)[0] == ["exam.pdf", "exam-key.pdf", "exam.json"]
+    assert json.loads(Path("exam.json").read_text())["points"] == 60
+    assert "leave the other names out" in refused("exam.toml", "bellman")
+
+
+def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.toml"
+    mine.write_text('family = "return"\n[given]\ngamma = "1/2"\nrewards = [1, 4]\ntime = 0\n')
+    run("td-zero/1/7", mine, "bellman", "-n", 4, "--seed", 1, "-x", "policy-value", "-o", tmp_path / "a.pdf")
+    problems = json.loads((tmp_path / "a.json").read_text())["versions"][0]["problems"]
+    assert [problem["family"] for problem in problems[:2]] == ["td-zero", "return"]
+    assert len(problems) == 4
 
 
 @pytest.mark.parametrize(("output", "message"), [(".", "is a folder"), ("x.txt", "does not end in .pdf")])
-def test_the_command_refuses_other_paths(app: typer.Typer, output: str, message: str) -> None:
-    result = CliRunner().invoke(app, ["-o", output])
-    assert isinstance(result.exception, UsageError)
-    assert message in str(result.exception)
+def test_the_command_refuses_other_paths(output: str, message: str) -> None:
+    assert message in refused("-o", output)
 
 
-def test_a_missing_folder_is_found_out_before_anything_is_drawn(app: typer.Typer, tmp_path: Path) -> None:
-    result = CliRunner().invoke(app, ["-o", str(tmp_path / "no" / "x.pdf")])
-    assert isinstance(result.exception, FileNotFoundError)
-    assert result.exception.filename == str(tmp_path / "no")
-    assert result.stderr == ""
+def test_a_json_file_that_is_no_manifest_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "x.json").write_text('{"mine": 1}')
+    assert "x.json would be overwritten" in refused("return", "--force", "-o", tmp_path / "x.pdf")
+    assert [path.name for path in tmp_path.iterdir()] == ["x.json"]
 
 
-def test_a_part_has_room_for_each_line_of_its_working_and_a_problem_at_most_nine_centimetres() -> None:
-    from rldrill.exercise import draw, read
-    from rldrill.print.worksheet import _spaces
-
-    one_line = read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})  # R₁ = 4
-    first, second = _spaces(one_line)
-    assert first == pytest.approx(1.2 + 2 * 0.6)  # the formula, then its numbers
-    assert second == pytest.approx(1.2 + 2 * 0.6)  # R₀ = 1 + 1/2·4 = 1 + 2 = 3
-    many = draw("value-iteration", 3, 0)
-    assert sum(_spaces(many)) == pytest.approx(9)
-
-
-@pytest.mark.parametrize(("problems", "columns"), [(1, [2]), (13, [14]), (14, [8, 7]), (28, [10, 10, 9])])
-def test_points_stand_in_tables_of_at_most_fourteen_columns_as_wide_as_each_other(
-    problems: int, columns: list[int]
-) -> None:
-    version = plan(("td-zero", "epsilon-greedy"), problems, 1, 3, 1).versions[0]
-    tables = re.findall(r"points-table\(\(\[#?\"?Problem\"?;?\], ([^)]*)\)", worksheet_source(version, PAPERS["a4"]))
-    assert [len(table.split(", ")) for table in tables] == columns
-
-
-@pytest.mark.parametrize(("states", "rows"), [(1, [1]), (5, [5]), (6, [5, 1]), (11, [5, 5, 1])])
-def test_five_empty_cells_stand_side_by_side(states: int, rows: list[int]) -> None:
-    cycle = [[f"s{n}", "a", f"s{(n + 1) % states}", 1, 1] for n in range(states)]
-    exercise = read({"family": "policy-value", "given": {"mdp": {"transitions": cycle}, "gamma": "1/2"}})
-    version = Version("Title", 1, "A", (exercise,))
-    tables = re.findall(r"#empty-table\((.*)\)", worksheet_source(version, PAPERS["a4"]))
-    assert [len(table.split("$, $")) for table in tables] == rows
+def test_a_missing_folder_is_found_out_before_anything_is_drawn(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError) as caught:
+        run("-o", tmp_path / "no" / "x.pdf")
+    assert caught.value.filename == str(tmp_path / "no")

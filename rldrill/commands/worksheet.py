@@ -188,10 +188,11 @@ def _printed(blueprint: "Blueprint", output: Path, roster: Path | None, *, only_
     files = Files(output, tuple(map(version_code, range(number))), blueprint.layout, bool(people), only_keys)
     if needs_system_fonts(blueprint.head, people):
         typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
-    if blueprint.seed is None:
-        blueprint = blueprint.but(seed=fresh_seed())
-        typer.echo(f"seed {blueprint.seed}", err=True)
-        make_room(files, force=force)  # before any work: with a seed of its own no run goes on with another one
+    fresh = blueprint.seed is None
+    blueprint = blueprint.but(seed=fresh_seed() if fresh else None)
+    typer.echo(f"seed {blueprint.seed}", err=True)
+    if fresh:  # what is there is of another seed: that is told before any work is done
+        make_room(files, force=force)
     with _progress("Drawing", number) as advance:
         exam = plan(blueprint, roster=people, advance=advance)
     data = written(manifest(exam, typst_version()))
@@ -207,7 +208,7 @@ def _reprinted(
     source: Path, output: Path | None, changes: dict[str, Any], *, only_keys: bool, force: bool
 ) -> list[Path]:
     import json
-    from dataclasses import replace
+    from dataclasses import asdict, replace
 
     from rldrill.exam.manifest import codes, read_exam, typst_of, written
     from rldrill.print.exam_files import Files, check_output, make_room, print_from, write
@@ -232,7 +233,7 @@ def _reprinted(
     if beside or only_keys:
         return _counted(files, len(makes), lambda advance: print_from(source, files, advance))
     make_room(files, force=force)
-    data = json.loads(source.read_text(encoding="utf-8"))
+    data = json.loads(source.read_text(encoding="utf-8")) | {"layout": asdict(layout), "typst": now}
     return _counted(files, len(makes), lambda advance: write(files, written(data), advance))
 
 

@@ -12,10 +12,11 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr,
 from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
 from rldrill.files import parse, read_text, shown
 from rldrill.problems.complaints import nearest
-from rldrill.problems.errors import FileError
+from rldrill.problems.errors import FileError, UsageError
 
 #: So many problems and versions an exam has at most.
 MOST_PROBLEMS, MOST_VERSIONS = 100, 999
+LONGEST_TITLE = 200
 _WAYS = ("family", "topic", "id", "file")
 _EACH = re.compile(r"^\s*\[\[\s*problems\s*\]\]", re.MULTILINE)
 _SAID = {
@@ -63,7 +64,7 @@ class Entry(_Table):
 class Blueprint(_Table):
     """What an exam shall be; ``rldrill worksheet --init exam.toml`` writes one with comments."""
 
-    title: Annotated[str, Field(max_length=200)] = DEFAULT_TITLE
+    title: Annotated[str, Field(max_length=LONGEST_TITLE)] = DEFAULT_TITLE
     course: Annotated[str, Field(max_length=200)] = ""
     date: Annotated[str, BeforeValidator(_written_date), Field(max_length=60)] = ""
     duration: Annotated[int, Field(ge=1, le=1440)] | None = None
@@ -82,7 +83,7 @@ class Blueprint(_Table):
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
-    problems: Annotated[tuple[Entry, ...], Field(strict=False, min_length=1)] = (Entry(topic=(), count=8),)
+    problems: Annotated[tuple[Entry, ...], Field(strict=False)] = (Entry(topic=(), count=8),)
     _where: str = PrivateAttr("")
     _lines: tuple[int, ...] = PrivateAttr(())
     _total: str = PrivateAttr("")
@@ -117,8 +118,14 @@ class Blueprint(_Table):
         return self._total or self.place()
 
     def but(self, **changes: Any) -> "Blueprint":
-        """The same with some fields changed; what is None stays as it is."""
+        """The same with some fields changed; what is None stays as it is.
+
+        Raises:
+            UsageError: the title is too long.
+        """
         given = {name: value for name, value in changes.items() if value is not None}
+        if (length := len(given.get("title", ""))) > LONGEST_TITLE:
+            raise UsageError(f"The title has {length} characters; give one of at most {LONGEST_TITLE}.")
         return self.model_copy(update=given)
 
 
@@ -140,6 +147,8 @@ def read_blueprint(path: str | Path) -> Blueprint:
         blueprint = Blueprint.model_validate(data)
     except ValidationError as error:
         raise FileError(_sentence(error, text, where)) from None
+    if not (isinstance(data, dict) and data.get("problems")):
+        raise FileError(f"{where}: there are no problems in it; begin one with a line [[problems]].")
     blueprint._where, blueprint._folder = where, Path(path).parent
     if line := _line(text, ["points"]):
         blueprint._total = f"{where}, line {line}: "

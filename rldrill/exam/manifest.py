@@ -234,6 +234,7 @@ def _exercise(entry: _Problem, where: str) -> Exercise:
     identity = None
     if entry.id is not None and looks_like_id(entry.id):
         family, level, seed, revision = split_id(entry.id)
-        identity = Identity(family, level, seed, revision or exercise.problem.family.revision)
+        current = exercise.problem.family.revision
+        identity = Identity(family, level, seed, current if revision is None else revision)
     problem = replace(exercise.problem, identity=identity)
     return Exercise(replace(exercise.solution, problem=problem), worth=worth)

@@ -10,11 +10,11 @@ from rldrill.exam.exam import Exam, Person, Version
 from rldrill.exam.fairness import chosen, content, told
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
 from rldrill.exam.slots import Slot, slots
-from rldrill.exam.worth import worth
+from rldrill.exam.worth import error, worth
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
-from rldrill.problems.parts import Choice
+from rldrill.problems.parts import Choice, Part
 from rldrill.solutions.effort import minutes
 
 #: How many problems are drawn for one place of an exam before the family counts as used up.
@@ -39,7 +39,8 @@ def plan(blueprint: Blueprint, *, roster: Sequence[Person] = (), advance: Callab
     """
     seed = fresh_seed() if blueprint.seed is None else blueprint.seed
     places = slots(blueprint, seed)
-    planner = _Planner(places, seed)
+    steered = blueprint.minutes is not None
+    planner = _Planner(places, seed, times=tuple(Fraction(slot.minutes) for slot in places) if steered else ())
     count = len(roster) or blueprint.versions
     versions: list[Version] = []
     points: list[dict[str, int]] = []
@@ -71,19 +72,24 @@ class _Planner:
     used: set[str] = field(default_factory=set)
     answers: Counter[tuple[int, str, str]] = field(default_factory=Counter)
     first: tuple[Exercise, ...] = ()
+    times: tuple[Fraction, ...] = ()  # how long the place of every version takes; none for whatever it takes
+
+    def __post_init__(self) -> None:
+        self.used.update(content(place.fixed) for place in self.slots if place.fixed is not None)
 
     def version(self, index: int) -> tuple[Exercise, ...]:
-        ahead = Fraction(0)  # by so many minutes this version is longer than the first one, until here
+        ahead = Fraction(0)  # by so many minutes this version is longer than it should be, until here
         result: list[Exercise] = []
         for slot, place in enumerate(self.slots):
             exercise = place.fixed or self._best(slot, index, ahead)
             if place.fixed is None:
                 self.used.add(content(exercise))
                 self.answers.update((slot, *answer) for answer in (*told(exercise), *chosen(exercise)))
-            if self.first:
-                ahead += _minutes(exercise) - _minutes(self.first[slot])
+            ahead += self._excess(slot, exercise)
             result.append(exercise)
-        self.first = self.first or tuple(result)
+        if not self.first:
+            self.first = tuple(result)
+            self.times = tuple(map(_minutes, result))
         return tuple(result)
 
     def _best(self, slot: int, index: int, ahead: Fraction) -> Exercise:
@@ -96,7 +102,14 @@ class _Planner:
             if not any(best[0]) or tried >= (_FRESH if any(best[0][:2]) else _BALANCED):
                 break
         if best is None:
-            name, level = self.slots[slot].family, self.slots[slot].level
+            place = self.slots[slot]
+            name, level = place.family, place.level
+            if isinstance(place.points, tuple) and not self.first:
+                raise error(
+                    place.where,
+                    f"points are given for {len(place.points)} parts, and no problem of {name} at level {level} has so "
+                    "many; give another number of them, or one number for the problem.",
+                )
             raise UsageError(
                 f"{name} has too few different problems at level {level} for this worksheet; "
                 "ask for fewer versions or problems, or for more families."
@@ -109,17 +122,19 @@ class _Planner:
         seeds = Draws(f"problems {self.seed} version {index} place {slot}")
         for _ in range(_ATTEMPTS):
             exercise = draw(place.family, place.level or 1, seeds.below(MAX_DRAWN))
-            if content(exercise) not in self.used and (not self.first or _alike(exercise, self.first[slot])):
+            wanted = self.first[slot].problem.parts if self.first else None
+            if content(exercise) not in self.used and _fits(exercise, place, wanted):
                 yield exercise
 
     def _price(self, slot: int, exercise: Exercise, ahead: Fraction) -> tuple[int, Fraction, int]:
         """Answers that somebody has here already, minutes too many or too few, and how one-sided the choices are."""
         same = sum(self.answers[slot, label, answer] for label, answer in told(exercise))
-        excess = Fraction(0)
-        if self.first:
-            ahead += _minutes(exercise) - _minutes(self.first[slot])
-            excess = max(Fraction(0), abs(ahead) - _TOLERANCE * sum(map(_minutes, self.first)))
-        return same, excess, self._one_sided(slot, exercise)
+        excess = abs(ahead + self._excess(slot, exercise)) - _TOLERANCE * sum(self.times)
+        return same, max(Fraction(0), excess), self._one_sided(slot, exercise)
+
+    def _excess(self, slot: int, exercise: Exercise) -> Fraction:
+        """By so many minutes a problem takes longer than its place should."""
+        return _minutes(exercise) - self.times[slot] if self.times else Fraction(0)
 
     def _one_sided(self, slot: int, exercise: Exercise) -> int:
         result = 0
@@ -135,8 +150,9 @@ def _minutes(exercise: Exercise) -> Fraction:
     return minutes(exercise.solution)
 
 
-def _alike(one: Exercise, other: Exercise) -> bool:
-    def asked(exercise: Exercise) -> list[tuple[str, str]]:
-        return [(part.label, part.kind.name) for part in exercise.problem.parts]
-
-    return asked(one) == asked(other)
+def _fits(exercise: Exercise, place: Slot, like: Sequence[Part] | None) -> bool:
+    """Whether a problem has as many parts as there are points, and such parts as the first version has."""
+    parts = exercise.problem.parts
+    if isinstance(place.points, tuple) and len(place.points) != len(parts):
+        return False
+    return like is None or [part.kind.name for part in parts] == [part.kind.name for part in like]

@@ -34,9 +34,9 @@ def worth(slots: Sequence[Slot], exercises: Sequence[Exercise], total: int | Non
     ]
     rest = total - spent
     if not waiting and rest:
-        raise _error(where, f"the problems' points add up to {spent}, not to {total}; change one of them or the total.")
+        raise error(where, f"the problems' points add up to {spent}, not to {total}; change one of them or the total.")
     if waiting and rest < len(waiting):
-        raise _error(
+        raise error(
             where,
             f"of {total} points {max(0, rest)} are left for {len(waiting)} parts without points of their own, and each "
             "needs one; raise the total.",
@@ -65,7 +65,7 @@ def _set(slot: Slot, exercise: Exercise) -> dict[str, int]:
             return {}
         case int(amount):
             if amount < len(labels):
-                raise _error(
+                raise error(
                     slot.where,
                     f"{slot.family} has {len(labels)} parts, and {amount} points do not give each of them one.",
                 )
@@ -73,7 +73,7 @@ def _set(slot: Slot, exercise: Exercise) -> dict[str, int]:
             return dict(zip(labels, shared(times, amount), strict=True))
         case several:
             if len(several) != len(labels):
-                raise _error(
+                raise error(
                     slot.where,
                     f"points are given for {len(several)} part{'s' * (len(several) > 1)}, and {slot.family} has "
                     f"{len(labels)} here; give so many, or one number for the problem.",
@@ -81,5 +81,6 @@ def _set(slot: Slot, exercise: Exercise) -> dict[str, int]:
             return dict(zip(labels, several, strict=True))
 
 
-def _error(where: str, sentence: str) -> FileError | UsageError:
+def error(where: str, sentence: str) -> FileError | UsageError:
+    """What is said of points that do not fit, in a file or on a command line."""
     return FileError(f"{where}{sentence}") if where else UsageError(f"{sentence[:1].upper()}{sentence[1:]}")

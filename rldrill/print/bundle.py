@@ -12,7 +12,7 @@ def bundled(paths: Sequence[Path]) -> bytes:
     writer = PdfWriter()
     for path in paths:
         writer.append(str(path), outline_item=path.stem, import_outline=False)
-    writer.compress_identical_objects(remove_duplicates=True, remove_unreferenced=True)
+    writer.compress_identical_objects()
     whole = BytesIO()
     writer.write(whole)
     return whole.getvalue()

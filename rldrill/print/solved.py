@@ -35,8 +35,10 @@ def _answer(exercise: Exercise, part: Part) -> str:
 
 
 def _earned(blocks: tuple[Block, ...], points: int) -> str:
-    body = document(blocks)
-    return f"#earning([{points}])[{body}]\n" if points else body
+    if not points:
+        return document(blocks)
+    *before, last = blocks
+    return f"{document(tuple(before))}#earning([{points}])[{block(last)}]\n"
 
 
 def _mistakes(exercise: Exercise, part: Part, title: str) -> str:

@@ -17,7 +17,7 @@ from rldrill.solutions.effort import minutes_of
 
 #: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
 #: ticked has a minute and a half without any, and what takes long has room for ten minutes.
-SPACES = {"none": Fraction(0), "tight": Fraction(35, 100), "normal": Fraction(6, 10), "wide": Fraction(12, 10)}
+SPACES = {"none": Fraction(0), "tight": Fraction(3, 10), "normal": Fraction(5, 10), "wide": Fraction(1)}
 _LEAST, _LONGEST = Fraction(8, 10), 10
 _TICKED = Fraction(3, 2)
 _PER_LINE = 14
@@ -85,7 +85,9 @@ def options(part: Part) -> str:
     """What there is to choose from, where there is."""
     if not isinstance(part.kind, parts.Choice):
         return ""
-    return "".join(f"#block[#checkbox {text(f'({key}) {option}')}]\n" for key, option in part.kind.options.items())
+    return "".join(
+        f"#block[#checkbox #h(0.4em) {text(f'({key}) {option}')}]\n" for key, option in part.kind.options.items()
+    )
 
 
 def _field(exercise: Exercise, part: Part, told: Words) -> str:
@@ -95,7 +97,7 @@ def _field(exercise: Exercise, part: Part, told: Words) -> str:
         case parts.Choice():
             return options(part)
         case parts.YesNo():
-            return f"#checkbox {plain(told.yes)} #h(2em) #checkbox {plain(told.no)}"
+            return f"#checkbox #h(0.4em) {plain(told.yes)} #h(2em) #checkbox #h(0.4em) {plain(told.no)}"
         case kind:
             lines = answer_kind(kind).lines(exercise.solution.answers[part.label])
             names = [f"[{equation(left)}]" for left, _ in lines if left is not None]

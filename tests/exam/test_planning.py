@@ -1,16 +1,20 @@
-"""An exam as it is planned: its title, and how its versions are called."""
+"""An exam as it is planned: versions share nothing, take as long as each other, and have the points that are wanted."""
+
+from fractions import Fraction
 
 import pytest
 
+from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.exam import points_of
+from rldrill.exam.fairness import content, fairness, told
 from rldrill.exam.planning import plan, version_code
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed, sequence
+from rldrill.exam.worth import shared
 from rldrill.problems.errors import UsageError
 
 
-def test_a_title_of_120_characters_is_printed() -> None:
-    assert plan(("td-zero",), 1, 1, 0, 1, title="x" * 120).title == "x" * 120
-    with pytest.raises(UsageError, match=r"The title has 121 characters; give one of at most 120\."):
-        plan(("td-zero",), 1, 1, 0, 1, title="x" * 121)
+def blueprint(*names: str, count: int = 3, level: int | None = None, **more: object) -> Blueprint:
+    return Blueprint(problems=(Entry(topic=names, count=count, level=level),), **more)
 
 
 @pytest.mark.parametrize(
@@ -23,14 +27,116 @@ def test_versions_are_called_as_columns_of_a_sheet(index: int, code: str) -> Non
 
 def test_every_version_has_as_many_problems_as_are_asked_for_and_is_told() -> None:
     done: list[None] = []
-    exam = plan(("bellman",), 3, 2, 7, 2, advance=lambda: done.append(None))
+    exam = plan(blueprint("bellman", level=2, seed=7, versions=2), advance=lambda: done.append(None))
     assert [len(version.exercises) for version in exam.versions] == [3, 3]
     assert [version.code for version in exam.versions] == ["A", "B"]
     assert len(done) == 2
-    assert (exam.names, exam.level, exam.seed) == (("bellman",), 2, 7)
+    assert exam.seed == 7
 
 
 def test_seeds_can_be_typed_from_paper() -> None:
     assert all(0 <= fresh_seed() < 10**6 for _ in range(20))
     drawn = sequence((), None, 3)
     assert all(0 <= next(drawn)[2] < MAX_DRAWN == 10**6 for _ in range(50))
+
+
+def test_the_same_blueprint_plans_the_same_exam_and_another_seed_another_one() -> None:
+    def ids(seed: int) -> list[list[str | None]]:
+        exam = plan(blueprint("control", count=4, seed=seed, versions=2))
+        return [[item.id for item in version.exercises] for version in exam.versions]
+
+    assert ids(3) == ids(3)
+    assert ids(3) != ids(4)
+    first, second = ids(3)
+    assert not set(first) & set(second)
+
+
+def test_versions_are_fair() -> None:
+    exam = plan(blueprint("fundamentals", "control", count=4, seed=2, versions=6))
+    slots = [[(item.problem.family.name, item.problem.level) for item in each.exercises] for each in exam.versions]
+    assert all(slot == slots[0] for slot in slots)
+    problems = [content(item) for version in exam.versions for item in version.exercises]
+    assert len(set(problems)) == len(problems)
+    for place in range(4):
+        answers = [answer for version in exam.versions for answer in told(version.exercises[place])]
+        assert len(set(answers)) == len(answers)
+    times = [version.time for version in exam.versions]
+    assert max(times) <= min(times) * Fraction(110, 100)
+    figures = fairness(exam)
+    assert (figures.shared_problems, figures.shared_answers) == (0, 0)
+    assert figures.spread <= 0.1
+    points = [[points_of(item) for item in version.exercises] for version in exam.versions]
+    assert all(each == points[0] for each in points)
+
+
+def test_yes_and_no_are_right_about_as_often() -> None:
+    exam = plan(blueprint("markov-property", count=1, level=1, seed=2, versions=8))
+    for counts in fairness(exam).balance.values():
+        assert max(counts.values()) - min(counts.values()) <= 2
+
+
+def test_a_version_repeats_no_problem() -> None:
+    (version,) = plan(blueprint("return", count=40, level=1, seed=3)).versions
+    assert len({content(item) for item in version.exercises}) == 40
+
+
+def test_a_fixed_problem_is_the_same_in_every_version_and_counts_as_shared_by_no_one() -> None:
+    entries = (Entry(id="td-zero/1/7"), Entry(family="return", level=1, count=2))
+    exam = plan(Blueprint(problems=entries, seed=1, versions=3))
+    assert {version.exercises[0].id for version in exam.versions} == {exam.versions[0].exercises[0].id}
+    assert fairness(exam).shared_problems == 0
+
+
+def test_every_version_may_have_an_order_of_its_own() -> None:
+    exam = plan(blueprint("bellman", count=5, seed=1, versions=3, order="shuffled"))
+    assert len({version.slots for version in exam.versions}) > 1
+    for version in exam.versions:
+        assert sorted(version.slots) == [0, 1, 2, 3, 4]
+        by_slot = dict(zip(version.slots, version.exercises, strict=True))
+        assert [by_slot[slot].problem.family.name for slot in range(5)] == [
+            dict(zip(exam.versions[0].slots, exam.versions[0].exercises, strict=True))[slot].problem.family.name
+            for slot in range(5)
+        ]
+
+
+def test_points_are_shared_out_to_a_total() -> None:
+    assert shared([1, 1, 1], 7) == [3, 2, 2]
+    assert shared([3, 1], 10) == [7, 3]  # one each, and 8 in the proportion 3 : 1
+    assert shared([Fraction(9, 2), 1, 1], 3) == [1, 1, 1]
+
+
+def test_points_that_are_set_are_kept_and_the_others_fill_the_total() -> None:
+    entries = (Entry(family="return", level=1, points=5), Entry(family="td-zero", level=2, points=(1, 3)))
+    exam = plan(Blueprint(problems=(*entries, Entry(topic=("bellman",), count=2)), seed=1, points=40, versions=2))
+    for version in exam.versions:
+        assert [points_of(item) for item in version.exercises[:2]] == [5, 4]
+        assert [part.points for part in version.exercises[1].parts] == [1, 3]
+        assert version.points == 40
+        assert version.exercises[1].grade({"a": "", "b": ""}).of == 4
+
+
+def test_points_that_do_not_add_up_are_said() -> None:
+    entry = Entry(family="return", level=1, points=5)
+    with pytest.raises(UsageError, match="points add up to 5, not to 9"):
+        plan(Blueprint(problems=(entry,), seed=1, points=9))
+    with pytest.raises(UsageError, match="each needs one; raise the total"):
+        plan(Blueprint(problems=(entry, Entry(family="td-zero", level=2)), seed=1, points=5))
+
+
+def test_a_time_is_filled_with_a_choice_of_topics() -> None:
+    (version,) = plan(Blueprint(problems=(Entry(topic=()),), seed=4, minutes=60)).versions
+    assert 54 <= version.minutes <= 66
+    assert len({item.problem.family.topic for item in version.exercises}) >= 5
+
+
+def test_what_is_excluded_is_not_drawn() -> None:
+    exam = plan(blueprint("control", count=12, seed=4, exclude=("lqr-gain", "bandit")))
+    assert not {"lqr-gain", "bandit"} & {item.problem.family.name for item in exam.versions[0].exercises}
+    with pytest.raises(UsageError, match="Nothing is left of bandit without control"):
+        plan(blueprint("bandit", seed=4, exclude=("control",)))
+
+
+def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rldrill.exam.planning._ATTEMPTS", 0)
+    with pytest.raises(UsageError, match="too few different problems"):
+        plan(blueprint("return", count=1, level=1, seed=1))

@@ -3,7 +3,6 @@
 from collections import Counter
 from itertools import islice
 
-from rldrill.exam.planning import plan
 from rldrill.exam.selection import sequence
 from rldrill.problems.catalogue import topics
 
@@ -31,13 +30,3 @@ def test_versions_share_families_and_levels_but_no_seed() -> None:
     first, second = ([*islice(sequence(("bellman",), None, 9, version), 20)] for version in (0, 1))
     assert [slot[:2] for slot in first] == [slot[:2] for slot in second]
     assert not {seed for *_, seed in first} & {seed for *_, seed in second}
-
-
-def test_the_same_arguments_plan_the_same_exam_and_another_seed_another_one() -> None:
-    def ids(seed: int) -> list[list[str | None]]:
-        return [[item.id for item in version.exercises] for version in plan(("control",), 4, None, seed, 2).versions]
-
-    assert ids(3) == ids(3)
-    assert ids(3) != ids(4)
-    first, second = ids(3)
-    assert not set(first) & set(second)

@@ -1,0 +1,73 @@
+"""Blueprints: what may stand in them, and what is said of what may not, with the line."""
+
+from pathlib import Path
+
+import pytest
+
+from rldrill.exam.blueprint import Blueprint, is_blueprint, read_blueprint, template
+from rldrill.exam.planning import plan
+from rldrill.problems.errors import FileError
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "exam.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_the_blueprint_with_comments_is_one(tmp_path: Path) -> None:
+    blueprint = read_blueprint(written(tmp_path, template()))
+    assert (blueprint.duration, blueprint.date, blueprint.points) == (90, "2027-02-11", 60)
+    exam = plan(blueprint)
+    assert len(exam.versions) == 2
+    assert exam.versions[0].points == 60
+    fields = set(Blueprint.model_fields)
+    assert not [name for name in fields if name not in template()]
+
+
+def test_a_file_is_named_from_the_folder_of_the_blueprint(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text('family = "return"\n[given]\ngamma = "1/2"\nrewards = [1, 4]\ntime = 0\n')
+    exam = plan(read_blueprint(written(tmp_path, '[[problems]]\nfile = "mine.toml"\n')))
+    assert exam.versions[0].exercises[0].problem.family.name == "return"
+
+
+def test_a_problem_file_is_no_blueprint() -> None:
+    assert is_blueprint({"title": "x"})
+    assert not is_blueprint({"family": "return", "given": {}})
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ('titel = "x"', "line 1: 'titel' is not a field of a blueprint (did you mean title?)."),
+        ('\n\nlanguage = "fr"', "line 3: language: input should be 'en' or 'de'."),
+        ("versions = true", "line 1: versions: write a whole number."),
+        ("[[problems]]\nfamily = 'return'\nlevle = 2", "line 3: 'levle' is not a field of [[problems]] (did you mean"),
+        ("[[problems]]\nfamily = 'return'\nlevel = 7", "line 3: level: input should be less than or equal to 3."),
+        ("\n[[problems]]\nfamily = 'retrun'", "line 2: There is no family 'retrun' (did you mean 'return'?)"),
+        ("[[problems]]\nfamily = 'return'\n[[problems]]\nfamily = 'rbf'\nlevel = 3", None),
+        ("[[problems]]\nfamily = 'return'\nid = 'return/1/7'", "line 1: a problem is named by family, topic, id or"),
+        ("[[problems]]\nlevel = 1", "this one names none."),
+        ("[[problems]]\nid = 'return/1/7'\ncount = 2", "line 1: id names one problem; leave level and count out."),
+        ("[[problems]]\nid = 'return/1/7@1'", "line 1: return/1/7@1 is of revision 1"),
+        ("[[problems]]\nfile = 'no.toml'", "there is no such file"),
+        ("points = 9\n[[problems]]\nfamily = 'return'\npoints = 5", "line 1: the problems' points add up to 5, not to"),
+        (
+            "[[problems]]\nfamily = 'return'\nlevel = 1\npoints = [1, 2, 3]",
+            "line 1: points are given for 3 parts, and no problem of return at level 1 has so many",
+        ),
+        ("problems = []", "there are no problems in it"),
+        ("title = ", "the syntax is broken"),
+        ("", "there are no problems in it; begin one with a line [[problems]]"),
+    ],
+)
+def test_what_is_wrong_is_said_with_the_line(text: str, sentence: str | None, tmp_path: Path) -> None:
+    path = written(tmp_path, text)
+    if sentence is None:
+        plan(read_blueprint(path))
+        return
+    with pytest.raises(FileError) as caught:
+        plan(read_blueprint(path))
+    assert str(caught.value).startswith(str(path))
+    assert sentence in str(caught.value)
+    assert caught.value.exit_code == 3

@@ -1,0 +1,38 @@
+"""Rosters: a name and a number on every line."""
+
+from pathlib import Path
+
+import pytest
+
+from rldrill.exam.exam import Person
+from rldrill.exam.roster import read_roster
+from rldrill.problems.errors import FileError
+
+
+def roster(folder: Path, text: str) -> Path:
+    path = folder / "course.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_people_in_their_order(tmp_path: Path) -> None:
+    people = (Person("Lee, Ann", "17"), Person("Jürgen", "04"))
+    assert read_roster(roster(tmp_path, 'name,number\n"Lee, Ann",17\n\nJürgen, 04\n')) == people
+    assert read_roster(roster(tmp_path, "Number;Name;mail\n17;Lee, Ann;a@b\n04;Jürgen;\n")) == people
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("Ann,17\n", "line 1: a roster begins with the line 'name,number'"),
+        ("name,number\nAnn\n", "line 2: there are 1 cells under 2 names"),
+        ("name,number\nAnn,\n", "line 2: the name or the number is missing"),
+        ("name,number\nAnn,1\nBob,1\n", "line 3: the number 1 stands there twice"),
+        ("name,number\n", "there are 0 people on it"),
+        (f"name,number\n{'x' * 61},1\n", "line 2: the name or the number is too long"),
+    ],
+)
+def test_what_does_not_fit_is_said_with_the_line(text: str, sentence: str, tmp_path: Path) -> None:
+    with pytest.raises(FileError) as caught:
+        read_roster(roster(tmp_path, text))
+    assert sentence in str(caught.value)
