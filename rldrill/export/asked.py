@@ -11,8 +11,8 @@ from rldrill.problems.mathematics import Math
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
-from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import decimal, parameters
+from rldrill.solutions.answers.text import Reading, Unreadable, read_number
+from rldrill.solutions.exact import NotReal, decimal, parameters
 
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
@@ -77,6 +77,15 @@ def quantity(name: str, left: Math | None, value: Any) -> Quantity:
         return Quantity(name, left, text_of(value), None, None)
     bound = tolerance(value)
     return Quantity(name, left, text_of(value), decimal(value, _DIGITS), written(Fraction(int(bound.p), int(bound.q))))
+
+
+def quantity_of(typed: str) -> Quantity | None:
+    """A number as it is typed, as a cell; None if it has no decimal, or is none."""
+    try:
+        found = quantity("", None, read_number(typed).value)
+    except (Unreadable, NotReal):
+        return None
+    return None if found.decimal is None else found
 
 
 def written(value: Fraction) -> str:

@@ -1,5 +1,6 @@
 """Which formats an exam is written in, and by what endings they are known."""
 
+import errno
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
@@ -27,16 +28,28 @@ class Format:
     whole: bool = False
 
 
-FORMATS = {each.name: each for each in (Format("html", ".html", ("html", "html_exam")),)}
+FORMATS = {
+    each.name: each
+    for each in (
+        Format("html", ".html", ("html", "html_exam")),
+        Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True),
+        Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
+        Format("latex", ".tex", ("latex", "latex_exam")),
+        Format("markdown", ".md", ("text", "markdown_exam")),
+        Format("json", ".json", ("text", "json_exam"), whole=True),
+    )
+}
 
 
-def format_of(path: Path, name: str | None = None) -> Format | None:
+def format_of(path: Path | None, name: str | None = None) -> Format | None:
     """The format of that name, or the one that the file's ending tells; None for a PDF, which is printed.
 
     Raises:
         UsageError: there is no such format, or the file's name ends as those of another.
     """
     if name is None:
+        if path is None:
+            return None
         return next((each for each in FORMATS.values() if path.name.lower().endswith(each.ending)), None)
     wanted = name.strip().lower()
     if wanted == "pdf":
@@ -76,6 +89,20 @@ def export(exam: Exam, path: Path, format_: Format, *, practice: bool) -> Iterat
         target = version_path(exam, path, format_, version)
         write_bytes_atomically(target, _bytes(write(exam, version, practice=practice)))
         yield target
+
+
+def check(exam: Exam, path: Path, format_: Format, *, force: bool) -> None:
+    """Refuse to write where something is already.
+
+    Raises:
+        UsageError: so it is, and it is not to be replaced.
+        FileNotFoundError: the folder does not exist.
+    """
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
+    there = [target for version in exam.versions if (target := version_path(exam, path, format_, version)).exists()]
+    if there and not force:
+        raise UsageError(f"{there[0]} is there already; --force replaces it, or choose another name with -o.")
 
 
 def version_path(exam: Exam, path: Path, format_: Format, version: Version) -> Path:

@@ -11,8 +11,11 @@ from rldrill.export.page import beside, embedded, page
 from rldrill.export.words import PageWords, page_words
 from rldrill.print.words import Words, words, written_points
 from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
-from rldrill.render.html import html, html_block, html_text
+from rldrill.render.html import Html
 from rldrill.render.mathematics.mathml import mathml
+
+#: How a page is written.
+HTML = Html()
 
 
 def html_exam(exam: Exam, version: Version, *, practice: bool) -> str:
@@ -99,8 +102,8 @@ def _problem(exam: Exam, number: int, exercise: Exercise, *, practice: bool) -> 
     parts = "".join(part_form(told, number, exercise, part, practice=practice) for part in exercise.parts)
     return (
         f'<section aria-labelledby="problem-{number}">\n<h2 id="problem-{number}">{told.problem} {number}: '
-        f"{html_text(exercise.problem.family.title)} <small>({written_points(told, points_of(exercise))}"
-        f"{escape(identity)})</small></h2>\n{html(exercise.question())}\n{parts}</section>\n"
+        f"{HTML.text(exercise.problem.family.title)} <small>({written_points(told, points_of(exercise))}"
+        f"{escape(identity)})</small></h2>\n{HTML.blocks(exercise.question())}\n{parts}</section>\n"
     )
 
 
@@ -116,7 +119,7 @@ def part_form(told: Words, number: int, exercise: Exercise, part: Part, *, pract
     extra = ' autocomplete="off"' if practice else ""
     return (
         f'<{tag} class="part" id="{name}"{extra}>\n'
-        f'<fieldset><legend class="ask">{label}{html_text(part.ask)}{worth}</legend>\n'
+        f'<fieldset><legend class="ask">{label}{HTML.text(part.ask)}{worth}</legend>\n'
         f"{_boxes(said, part, cells(exercise, part))}</fieldset>\n{judged}{helps}</{tag}>\n"
     )
 
@@ -124,12 +127,12 @@ def part_form(told: Words, number: int, exercise: Exercise, part: Part, *, pract
 def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
     if isinstance(part.kind, Choice):
         letter = exercise.solution.answers[part.label]
-        answer = f"<p>({escape(letter)}) {html_text(part.kind.options[letter])}</p>"
+        answer = f"<p>({escape(letter)}) {HTML.text(part.kind.options[letter])}</p>"
     else:
-        answer = html_block(exercise.answer(part))
+        answer = HTML.block(exercise.answer(part))
     return (
-        f'<details class="hint"><summary>{said.hint}</summary>{html(exercise.hint(part.label))}</details>\n'
-        f'<details class="working"><summary>{said.working}</summary>{answer}{html(exercise.working(part.label))}'
+        f'<details class="hint"><summary>{said.hint}</summary>{HTML.blocks(exercise.hint(part.label))}</details>\n'
+        f'<details class="working"><summary>{said.working}</summary>{answer}{HTML.blocks(exercise.working(part.label))}'
         "</details>\n"
     )
 
@@ -158,7 +161,7 @@ def _option(part: Part, value: str, text: str) -> str:
     letter = f"({escape(value)}) " if isinstance(part.kind, Choice) else ""
     return (
         f'<label><input type="radio" name="cell-0" value="{escape(value)}">'
-        f"<span>{letter}{html_text(text)}</span></label>"
+        f"<span>{letter}{HTML.text(text)}</span></label>"
     )
 
 
