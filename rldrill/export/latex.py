@@ -62,7 +62,8 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
 def _problem(exercise: Exercise, *, with_solutions: bool) -> str:
     title = latex_text(exercise.problem.family.title)
     parts = "\n".join(_part(exercise, part, with_solutions=with_solutions) for part in exercise.parts)
-    return f"\\question \\textbf{{{title}}}\n{latex_document(exercise.question())}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
+    question = latex_document(exercise.question())
+    return f"\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
 
 
 def _part(exercise: Exercise, part: Part, *, with_solutions: bool) -> str:
