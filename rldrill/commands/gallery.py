@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rldrill.commands.arguments import complete_names
+from rldrill.commands.arguments import NotationOption, complete_names
 
 NAME = "gallery"
 
@@ -18,6 +18,7 @@ def command(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="FOLDER", help="Write the pages into this folder.")
     ] = Path("site"),
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Write the catalogue as a site: every family with its formulas, an example at each level, and its mistakes.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rldrill.commands.arguments import Level, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
     from rldrill.history.attempts import Attempt
@@ -45,6 +45,7 @@ def command(
     minutes: Annotated[
         int | None, typer.Option("--minutes", "-m", min=1, max=600, help="End after so many minutes.")
     ] = None,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 

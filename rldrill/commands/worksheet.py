@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rldrill.commands.arguments import Json, Level, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
@@ -94,6 +94,7 @@ def command(
     ] = None,
     key: Annotated[bool, typer.Option("--key", help="Print keys alone.")] = False,
     as_json: Json = False,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Typeset a worksheet or an exam as PDF, with a key for each version.
 

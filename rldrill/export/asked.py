@@ -8,6 +8,7 @@ from typing import Any
 
 from rldrill.exercise import Exercise
 from rldrill.problems.mathematics import Math
+from rldrill.problems.notations import in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
@@ -56,8 +57,11 @@ def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
     """The cells of a part with what is right in them."""
     kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
     content, lines = kind.cells(value), kind.lines(value)
-    lefts = [left for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
-    return tuple(_cell(part, name, left, each) for (name, each), left in zip(content.items(), lefts, strict=True))
+    lefts = [left and in_notation(left) for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    return tuple(
+        _cell(part, name, None if left is None else in_notation(left), each)
+        for (name, each), left in zip(content.items(), lefts, strict=True)
+    )
 
 
 def _cell(part: Part, name: str, left: Math | None, content: Any) -> Cell:
