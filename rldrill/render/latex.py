@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
 from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import latex_block_equation
-from rldrill.render.mathematics.latex import latex, latex_plain
+from rldrill.render.mathematics.latex import latex_plain, latex_typed, typed
 from rldrill.render.pictures.tikz import tikz
 
 
@@ -16,7 +16,9 @@ def latex_document(blocks: Iterable[Block]) -> str:
 
 def latex_text(text: str) -> str:
     """Running text with its mathematics; every sign of it stands for itself."""
-    return "".join(latex_plain(piece) if isinstance(piece, str) else f"${latex(piece)}$" for piece in pieces(text))
+    return "".join(
+        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
+    )
 
 
 def latex_block(block: Block) -> str:
@@ -33,9 +35,9 @@ def latex_block(block: Block) -> str:
             return f"\n\\fitted{{{table}}}\n"
         case Equation(_, rights, signs):
             if not any(signs):
-                sides = " \\quad ".join(f"$\\displaystyle {latex(right)}$" for right in rights)
+                sides = " \\quad ".join(f"$\\displaystyle {latex_typed(right)}$" for right in rights)
                 return f"\n{{\\raggedright {sides}\\par}}\n"
-            return f"\n\\fitted{{$\\displaystyle {latex_block_equation(block)}$}}\n"
+            return f"\n\\fitted{{$\\displaystyle {typed(latex_block_equation(block))}$}}\n"
         case Beside(blocks):
             return "\n".join(map(latex_block, blocks))
         case Timeline():

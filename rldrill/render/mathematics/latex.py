@@ -28,7 +28,7 @@ _SPELLED = {
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "#": r"\#", "$": r"\$",
     "%": r"\%", "&": r"\&", "_": r"\_", "{": r"\{", "}": r"\}", "–": "--", "—": "---", "“": "``", "”": "''", "’": "'",
     "…": r"\dots{}",
-    "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
+    "√": r"\ensuremath{\surd}", "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
 }  # fmt: skip
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", "0123456789+-aehijklmnoprstuvx", strict=True))
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵃᵀᵏⁿᵗᵢ", "0123456789+-aTknti", strict=True))
@@ -38,6 +38,16 @@ _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
 def latex_plain(text: str) -> str:
     """Text without mathematics: every sign of it stands for itself, also those that only mathematics has."""
     return "".join(map(_spelled, text))
+
+
+def latex_typed(math: Math) -> str:
+    """Mathematics as LaTeX that every engine reads: signs that only Unicode has are spelled."""
+    return typed(latex(math))
+
+
+def typed(written: str) -> str:
+    """LaTeX with the signs spelled that only Unicode has."""
+    return "".join(sign if sign.isascii() else f"{{{_spelled(sign)}}}" for sign in written)
 
 
 def _spelled(sign: str) -> str:

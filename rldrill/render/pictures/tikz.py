@@ -4,7 +4,7 @@ from functools import cache
 
 from rldrill.problems.document import pieces
 from rldrill.problems.pictures import Picture
-from rldrill.render.mathematics.latex import latex, latex_plain
+from rldrill.render.mathematics.latex import latex_plain, latex_typed
 from rldrill.render.pictures.scene import Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 
@@ -63,4 +63,6 @@ def _ink(fill: float | None, width: float) -> str:
 
 
 def _words(text: str) -> str:
-    return "".join(latex_plain(piece) if isinstance(piece, str) else f"${latex(piece)}$" for piece in pieces(text))
+    return "".join(
+        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
+    )
