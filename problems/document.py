@@ -4,10 +4,11 @@ Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.math
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from rldrill.problems.mathematics import Math, mathematics
+from rldrill.problems.notations import LECTURE, in_notation, in_use
 
 
 class Block:
@@ -43,12 +44,21 @@ class Equation(Block):
     """Mathematics on lines of its own: a left side, then right sides one under the other.
 
     ``signs`` holds the relation before each right side; an empty sign goes on with the side above.
+    What is not yet in the notation in use is rewritten, and ``notation`` says that it is.
     """
 
     left: Math
     rights: tuple[Math, ...]
     signs: tuple[str, ...]
     label: str = ""
+    notation: str = field(default=LECTURE, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.notation == in_use():
+            return
+        object.__setattr__(self, "left", in_notation(self.left))
+        object.__setattr__(self, "rights", tuple(map(in_notation, self.rights)))
+        object.__setattr__(self, "notation", in_use())
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +76,7 @@ _PIECES = re.compile(r"\$([^$]*)\$")
 def pieces(text: str) -> list[str | Math]:
     """Take a text apart into plain text and mathematics."""
     parts = _PIECES.split(text)
-    return [mathematics(part) if index % 2 else part for index, part in enumerate(parts) if part]
+    return [in_notation(mathematics(part)) if index % 2 else part for index, part in enumerate(parts) if part]
 
 
 def joined(items: list[str]) -> str:

@@ -9,7 +9,21 @@ from typing import IO
 
 import typer
 
-from rldrill.commands import audit, fields, generate, history, list_, quiz, sheet, show, solve, stats, verify, worksheet
+from rldrill.commands import (
+    audit,
+    fields,
+    gallery,
+    generate,
+    history,
+    list_,
+    quiz,
+    sheet,
+    show,
+    solve,
+    stats,
+    verify,
+    worksheet,
+)
 from rldrill.problems.errors import BrokenFamily, UserError
 
 INTERNAL_ERROR = 70
@@ -23,7 +37,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
-for module in (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, generate, audit):
+for module in (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, gallery, generate, audit):
     app.command(module.NAME)(module.command)
 
 

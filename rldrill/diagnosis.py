@@ -7,6 +7,7 @@ from threading import Event, Thread
 from typing import Any
 
 from rldrill.problems.document import Equation
+from rldrill.problems.notations import in_notation
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
 from rldrill.solutions.answers.kinds import Cell, answer_kind
@@ -266,7 +267,7 @@ def _place(cause: Cause) -> Place | None:
 
 
 def _sentence(words: Words) -> str:
-    return "".join(word if isinstance(word, str) else unicode(word) for word in words)
+    return "".join(word if isinstance(word, str) else unicode(in_notation(word)) for word in words)
 
 
 @dataclass(frozen=True, slots=True)

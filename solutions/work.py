@@ -9,6 +9,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
+from rldrill.problems.notations import in_use
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
@@ -63,10 +64,17 @@ class Step:
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
-        return self._equation
+        notation = in_use()
+        if notation not in self._equations:
+            self._equations[notation] = self._written()
+        return self._equations[notation]
 
     @cached_property
-    def _equation(self) -> Equation:
+    def _equations(self) -> dict[str, Equation]:
+        """The equation in every notation in which it was asked for; the same steps are written again and again."""
+        return {}
+
+    def _written(self) -> Equation:
         written = self.put_in
         rights = [typeset(self.right)] if self.own else []
         rights.append(typeset(_alone(written)))

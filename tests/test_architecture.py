@@ -28,12 +28,25 @@ MAY_IMPORT = {
     "library": {"problems", "solutions", "render"},
     "exam": {"problems", "solutions", "library"},
     "print": {"problems", "solutions", "library", "render", "exam"},
+    "export": {"problems", "solutions", "library", "render", "exam", "print"},
     "grading": {"problems", "solutions", "library", "exam"},
     "generation": {"problems", "solutions", "library", "render"},
     "history": {"problems"},
     "quiz": {"problems", "solutions", "library", "render", "exam", "history"},
     "audit": {"problems", "solutions", "exam"},
-    "commands": {"problems", "library", "render", "exam", "print", "grading", "generation", "history", "quiz", "audit"},
+    "commands": {
+        "problems",
+        "library",
+        "render",
+        "exam",
+        "print",
+        "export",
+        "grading",
+        "generation",
+        "history",
+        "quiz",
+        "audit",
+    },
 }
 
 

@@ -52,4 +52,20 @@ Level = Annotated[
 ]
 Seed = Annotated[int | None, typer.Option("--seed", "-s", min=0, help="Repeat the problems of an earlier run.")]
 Json = Annotated[bool, typer.Option("--json", help="Print data for programs.")]
+
+
+def _use(name: str | None) -> str | None:
+    from rldrill.problems.notations import use
+
+    if name is not None:
+        use(name)
+    return name
+
+
+NotationOption = Annotated[
+    str | None,
+    typer.Option(
+        "--notation", metavar="NAME", callback=_use, help="How quantities are written: lecture, sutton-barto, control."
+    ),
+]
 Output = Annotated[Path | None, typer.Option("--output", "-o", help="Write to this file.")]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rldrill.commands.arguments import Level, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
     from rldrill.history.attempts import Attempt
@@ -54,6 +54,7 @@ def command(
     answers: Annotated[
         Path | None, typer.Option("--answers", metavar="FILE.toml", help="Where the answers to the exam are kept.")
     ] = None,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 

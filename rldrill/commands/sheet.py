@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rldrill.commands.arguments import Output
+from rldrill.commands.arguments import NotationOption, Output
 
 NAME = "sheet"
 
@@ -28,6 +28,7 @@ def command(
     workings: Annotated[
         bool, typer.Option("--all", help="Also the formulas that only workings need; in a PDF, with sources.")
     ] = False,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Print the formula sheet, or write it as PDF or Markdown.
 

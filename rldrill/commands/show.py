@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from rldrill.commands.arguments import Json, complete_ids, tell
+from rldrill.commands.arguments import Json, NotationOption, complete_ids, tell
 
 NAME = "show"
 
@@ -15,6 +15,7 @@ def command(
         typer.Argument(metavar="ID|FILE", autocompletion=complete_ids, help="A problem's ID, or a problem file."),
     ],
     json: Json = False,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Show a problem without its answer; with --json as a problem file with answers and steps.
 

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rldrill.commands.arguments import Json, Level, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
+    from rldrill.exam.exam import Exam
+    from rldrill.export.formats import Format
     from rldrill.print.exam_files import Files
 
 NAME = "worksheet"
@@ -77,7 +79,11 @@ def command(
     title: Annotated[str | None, typer.Option("--title", help="What is printed at the head.")] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="FILE.pdf", help="Write to this file; worksheet.pdf, if not given."),
+        typer.Option("--output", "-o", metavar="FILE", help="Write to this file; its ending tells the format."),
+    ] = None,
+    format_: Annotated[
+        str | None,
+        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, anki, latex, markdown or json."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", "-f", help="Replace what an earlier run has written.")] = False,
     init: Annotated[
@@ -88,6 +94,7 @@ def command(
     ] = None,
     key: Annotated[bool, typer.Option("--key", help="Print keys alone.")] = False,
     as_json: Json = False,
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
 ) -> None:
     """Typeset a worksheet or an exam as PDF, with a key for each version.
 
@@ -102,8 +109,10 @@ def command(
 
         rldrill worksheet --init exam.toml · rldrill worksheet exam.toml --roster course.csv
     """
+    from rldrill.export.formats import format_of
     from rldrill.problems.errors import UsageError
 
+    other = format_of(output, format_)
     changes: dict[str, Any] = {
         "paper": None if paper is None else _paper(paper),
         "space": space and space.value,
@@ -117,14 +126,61 @@ def command(
     elif source is not None:
         if names or count or minutes or level or exclude or seed is not None or versions or roster or title:
             raise UsageError("--from prints what the manifest holds; leave out what would make another exam.")
+        if other is not None:
+            _print(_exported(_from(source, changes), output or source, other, force=force), as_json=as_json)
+            return
         written = _reprinted(source, output, changes, only_keys=key, force=force)
     else:
         blueprint, stem = _blueprint(list(names or ()), count, minutes, level)
         blueprint = blueprint.but(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
+        if other is not None:
+            exam = _drawn(blueprint, roster)
+            practice = roster is None and not _is_blueprint_file(names or [], blueprint)
+            _print(_exported(exam, output or Path(stem), other, practice=practice, force=force), as_json=as_json)
+            return
         written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, only_keys=key, force=force)
     _print([str(path) for path in written], as_json=as_json)
+
+
+def _is_blueprint_file(names: list[str], blueprint: "Blueprint") -> bool:
+    """Whether what was named is a blueprint, and no problem's file."""
+    return len(names) == 1 and names[0].lower().endswith(".toml") and all(e.file is None for e in blueprint.problems)
+
+
+def _drawn(blueprint: "Blueprint", roster: Path | None) -> "Exam":
+    from rldrill.exam.fairness import fairness
+    from rldrill.exam.planning import plan
+    from rldrill.exam.roster import read_roster
+
+    people = () if roster is None else read_roster(roster)
+    with _progress("Drawing", len(people) or blueprint.versions) as advance:
+        exam = plan(blueprint, roster=people, advance=advance)
+    typer.echo(f"seed {exam.seed}", err=True)
+    if len(exam.versions) > 1:
+        typer.echo(f"{len(exam.versions)} versions: {fairness(exam).says()}", err=True)
+    return exam
+
+
+def _from(source: Path, changes: dict[str, Any]) -> "Exam":
+    from dataclasses import replace
+
+    from rldrill.exam.manifest import read_manifest
+
+    exam = read_manifest(source)
+    return replace(
+        exam, layout=replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
+    )
+
+
+def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool = False, force: bool) -> list[str]:
+    """Write an exam in another format; with the solutions inline it is for practice, whatever it comes from."""
+    from rldrill.export.formats import check, export, named
+
+    target = named(output, format_)
+    check(exam, target, format_, force=force)
+    return list(map(str, export(exam, target, format_, practice=practice or exam.layout.solutions == "inline")))
 
 
 def _paper(name: str) -> str:

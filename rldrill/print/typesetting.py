@@ -15,6 +15,7 @@ from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
 from rldrill.print.worksheet import worksheet_source
+from rldrill.problems.notations import in_use, use
 from rldrill.writing import write_bytes_atomically
 
 #: From so many versions on, other processes take longer to start than they save.
@@ -54,7 +55,11 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
         yield from map(_typeset, tasks)
         return
     pool = ProcessPoolExecutor(
-        processes, mp_context=get_context("spawn"), initializer=_deaf, max_tasks_per_child=_REPLACED
+        processes,
+        mp_context=get_context("spawn"),
+        initializer=_deaf,
+        initargs=(in_use(),),
+        max_tasks_per_child=_REPLACED,
     )
     try:
         waiting: set[Future[Task]] = set()
@@ -68,8 +73,9 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _deaf() -> None:
-    """Ctrl-C is for the process that waits for this one."""
+def _deaf(notation: str) -> None:
+    """Ctrl-C is for the process that waits for this one, which also knows the notation."""
+    use(notation)
     signal(SIGINT, SIG_IGN)
 
 

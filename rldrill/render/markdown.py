@@ -28,7 +28,7 @@ def markdown_block(block: Block) -> str:
             lines = [header, ("---",) * len(header), *rows]
             return "\n".join(f"| {' | '.join(map(markdown_text, line))} |" for line in lines)
         case Equation():
-            return f"$${_aligned(block) if len(block.rights) > 1 else latex_equation(block)}$$"
+            return f"$${latex_block_equation(block)}$$"
         case Beside(blocks):
             return markdown(blocks)
         case Picture():
@@ -44,6 +44,11 @@ def markdown_text(text: str) -> str:
 
 def _math(math: Math) -> str:
     return f"${latex(math)}$".replace("|", r"\vert ")
+
+
+def latex_block_equation(equation: Equation) -> str:
+    """An equation as LaTeX, its right sides one under the other."""
+    return _aligned(equation) if len(equation.rights) > 1 else latex_equation(equation)
 
 
 def latex_equation(equation: Equation) -> str:

@@ -24,7 +24,40 @@ _COMMANDS = {
     "log": r"\log", "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "∂": r"\partial", "Δ": r"\Delta", "ω": r"\omega",
     "*": "*", "{": r"\{", "}": r"\}", "%": r"\%", "_": r"\_", "#": r"\#", "&": r"\&",
 }  # fmt: skip
+_SPELLED = {
+    "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "#": r"\#", "$": r"\$",
+    "%": r"\%", "&": r"\&", "_": r"\_", "{": r"\{", "}": r"\}", "–": "--", "—": "---", "“": "``", "”": "''", "’": "'",
+    "…": r"\dots{}",
+    "√": r"\ensuremath{\surd}", "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
+}  # fmt: skip
+_LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", "0123456789+-aehijklmnoprstuvx", strict=True))
+_RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵃᵀᵏⁿᵗᵢ", "0123456789+-aTknti", strict=True))
 _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
+
+
+def latex_plain(text: str) -> str:
+    """Text without mathematics: every sign of it stands for itself, also those that only mathematics has."""
+    return "".join(map(_spelled, text))
+
+
+def latex_typed(math: Math) -> str:
+    """Mathematics as LaTeX that every engine reads: signs that only Unicode has are spelled."""
+    return typed(latex(math))
+
+
+def typed(written: str) -> str:
+    """LaTeX with the signs spelled that only Unicode has."""
+    return "".join(sign if sign.isascii() else f"{{{_spelled(sign)}}}" for sign in written)
+
+
+def _spelled(sign: str) -> str:
+    if sign in _SPELLED:
+        return _SPELLED[sign]
+    if sign in _LOWERED:
+        return rf"\ensuremath{{_{_LOWERED[sign]}}}"
+    if sign in _RAISED:
+        return rf"\ensuremath{{^{_RAISED[sign]}}}"
+    return sign if sign.isascii() or sign not in _COMMANDS else rf"\ensuremath{{{_COMMANDS[sign]}}}"
 
 
 def latex(math: Math) -> str:

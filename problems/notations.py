@@ -1,0 +1,199 @@
+"""The notations of other courses: mathematics is rewritten on its way to the page; names and IDs stay as they are."""
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+
+from rldrill.problems.errors import UsageError
+from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Script, mathematics, row
+
+#: The notation that everything is written in unless another one is asked for.
+LECTURE = "lecture"
+_ANYTHING = frozenset("①②③")
+_TIME = "ⓣ"
+_TIMES = re.compile(r"t|k|T|[0-9]+")
+_INDEXED = re.compile(r"(?P<stem>[^\W\d_])(?P<index>[₀-₉]*[′']*)")
+
+#: What is capital in Sutton & Barto's notation, or a return in the lecture's, and a matrix elsewhere.
+_AMBIGUOUS = tuple(Glyph(letter, "variable") for letter in "Rsa")
+_OF_LINEAR_SYSTEMS = tuple(Glyph(letter, "variable") for letter in "BL")
+
+_in_use: ContextVar[str] = ContextVar("notation", default=LECTURE)
+
+
+@dataclass(frozen=True)
+class Notation:
+    """One notation.
+
+    Args:
+        about: what is different in it.
+        lines: patterns, and what they become; a pattern may hold ①, ②, ③ and ⓣ.
+        letters: letters that are others everywhere.
+    """
+
+    about: str
+    lines: tuple[tuple[Math, Math], ...]
+    letters: Mapping[str, str]
+
+
+@cache
+def notations() -> Mapping[str, Notation]:
+    """All notations beside the lecture's, by name."""
+    data = tomllib.loads((Path(__file__).parent / "notations.toml").read_text(encoding="utf-8"))
+    return {
+        name: Notation(
+            table["about"],
+            tuple((mathematics(left), mathematics(right)) for left, right in table["lines"]),
+            table["letters"],
+        )
+        for name, table in data.items()
+    }
+
+
+def in_use() -> str:
+    """The name of the notation that is written now."""
+    return _in_use.get()
+
+
+def use(name: str) -> None:
+    """Write in that notation from now on.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    _in_use.set(_known(name))
+
+
+@contextmanager
+def used(name: str) -> Iterator[None]:
+    """Write in that notation for a while.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    token = _in_use.set(_known(name))
+    try:
+        yield
+    finally:
+        _in_use.reset(token)
+
+
+def _known(name: str) -> str:
+    wanted = name.strip().lower()
+    if wanted != LECTURE and wanted not in notations():
+        raise UsageError(f"There is no notation {name[:40]!r}; there are {LECTURE}, {', '.join(notations())}.")
+    return wanted
+
+
+def in_notation(math: Math) -> Math:
+    """Mathematics of the lecture, in the notation in use."""
+    name = _in_use.get()
+    return math if name == LECTURE else _translated(name, math)
+
+
+@lru_cache(maxsize=4096)
+def _translated(name: str, math: Math) -> Math:
+    notation = notations()[name]
+    lines = notation.lines
+    if _is_linear(math):  # A_t and R_t are matrices there
+        lines = tuple(line for line in lines if not _may_be_matrix(line[0]))
+    return _rewritten(replace(notation, lines=lines), math)
+
+
+def _may_be_matrix(pattern: Math) -> bool:
+    return isinstance(pattern, Script) and pattern.body in _AMBIGUOUS
+
+
+def _is_linear(math: Any) -> bool:
+    """Whether something is of linear systems: it has a transpose, the matrix B or the gain L."""
+    if isinstance(math, Script) and math.above == Glyph("T", "word"):
+        return True
+    return math in _OF_LINEAR_SYSTEMS or any(map(_is_linear, _children(math)))
+
+
+def _children(math: Any) -> Iterator[Any]:
+    for field in fields(math):
+        value = getattr(math, field.name)
+        yield from _within(value)
+
+
+def _within(value: Any) -> Iterator[Any]:
+    if isinstance(value, tuple):
+        for item in value:
+            yield from _within(item)
+    elif is_dataclass(value):
+        yield value
+
+
+def _rewritten(notation: Notation, math: Any) -> Any:
+    for pattern, becomes in notation.lines:
+        found: dict[str, Math] = {}
+        if _fits(pattern, math, found):
+            return _filled(becomes, {sign: _rewritten(notation, part) for sign, part in found.items()})
+    if isinstance(math, Glyph):
+        return _relettered(notation, math)
+    if isinstance(math, Row):  # what a line becomes may be several things side by side
+        return row(*(_rewritten(notation, item) for item in math.items)) if math.items else math
+    return replace(math, **{field.name: _inside(notation, getattr(math, field.name)) for field in fields(math)})
+
+
+def _inside(notation: Notation, value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_inside(notation, item) for item in value)
+    return _rewritten(notation, value) if is_dataclass(value) else value
+
+
+def _relettered(notation: Notation, glyph: Glyph) -> Glyph:
+    match = _INDEXED.fullmatch(glyph.text) if glyph.style == "variable" else None
+    if match is None or match["stem"] not in notation.letters:
+        return glyph
+    return Glyph(notation.letters[match["stem"]] + match["index"], "variable")
+
+
+def _fits(pattern: Any, math: Any, found: dict[str, Math]) -> bool:
+    """Whether mathematics has the form of a pattern; what its signs stand for is put into ``found``."""
+    if isinstance(pattern, Glyph) and (pattern.text in _ANYTHING or pattern.text == _TIME):
+        if not (_is_time(math) if pattern.text == _TIME else _is_named(math)):
+            return False
+        return found.setdefault(pattern.text, math) == math
+    if isinstance(pattern, tuple):
+        return (
+            isinstance(math, tuple)
+            and len(pattern) == len(math)
+            and all(_fits(one, other, found) for one, other in zip(pattern, math, strict=True))
+        )
+    if not is_dataclass(pattern):
+        return bool(pattern == math)
+    return type(pattern) is type(math) and all(
+        _fits(getattr(pattern, field.name), getattr(math, field.name), found) for field in fields(pattern)
+    )
+
+
+def _is_time(math: Any) -> bool:
+    first = math.items[0] if isinstance(math, Row) and math.items else math
+    return isinstance(first, Glyph) and _TIMES.fullmatch(first.text) is not None
+
+
+def _is_named(math: Any) -> bool:
+    """Whether something is no number, no operator and not nothing."""
+    if isinstance(math, Glyph):
+        return math.style in ("variable", "word")
+    return isinstance(math, Script | Row | Fence | Fraction)
+
+
+def _filled(becomes: Any, found: Mapping[str, Math]) -> Any:
+    if isinstance(becomes, Glyph):
+        return found.get(becomes.text, becomes)
+    if isinstance(becomes, Row):
+        return row(*(_filled(item, found) for item in becomes.items))
+    if isinstance(becomes, tuple):
+        return tuple(_filled(item, found) for item in becomes)
+    if not is_dataclass(becomes):
+        return becomes
+    return replace(becomes, **{f.name: _filled(getattr(becomes, f.name), found) for f in fields(becomes)})  # type: ignore[type-var]

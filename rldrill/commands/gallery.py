@@ -1,0 +1,34 @@
+"""``rldrill gallery``."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rldrill.commands.arguments import NotationOption, complete_names
+
+NAME = "gallery"
+
+
+def command(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Only these."),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Write the pages into this folder.")
+    ] = Path("site"),
+    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
+) -> None:
+    """Write the catalogue as a site: every family with its formulas, an example at each level, and its mistakes.
+
+    Examples: rldrill gallery -o site/ · rldrill gallery bellman -o site/
+    """
+    from rldrill.export.gallery import gallery
+    from rldrill.problems.catalogue import headers
+    from rldrill.problems.errors import UsageError
+
+    if output.exists() and not output.is_dir():
+        raise UsageError(f"{output} is a file; give the name of a folder, such as site/.")
+    paths = list(gallery(output, headers(names or ())))
+    typer.echo(f"{paths[-1]} and {len(paths) - 1} pages beside it")

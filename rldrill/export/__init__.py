@@ -1,0 +1,1 @@
+"""Exams and the catalogue in the formats that other programs read."""

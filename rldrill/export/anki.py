@@ -1,0 +1,109 @@
+"""An exam as a deck for Anki: a note for every problem, known again by its ID; the bytes are the same every time."""
+
+import hashlib
+import io
+import tempfile
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rldrill.exam.exam import Exam
+from rldrill.exercise import Exercise
+from rldrill.export.asked import wrong_answers
+from rldrill.export.page import beside
+from rldrill.problems.errors import UsageError
+from rldrill.problems.parts import Choice, Part
+from rldrill.render.html import LatexHtml
+
+if TYPE_CHECKING:
+    import genanki
+
+_MODEL = 1_609_224_471
+_FIELDS = ("ID", "Question", "Answer")
+_FRONT = "{{Question}}"
+_BACK = '{{FrontSide}}<hr id="answer">{{Answer}}<p class="id">{{ID}}</p>'
+#: The moment that all notes are of, so that the same exam is the same file.
+_TIME = 1_600_000_000.0
+_ZIP_DATE = (1980, 1, 1, 0, 0, 0)
+_MISTAKES = 4
+_HTML = LatexHtml()
+
+
+def anki_exam(exam: Exam, *, practice: bool) -> bytes:  # noqa: ARG001
+    """All versions in one package, each as a deck below that of the exam.
+
+    Raises:
+        UsageError: genanki is not installed.
+    """
+    try:
+        import genanki
+    except ImportError:
+        raise UsageError("Anki's decks need genanki: pip install 'rldrill[anki]'.") from None
+    model = genanki.Model(
+        _MODEL,
+        "rldrill",
+        fields=[{"name": name} for name in _FIELDS],
+        templates=[{"name": "Problem", "qfmt": _FRONT, "afmt": _BACK}],
+        css=beside("card.css"),
+    )
+    decks = []
+    for version in exam.versions:
+        name = exam.head.title.replace("::", ":") + (f"::{version.code}" if len(exam.versions) > 1 else "")
+        deck = genanki.Deck(_number(name), name)
+        for exercise in version.exercises:
+            deck.add_note(_note(genanki, model, exercise))
+        decks.append(deck)
+    return _packed(genanki.Package(decks))
+
+
+def _packed(package: "genanki.Package") -> bytes:
+    """The package without the times at which it was made."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "deck.apkg"
+        package.write_to_file(str(path), timestamp=_TIME)
+        result = io.BytesIO()
+        with zipfile.ZipFile(path) as made, zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as packed:
+            for name in sorted(made.namelist()):
+                packed.writestr(zipfile.ZipInfo(name, _ZIP_DATE), made.read(name), zipfile.ZIP_DEFLATED)
+    return result.getvalue()
+
+
+def _number(text: str) -> int:
+    """A number for a name, always the same."""
+    return 2**30 + int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") % 2**30
+
+
+def _note(genanki: Any, model: Any, exercise: Exercise) -> Any:
+    identity = exercise.id or hashlib.sha256(repr(exercise.problem.data()).encode()).hexdigest()[:16]
+    asked = "".join(_asked(exercise, part) for part in exercise.parts)
+    solved = "".join(_solved(exercise, part) for part in exercise.parts)
+    question = f"<h3>{_HTML.text(exercise.problem.family.title)}</h3>{_HTML.blocks(exercise.question())}{asked}"
+    return genanki.Note(
+        model=model,
+        fields=[identity, question, solved],
+        guid=genanki.guid_for("rldrill", identity),
+        tags=[exercise.problem.family.topic.replace("_", "-"), exercise.problem.family.name],
+    )
+
+
+def _label(exercise: Exercise, part: Part) -> str:
+    return f"({part.label}) " if len(exercise.parts) > 1 else ""
+
+
+def _asked(exercise: Exercise, part: Part) -> str:
+    options = ""
+    if isinstance(part.kind, Choice):
+        options = "".join(f"<p>({letter}) {_HTML.text(text)}</p>" for letter, text in part.kind.options.items())
+    return f"<p>{_label(exercise, part)}{_HTML.text(part.ask)}</p>{options}"
+
+
+def _solved(exercise: Exercise, part: Part) -> str:
+    wrong = "".join(
+        f"<li>{_HTML.text(', '.join(each.cells))}: {_HTML.text(each.says)}</li>"
+        for each in wrong_answers(exercise, part, _MISTAKES)
+    )
+    mistakes = f"<p>Typical wrong answers</p><ul>{wrong}</ul>" if wrong else ""
+    return (
+        f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(exercise.answer(part))}"
+        f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"
+    )

@@ -1,0 +1,121 @@
+"""What is asked and what is right, cell by cell: what formats that judge by themselves are made from."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from rldrill.exercise import Exercise
+from rldrill.problems.mathematics import Math
+from rldrill.problems.notations import in_notation
+from rldrill.problems.parts import Choice, Part, Policy, YesNo
+from rldrill.solutions.answers.kinds import answer_kind, text_of
+from rldrill.solutions.answers.rule import tolerance
+from rldrill.solutions.answers.text import Reading, Unreadable, read_number
+from rldrill.solutions.exact import NotReal, decimal, parameters
+
+#: So many wrong answers to a part go along, the likeliest ones.
+_MISTAKES = 24
+#: A decimal in a file has so many significant digits.
+_DIGITS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A cell that holds one of several words; more than one of them may be right."""
+
+    name: str
+    left: Math | None
+    options: Mapping[str, str]
+    right: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A cell that holds a number: the exact one as it is typed, and if it has one its decimal and tolerance."""
+
+    name: str
+    left: Math | None
+    exact: str
+    decimal: str | None
+    tolerance: str | None
+
+
+Cell = Word | Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Wrong:
+    """A wrong answer, cell by cell as it is typed, and the sentence about the mistake that gives it."""
+
+    cells: tuple[str, ...]
+    says: str
+
+
+def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
+    """The cells of a part with what is right in them."""
+    kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
+    content, lines = kind.cells(value), kind.lines(value)
+    lefts = [left and in_notation(left) for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    return tuple(
+        _cell(part, name, None if left is None else in_notation(left), each)
+        for (name, each), left in zip(content.items(), lefts, strict=True)
+    )
+
+
+def _cell(part: Part, name: str, left: Math | None, content: Any) -> Cell:
+    match part.kind:
+        case Choice(options):
+            return Word(name, None, options, content)
+        case YesNo():
+            return Word(name, None, {"yes": "yes", "no": "no"}, content)
+        case Policy(actions):
+            return Word(name, left, {action: action for action in actions[name]}, tuple(content))
+    return quantity(name, left, content)
+
+
+def quantity(name: str, left: Math | None, value: Any) -> Quantity:
+    """A number as a cell."""
+    if parameters(value):
+        return Quantity(name, left, text_of(value), None, None)
+    bound = tolerance(value)
+    return Quantity(name, left, text_of(value), decimal(value, _DIGITS), written(Fraction(int(bound.p), int(bound.q))))
+
+
+def quantity_of(typed: str) -> Quantity | None:
+    """A number as it is typed, as a cell; None if it has no decimal, or is none."""
+    try:
+        found = quantity("", None, read_number(typed).value)
+    except (Unreadable, NotReal):
+        return None
+    return None if found.decimal is None else found
+
+
+def written(value: Fraction) -> str:
+    """A fraction whose denominator is made of twos and fives, as a decimal."""
+    return f"{Decimal(value.numerator) / Decimal(value.denominator):f}"
+
+
+def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iterator[Wrong]:
+    """Wrong answers to a part, the likeliest first; none to yes or no, where every mistake is the other."""
+    if isinstance(part.kind, YesNo):
+        return
+    kind, problem = answer_kind(part.kind), exercise.problem
+    for wrong in exercise.diagnosing.wrong_answers(part.label, most):
+        try:
+            found = kind.read(wrong.answer, problem.parameters, problem.given.terminal_states())
+        except Unreadable:
+            continue  # a number so large that nobody types it
+        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence)
+
+
+def _typed(cell: Any) -> str:
+    if isinstance(cell, Reading):
+        return text_of(cell.value)
+    return cell if isinstance(cell, str) else cell[0]
+
+
+def is_open(cell: Cell) -> bool:
+    """Whether the cell is an expression in a parameter, which most other programs cannot judge."""
+    return isinstance(cell, Quantity) and cell.decimal is None

@@ -1,0 +1,116 @@
+"""Which formats an exam is written in, and by what endings they are known."""
+
+import errno
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+from rldrill.exam.exam import Exam, Version
+from rldrill.print.files import write_bytes_atomically
+from rldrill.problems.errors import UsageError
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A format of files.
+
+    Args:
+        name: what it is called on the command line.
+        ending: of its files.
+        writer: the module of this package and the function in it that writes a version, or the exam, as bytes or text.
+        whole: whether one file holds all versions; else each has one of its own.
+    """
+
+    name: str
+    ending: str
+    writer: tuple[str, str]
+    whole: bool = False
+
+
+FORMATS = {
+    each.name: each
+    for each in (
+        Format("html", ".html", ("html", "html_exam")),
+        Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True),
+        Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
+        Format("latex", ".tex", ("latex", "latex_exam")),
+        Format("markdown", ".md", ("text", "markdown_exam")),
+        Format("json", ".json", ("text", "json_exam"), whole=True),
+    )
+}
+
+
+def format_of(path: Path | None, name: str | None = None) -> Format | None:
+    """The format of that name, or the one that the file's ending tells; None for a PDF, which is printed.
+
+    Raises:
+        UsageError: there is no such format, or the file's name ends as those of another.
+    """
+    if name is None:
+        if path is None:
+            return None
+        return next((each for each in FORMATS.values() if path.name.lower().endswith(each.ending)), None)
+    wanted = name.strip().lower()
+    if wanted == "pdf":
+        return None
+    if wanted not in FORMATS:
+        raise UsageError(f"There is no format {name[:40]!r}; there are pdf, {', '.join(FORMATS)}.")
+    return FORMATS[wanted]
+
+
+def named(path: Path, format_: Format) -> Path:
+    """The path with the ending that the format has."""
+    if path.name.lower().endswith(format_.ending):
+        return path
+    return path.with_name(path.name[: len(path.name) - len(path.suffix)] + format_.ending)
+
+
+def export(exam: Exam, path: Path, format_: Format, *, practice: bool) -> Iterator[Path]:
+    """Write an exam in a format, each file whole or not at all.
+
+    Args:
+        exam: the exam.
+        path: the file; where each version has one of its own, its code is put before the ending.
+        format_: the format.
+        practice: whether it is for practice, with answers, hints and working; else for an exam.
+
+    Raises:
+        OSError: a file cannot be written; ``filename`` says which.
+        UsageError: a package that the format needs is not installed.
+    """
+    module, function = format_.writer
+    write: Callable[..., str | bytes] = getattr(import_module(f"rldrill.export.{module}"), function)
+    if format_.whole:
+        write_bytes_atomically(path, _bytes(write(exam, practice=practice)))
+        yield path
+        return
+    for version in exam.versions:
+        target = version_path(exam, path, format_, version)
+        write_bytes_atomically(target, _bytes(write(exam, version, practice=practice)))
+        yield target
+
+
+def check(exam: Exam, path: Path, format_: Format, *, force: bool) -> None:
+    """Refuse to write where something is already.
+
+    Raises:
+        UsageError: so it is, and it is not to be replaced.
+        FileNotFoundError: the folder does not exist.
+    """
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
+    there = [target for version in exam.versions if (target := version_path(exam, path, format_, version)).exists()]
+    if there and not force:
+        raise UsageError(f"{there[0]} is there already; --force replaces it, or choose another name with -o.")
+
+
+def version_path(exam: Exam, path: Path, format_: Format, version: Version) -> Path:
+    """Where a version is written."""
+    if format_.whole or (len(exam.versions) == 1 and version.person is None):
+        return path
+    return path.with_name(f"{path.name[: -len(format_.ending)]}-{version.code}{format_.ending}")
+
+
+def _bytes(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content

@@ -1,0 +1,108 @@
+"""The catalogue as a site: a page for every family, and a front page that searches them without a server."""
+
+from collections.abc import Callable, Iterator
+from html import escape
+from itertools import groupby
+from pathlib import Path
+
+from rldrill.exercise import Exercise, draw
+from rldrill.export.html import HTML, part_form, scripts, task
+from rldrill.export.page import beside, page
+from rldrill.export.words import page_words
+from rldrill.print.files import write_bytes_atomically
+from rldrill.print.words import words
+from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.headers import Header
+from rldrill.render.mathematics.unicode import inline
+from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.solution import solver
+
+_TITLE = "rldrill: what can be drilled"
+_SEED = 1
+
+
+def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
+    """Write the site: ``index.html``, and beside it a page for every family.
+
+    Args:
+        folder: where; it is made if it is not there.
+        headers: the families, in the order of the catalogue.
+        advance: called after each family.
+
+    Raises:
+        OSError: a file cannot be written; ``filename`` says which.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    cards: list[tuple[Header, tuple[Formula, ...]]] = []
+    for header in headers:
+        exercises = tuple(draw(header.name, level, _SEED) for level in header.levels)
+        formulas = tuple(dict.fromkeys(formula for exercise in exercises for formula in exercise.formulas()))
+        cards.append((header, formulas))
+        path = folder / f"{header.name}.html"
+        write_bytes_atomically(path, _family(header, exercises, formulas).encode())
+        advance()
+        yield path
+    write_bytes_atomically(folder / "index.html", _front(cards).encode())
+    yield folder / "index.html"
+
+
+def _front(cards: list[tuple[Header, tuple[Formula, ...]]]) -> str:
+    sections = "".join(
+        f'<section><h2>{escape(_topic(topic))}</h2>\n<ul class="cards">\n{"".join(map(_card, found))}</ul></section>\n'
+        for topic, found in groupby(cards, key=lambda card: card[0].topic)
+    )
+    body = (
+        f"<h1>{_TITLE}</h1>\n<p>{len(cards)} families of problems, each drawn anew for every seed, solved step by step "
+        "and judged exactly. Every page shows an example at each level; answers can be tried on the page.</p>\n"
+        '<p><label for="search">Search</label> <input type="text" id="search" autocomplete="off"> '
+        '<span id="found" role="status"></span></p>\n'
+    )
+    return page(_TITLE, body + sections, more=f"<script>\n{beside('search.js')}</script>\n")
+
+
+def _card(card: tuple[Header, tuple[Formula, ...]]) -> str:
+    header, formulas = card
+    said = " ".join((header.name, header.title, header.summary, *(formula.title for formula in formulas)))
+    first = f'<div class="wide" tabindex="0">{HTML.block(formulas[0].equation())}</div>' if formulas else ""
+    return (
+        f'<li data-text="{escape(inline(said).lower())}"><a href="{header.name}.html">{HTML.text(header.title)}</a> '
+        f"<small>{header.name}</small>\n<p>{HTML.text(header.summary)}</p>{first}</li>\n"
+    )
+
+
+def _topic(topic: str) -> str:
+    words = topic.replace("_", " ")
+    return words[:1].upper() + words[1:]
+
+
+def _family(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[Formula, ...]) -> str:
+    stated = "".join(
+        f"<h3>{HTML.text(formula.title)} <small>{escape(formula.source)}</small></h3>{HTML.block(formula.equation())}"
+        f"<p>{HTML.text(formula.hint)}</p>"
+        for formula in formulas
+    )
+    mistakes = dict.fromkeys(mistake.says for mistake in solver(family_of(header.name)).misconceptions)
+    made = "".join(f"<li>{HTML.text(says)}</li>" for says in mistakes)
+    examples = "".join(_example(level, item) for level, item in zip(header.levels, exercises, strict=True))
+    tasks = {
+        f"part-{level}-{part.label}": task(exercise, part)
+        for level, exercise in zip(header.levels, exercises, strict=True)
+        for part in exercise.parts
+    }
+    body = (
+        f'<nav><a href="index.html">All families</a></nav>\n<h1>{HTML.text(header.title)}</h1>\n'
+        f"<p>{HTML.text(header.summary)} <small>{escape(header.source)}</small></p>\n"
+        f"<p><code>rldrill quiz {header.name}</code></p>\n{examples}"
+        f"<section><h2>Formulas</h2>\n{stated}</section>\n"
+        f"<section><h2>Typical mistakes</h2>\n<ul>{made}</ul></section>\n"
+        '<p id="score" role="status"></p>\n'
+    )
+    return page(f"{header.title} · rldrill", body, more=scripts(tasks, page_words("en")))
+
+
+def _example(level: int, exercise: Exercise) -> str:
+    parts = "".join(part_form(words("en"), level, exercise, part, practice=True) for part in exercise.parts)
+    return (
+        f'<section aria-labelledby="level-{level}"><h2 id="level-{level}">Level {level} '
+        f"<small>{escape(exercise.id or '')}</small></h2>\n{HTML.blocks(exercise.question())}\n{parts}</section>\n"
+    )

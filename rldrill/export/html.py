@@ -1,0 +1,179 @@
+"""An exam as a page of the web: readable on a phone, printable, and for practice judged where it stands."""
+
+from collections.abc import Sequence
+from html import escape
+from typing import Any
+
+from rldrill.exam.exam import Exam, Version, points_of
+from rldrill.exercise import Exercise
+from rldrill.export.asked import Cell, Quantity, Word, cells, wrong_answers
+from rldrill.export.page import beside, embedded, page
+from rldrill.export.words import PageWords, page_words
+from rldrill.print.words import Words, words, written_points
+from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
+from rldrill.render.html import Html
+from rldrill.render.mathematics.mathml import mathml
+
+#: How a page is written.
+HTML = Html()
+
+
+def html_exam(exam: Exam, version: Version, *, practice: bool) -> str:
+    """A version as one page.
+
+    Args:
+        exam: the exam.
+        version: which of its versions.
+        practice: whether the page judges, hints and shows the working; else nothing of the answers is in it.
+    """
+    problems = "".join(
+        _problem(exam, number, exercise, practice=practice) for number, exercise in enumerate(version.exercises, 1)
+    )
+    told = page_words(exam.head.language)
+    score = '<p id="score" role="status"></p>\n' if practice else ""
+    title = exam.head.title if len(exam.versions) == 1 else f"{exam.head.title} ({version.code})"
+    return page(
+        title,
+        _front(exam, version) + problems + score,
+        language=exam.head.language,
+        more=scripts(tasks(version.exercises), told) if practice else "",
+    )
+
+
+def scripts(tasks: dict[str, Any], told: PageWords) -> str:
+    """What judges in the page, and what it judges by."""
+    data = embedded({"tasks": tasks, "score": told.score})
+    return (
+        f'<script type="application/json" id="tasks">{data}</script>\n'
+        f"<script>\n{beside('judge.js')}{beside('page.js')}</script>\n"
+    )
+
+
+def tasks(exercises: Sequence[Exercise]) -> dict[str, Any]:
+    """For the form of every part: its cells with what is right in them, and the wrong answers that are known."""
+    return {
+        form_name(number, part): task(exercise, part)
+        for number, exercise in enumerate(exercises, 1)
+        for part in exercise.parts
+    }
+
+
+def task(exercise: Exercise, part: Part) -> dict[str, Any]:
+    """What the page must know to judge a part."""
+    return {
+        "parameters": list(exercise.problem.parameters),
+        "cells": [
+            {"name": cell.name, "words": list(cell.right)}
+            if isinstance(cell, Word)
+            else {"name": cell.name, "key": cell.exact}
+            for cell in cells(exercise, part)
+        ],
+        "mistakes": [
+            {"cells": _known(part, wrong.cells), "says": wrong.says} for wrong in wrong_answers(exercise, part)
+        ],
+    }
+
+
+def _known(part: Part, typed: Sequence[str]) -> list[Any]:
+    """The cells of a wrong answer: a word is one of a list, as in the key."""
+    return [[word] for word in typed] if isinstance(part.kind, Choice | YesNo | Policy) else list(typed)
+
+
+def form_name(number: int, part: Part) -> str:
+    """The name of a part's form."""
+    return f"part-{number}-{part.label}"
+
+
+def _front(exam: Exam, version: Version) -> str:
+    head, told = exam.head, words(exam.head.language)
+    place = " · ".join(filter(None, (head.course, head.date)))
+    who = "" if version.person is None else f"{told.name}: {version.person.name} · {version.person.number}"
+    code = f"{told.version} {version.code}" if len(exam.versions) > 1 else ""
+    points = f"{told.total}: {written_points(told, version.points)}"
+    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    lines = (place, who, " · ".join(filter(None, (code, points))), f"{told.rule} {time}", head.instructions)
+    below = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
+    return f"<header>\n<h1>{escape(head.title)}</h1>\n{below}\n</header>\n"
+
+
+def _problem(exam: Exam, number: int, exercise: Exercise, *, practice: bool) -> str:
+    told = words(exam.head.language)
+    identity = f" · {exercise.id}" if exam.layout.ids and exercise.id else ""
+    parts = "".join(part_form(told, number, exercise, part, practice=practice) for part in exercise.parts)
+    return (
+        f'<section aria-labelledby="problem-{number}">\n<h2 id="problem-{number}">{told.problem} {number}: '
+        f"{HTML.text(exercise.problem.family.title)} <small>({written_points(told, points_of(exercise))}"
+        f"{escape(identity)})</small></h2>\n{HTML.blocks(exercise.question())}\n{parts}</section>\n"
+    )
+
+
+def part_form(told: Words, number: int, exercise: Exercise, part: Part, *, practice: bool) -> str:
+    """A part as a form: what is asked, boxes for the answer, and for practice all that helps."""
+    label = f"({part.label}) " if len(exercise.parts) > 1 else ""
+    name = form_name(number, part)
+    tag = "form" if practice else "div"
+    said = page_words("de" if told.problem == "Aufgabe" else "en")
+    worth = f" <small>({written_points(told, part.points)})</small>" if len(exercise.parts) > 1 else ""
+    judged = f'<button type="submit">{said.check}</button><output></output>\n' if practice else ""
+    helps = _helps(said, exercise, part) if practice else ""
+    extra = ' autocomplete="off"' if practice else ""
+    return (
+        f'<{tag} class="part" id="{name}"{extra}>\n'
+        f'<fieldset><legend class="ask">{label}{HTML.text(part.ask)}{worth}</legend>\n'
+        f"{_boxes(said, part, cells(exercise, part))}</fieldset>\n{judged}{helps}</{tag}>\n"
+    )
+
+
+def _helps(said: PageWords, exercise: Exercise, part: Part) -> str:
+    if isinstance(part.kind, Choice):
+        letter = exercise.solution.answers[part.label]
+        answer = f"<p>({escape(letter)}) {HTML.text(part.kind.options[letter])}</p>"
+    else:
+        answer = HTML.block(exercise.answer(part))
+    return (
+        f'<details class="hint"><summary>{said.hint}</summary>{HTML.blocks(exercise.hint(part.label))}</details>\n'
+        f'<details class="working"><summary>{said.working}</summary>{answer}{HTML.blocks(exercise.working(part.label))}'
+        "</details>\n"
+    )
+
+
+def _boxes(said: PageWords, part: Part, asked: Sequence[Cell]) -> str:
+    if isinstance(part.kind, Choice | YesNo):
+        (only,) = asked
+        assert isinstance(only, Word)
+        options = "".join(_option(part, value, text) for value, text in only.options.items())
+        return f'<div class="options">{options}</div>\n'
+    if isinstance(part.kind, Matrix):
+        boxes = "".join(_box(said, index, cell) for index, cell in enumerate(asked))
+        return (
+            f'<div class="cells matrix" style="grid-template-columns: repeat({part.kind.columns}, minmax(3.2em, 6em))">'
+            f"{boxes}</div>\n"
+        )
+    boxes = "".join(f"<label>{_left(cell)}{_box(said, i, cell)}</label>" for i, cell in enumerate(asked))
+    return f'<div class="cells{" single" if len(asked) == 1 else ""}">{boxes}</div>\n'
+
+
+def _left(cell: Cell) -> str:
+    return "" if cell.left is None else f'{mathml(cell.left)}<span aria-hidden="true">=</span>'
+
+
+def _option(part: Part, value: str, text: str) -> str:
+    letter = f"({escape(value)}) " if isinstance(part.kind, Choice) else ""
+    return (
+        f'<label><input type="radio" name="cell-0" value="{escape(value)}">'
+        f"<span>{letter}{HTML.text(text)}</span></label>"
+    )
+
+
+def _box(said: PageWords, index: int, cell: Cell) -> str:
+    called = escape(cell.name or said.answer)
+    if isinstance(cell, Quantity):
+        return (
+            f'<input type="text" name="cell-{index}" data-cell="{index}" aria-label="{called}" autocomplete="off" '
+            'autocapitalize="none" spellcheck="false">'
+        )
+    options = "".join(f"<option>{escape(option)}</option>" for option in cell.options)
+    return (
+        f'<select name="cell-{index}" data-cell="{index}" aria-label="{called}">'
+        f'<option value="">{said.choose}</option>{options}</select>'
+    )

@@ -1,0 +1,358 @@
+"use strict";
+// Judges typed numbers as rldrill does: exact, or right to three significant digits. What it is not sure to read as
+// rldrill reads it, it calls unreadable; it never calls a right answer wrong because of its spelling.
+
+const Judge = (() => {
+  class Unreadable extends Error {}
+  const refuse = (sentence) => { throw new Unreadable(sentence); };
+
+  // Exact quotients, [numerator, denominator] with a positive denominator; anything else is a float.
+  const abs = (n) => (n < 0n ? -n : n);
+  const gcd = (a, b) => { while (b) [a, b] = [b, a % b]; return a; };
+  const quotient = (n, d) => {
+    if (d < 0n) [n, d] = [-n, -d];
+    const common = gcd(abs(n), d) || 1n;
+    return [n / common, d / common];
+  };
+  const whole = (n) => [BigInt(n), 1n];
+  const isExact = (value) => Array.isArray(value);
+  const SIZE = 10n ** 15n;
+  const float = (value) => {
+    if (!isExact(value)) return value;
+    const [n, d] = value;
+    if (abs(n) < SIZE && d < SIZE) return Number(n) / Number(d);
+    const whole_ = n / d;
+    return Number(whole_) + Number(((n - whole_ * d) * SIZE) / d) / Number(SIZE);
+  };
+  const finite = (value) => (isExact(value) || Number.isFinite(value) ? value : refuse("A part of it is no real number."));
+  const either = (exact, rough) => (a, b) => finite(isExact(a) && isExact(b) ? exact(a, b) : rough(float(a), float(b)));
+  const add = either(([a, b], [c, d]) => quotient(a * d + c * b, b * d), (a, b) => a + b);
+  const subtract = either(([a, b], [c, d]) => quotient(a * d - c * b, b * d), (a, b) => a - b);
+  const multiply = either(([a, b], [c, d]) => quotient(a * c, b * d), (a, b) => a * b);
+  const isZero = (value) => (isExact(value) ? value[0] === 0n : value === 0);
+  const divide = (a, b) => (isZero(b) ? refuse("It divides by zero.") : divided(a, b));
+  const divided = either(([a, b], [c, d]) => quotient(a * d, b * c), (a, b) => a / b);
+  const power = (base, exponent) => {
+    if (isExact(base) && isExact(exponent) && exponent[1] === 1n) {
+      const times = abs(exponent[0]);
+      if (times > 400n) refuse("The exponent is too large.");
+      const [n, d] = [base[0] ** times, base[1] ** times];
+      if (exponent[0] >= 0n) return quotient(n, d);
+      return n === 0n ? refuse("It divides by zero.") : quotient(d, n);
+    }
+    return finite(Math.pow(float(base), float(exponent)));
+  };
+  const isqrt = (n) => {
+    if (n < 2n) return n;
+    let x = BigInt(Math.floor(Math.sqrt(Number(n))));
+    while (x * x > n) x -= 1n;
+    while ((x + 1n) * (x + 1n) <= n) x += 1n;
+    return x;
+  };
+  const root = (value) => {
+    if (isExact(value) && value[0] >= 0n && value[0] < SIZE && value[1] < SIZE) {
+      const [n, d] = value.map(isqrt);
+      if (n * n === value[0] && d * d === value[1]) return quotient(n, d);
+    }
+    return finite(Math.sqrt(float(value)));
+  };
+  const FUNCTIONS = {
+    sqrt: root,
+    exp: (x) => (isZero(x) ? whole(1) : finite(Math.exp(float(x)))),
+    ln: (x) => finite(Math.log(float(x))),
+    log: (x) => finite(Math.log(float(x))),
+  };
+
+  // One spelling
+  const ALIKE = {
+    "-": "−–—‐‑‒﹣", "*": "×·⋅∙∗⋆✕✖", "/": "÷∕⁄", " ": "\t\u00a0\u2009\u202f", "(": "（", ")": "）", "+": "＋", "=": "＝", ".": "．",
+  };
+  const SPELLING = Object.fromEntries(Object.entries(ALIKE).flatMap(([one, signs]) => [...signs].map((sign) => [sign, one])));
+  const VULGAR = {
+    "¼": "1/4", "½": "1/2", "¾": "3/4", "⅓": "1/3", "⅔": "2/3", "⅕": "1/5", "⅖": "2/5", "⅗": "3/5", "⅘": "4/5", "⅙": "1/6",
+    "⅚": "5/6", "⅛": "1/8", "⅜": "3/8", "⅝": "5/8", "⅞": "7/8",
+  };
+  const RAISED = { "⁰": 0, "¹": 1, "²": 2, "³": 3, "⁴": 4, "⁵": 5, "⁶": 6, "⁷": 7, "⁸": 8, "⁹": 9, "⁻": "-" };
+  const GREEK = {
+    "γ": "gamma", "α": "alpha", "λ": "lambda", "ε": "epsilon", "ϵ": "epsilon", "ρ": "rho", "σ": "sigma", "θ": "theta", "β": "beta", "π": "pi",
+  };
+  // What LaTeX and programs write around numbers
+  const FOREIGN = [
+    [/^\s*(\${1,2}|`|"|')(.*)\1\s*$/su, "$2"], [/\\[()]|\\left|\\right|\\,|\\;|\\!/gu, " "], [/\\%/gu, "%"],
+    [/(?<![0-9]\s*)\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}/gu, "(($1)/($2))"], [/\\(?:cdot|times)(?![a-z])/gu, "*"],
+    [/\\sqrt\s*\{([^{}]*)\}/gu, "sqrt($1)"], [/\^\s*\{([^{}]*)\}/gu, "^($1)"], [/\b(?:np|numpy|math|sympy|sp)\./gu, ""],
+    [/\\(gamma|alpha|lambda|epsilon|varepsilon|rho|sigma|theta|beta|pi|exp|ln|log)(?![a-z])/gu, (_, name) => ` ${name.replace("var", "")} `],
+    [/([1-9]|[0-9.][0-9.])\s*[xX]\s*(?=[0-9.])/gu, "$1*"],
+  ];
+  const spelled = (text) => {
+    const alike = [...text].map((sign) => SPELLING[sign] ?? sign).join("");
+    return FOREIGN.reduce((said, [pattern, by]) => said.replace(pattern, by), alike).trim();
+  };
+
+  const TOKEN = new RegExp(
+    `\\s*(?:(?<mixed>[0-9]+(?:\\s*[${Object.keys(VULGAR).join("")}]|\\s+[0-9]+\\s*/\\s*[0-9]+(?![0-9.])))`
+    + "|(?<number>(?:[0-9]+(?:\\.[0-9]*)?|\\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    + `|(?<vulgar>[${Object.keys(VULGAR).join("")}])|(?<raised>[${Object.keys(RAISED).join("")}]+)`
+    + "|(?<name>[A-Za-z]+|[αβγλεϵρσθπ])|(?<sign>\\*\\*|[-+*/^()%√]))", "uy");
+
+  function tokens(text) {
+    const found = [];
+    TOKEN.lastIndex = 0;
+    while (TOKEN.lastIndex < text.length) {
+      const start = TOKEN.lastIndex;
+      const match = TOKEN.exec(text);
+      if (!match) refuse(complaint(text.slice(start).trim()));
+      const [kind, value] = Object.entries(match.groups).find(([, each]) => each !== undefined);
+      found.push({ kind: kind === "sign" ? (value === "**" ? "^" : value) : kind, value, spaced: /^\s/.test(match[0]) });
+      if (!text.slice(TOKEN.lastIndex).trim()) break;
+    }
+    return found;
+  }
+
+  const complaint = (rest) => (rest.startsWith(",")
+    ? "A number has a comma in it; write a point before decimals, and nothing between thousands."
+    : `“${rest.slice(0, 20)}” is not understood; write a number such as 3/4 or 0.75.`);
+
+  const decimalValue = (text) => {
+    const [mantissa, exponent = "0"] = text.toLowerCase().split("e");
+    const [before, after = ""] = mantissa.split(".");
+    const shift = Number(exponent) - after.length;
+    if (Math.abs(shift) > 300 || text.length > 40) refuse("The number is too long.");
+    const digits = BigInt(before + after || "0");
+    return shift >= 0 ? [digits * 10n ** BigInt(shift), 1n] : quotient(digits, 10n ** BigInt(-shift));
+  };
+  const fraction = (text) => { const [n, d] = text.split("/").map((part) => BigInt(part.trim())); return d ? quotient(n, d) : refuse("It divides by zero."); };
+
+  // Sums, products and powers; a sign left out between factors is read only where it can mean one thing.
+  class Parser {
+    constructor(text, parameters) {
+      this.tokens = tokens(text);
+      this.next = 0;
+      this.parameters = parameters;
+      this.decimal = false;
+    }
+    get token() { return this.tokens[this.next] ?? { kind: "end", value: "" }; }
+    take(...kinds) { return kinds.includes(this.token.kind) ? this.tokens[this.next++] : null; }
+    all() {
+      if (!this.tokens.length) refuse("Nothing was typed.");
+      const result = this.sum();
+      if (this.token.kind !== "end") refuse(`“${this.token.value}” is not expected there.`);
+      return result;
+    }
+    sum() {
+      let left = this.product();
+      for (let sign; (sign = this.take("+", "-"));) {
+        const [before, right] = [left, this.product()];
+        const work = sign.kind === "+" ? add : subtract;
+        left = (at) => work(before(at), right(at));
+      }
+      return left;
+    }
+    product() {
+      let left = this.signed(), over = false;
+      for (;;) {
+        const sign = this.take("*", "/");
+        const bare = !sign && ["name", "(", "√"].includes(this.token.kind);
+        if (!sign && !bare) {
+          if (["number", "mixed", "vulgar"].includes(this.token.kind)) refuse("A sign is missing between two numbers.");
+          return left;
+        }
+        if (over && sign?.kind !== "*") refuse("Put brackets around what stands below the line.");
+        over = sign?.kind === "/";
+        const first = this.token;
+        const [before, right] = [left, sign ? this.signed() : this.raised()];
+        if (over && this.percent) refuse("Put brackets around what the percent sign belongs to.");
+        if (first.value === "10" && this.isSign() && this.tokens[this.next + 1]?.spaced === false) refuse("Write powers of ten with ^: 10^-3.");
+        if (!sign && first.value.toLowerCase() === "e" && this.isSign()) refuse("Write powers of ten without spaces: 3e-2.");
+        const work = over ? divide : multiply;
+        left = (at) => work(before(at), right(at));
+      }
+    }
+    isSign() { return ["+", "-"].includes(this.token.kind); }
+    signed() {
+      const sign = this.take("-", "+");
+      if (!sign) return this.raised();
+      if (this.isSign()) refuse("There are two signs before a number.");
+      const value = this.raised();
+      return sign.kind === "-" ? (at) => subtract(whole(0), value(at)) : value;
+    }
+    raised() {
+      let base = this.atom();
+      const high = this.take("raised");
+      if (high) {
+        const digits = [...high.value].map((sign) => RAISED[sign]).join("");
+        if (!/^-?[0-9]{1,3}$/.test(digits)) refuse("The exponent is not understood.");
+        const [before, exponent] = [base, whole(digits)];
+        base = (at) => power(before(at), exponent);
+      } else if (this.take("^")) {
+        const bracketed = this.token.kind === "(";
+        const minus = this.take("-");
+        const [before, exponent] = [base, this.atom()];
+        base = (at) => power(before(at), minus ? subtract(whole(0), exponent(at)) : exponent(at));
+        const third = this.token.kind === "/" && this.tokens[this.next - 1].value === "1";
+        if (!bracketed && (third || ["^", "name", "("].includes(this.token.kind))) refuse("Put brackets around the exponent.");
+      }
+      this.percent = false;
+      while (this.take("%")) {
+        this.decimal = this.percent = true;
+        const before = base;
+        base = (at) => divide(before(at), whole(100));
+        if (!["end", ")", "+", "-", "*"].includes(this.token.kind)) refuse("The percent sign is not expected there.");
+      }
+      return base;
+    }
+    atom() {
+      const token = this.tokens[this.next++] ?? refuse("Something is missing at the end.");
+      switch (token.kind) {
+        case "number": {
+          if (!/^[0-9]+$/.test(token.value)) {
+            this.decimal = true;
+            if (this.token.kind === "(") refuse("Write digits that repeat as a fraction.");
+          }
+          const value = decimalValue(token.value);
+          return () => value;
+        }
+        case "vulgar": {
+          const value = fraction(VULGAR[token.value]);
+          return () => value;
+        }
+        case "mixed": {
+          if (!["end", "+", "-", ")"].includes(this.token.kind)) refuse("Put brackets around the mixed number.");
+          const before = this.tokens[this.next - 2]?.kind;
+          if (!["+", "-", "(", undefined].includes(before)) refuse("Put brackets around the mixed number.");
+          const [, digits, rest] = /^([0-9]+)\s*(.*)$/u.exec(token.value);
+          const value = add(whole(digits), fraction(VULGAR[rest] ?? rest));
+          return () => value;
+        }
+        case "(": {
+          const inside = this.sum();
+          if (!this.take(")")) refuse("A bracket is not closed.");
+          return inside;
+        }
+        case "√": {
+          const inside = this.atom();
+          return (at) => root(inside(at));
+        }
+        case "name":
+          return this.named(token.value);
+        default:
+          return refuse(`“${token.value}” is not expected there.`);
+      }
+    }
+    named(typed) {
+      const name = this.parameters.includes(typed) ? typed : GREEK[typed] ?? typed.toLowerCase();
+      if (this.parameters.includes(name)) return (at) => at;
+      if (name === "e") return () => Math.E;
+      if (name === "pi") return () => Math.PI;
+      if (!(name in FUNCTIONS)) {
+        return refuse(`“${typed}” is not something this answer may contain; write ${this.parameters.length
+          ? `numbers and ${this.parameters.join(", ")}` : "the number alone"}.`);
+      }
+      if (this.token.kind !== "(") refuse(`Put brackets behind ${name}.`);
+      const inside = this.atom();
+      if (this.token.kind === "^" || this.token.kind === "raised") refuse("Put brackets around what is raised.");
+      return (at) => FUNCTIONS[name](inside(at));
+    }
+  }
+
+  // A number, perhaps in several forms, with a name before it: V(s) = 1/4 = 0.25
+  function read(typed, parameters = []) {
+    if (typed.length > 400) refuse("It is too long.");
+    let text = spelled(typed).replace(/^[≈~]\s*/u, "");
+    if (!text) refuse("Nothing was typed.");
+    let forms = text.split(/[=≈:]/u).map((form) => form.trim());
+    if (forms.length > 1 && (!forms[0] || /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(forms[0]))) forms = forms.slice(1);
+    const readings = forms.map((form) => {
+      const parser = new Parser(form, parameters);
+      const value = parser.all();
+      POINTS.slice(0, parameters.length ? 2 : 1).forEach((point) => value(point));
+      return { value, decimal: parser.decimal };
+    });
+    const [first, ...others] = readings;
+    for (const other of others) {
+      const same = parameters.length ? equivalent(first.value, other.value)
+        : Math.abs(float(first.value(0)) - float(other.value(0))) <= (other.decimal ? 5e-3 * Math.abs(float(first.value(0))) : 1e-9);
+      if (!same) refuse("It says two numbers which differ; write one.");
+    }
+    return first;
+  }
+
+  // The rule
+  const POINTS = [0.3819660113, 0.1415926536, 0.7182818285, 0.5772156649, 0.9159655942, 0.2502907875, 0.6434105463, 0.8346268417];
+  const tolerance = ([n, d]) => {
+    if (n === 0n) return [1n, 2000n];
+    let exponent = abs(n).toString().length - d.toString().length;
+    const reaches = (e) => (e >= 0 ? abs(n) >= d * 10n ** BigInt(e) : abs(n) * 10n ** BigInt(-e) >= d);
+    if (!reaches(exponent)) exponent -= 1;
+    const last = exponent - 2;
+    return last >= 0 ? quotient(10n ** BigInt(last), 2n) : quotient(1n, 2n * 10n ** BigInt(-last));
+  };
+  const roughTolerance = (key) => (key === 0 ? 0.0005 : 10 ** (Math.floor(Math.log10(Math.abs(key))) - 2) / 2);
+  const near = (value, key) => {
+    if (isExact(value) && isExact(key)) {
+      const [n, d] = subtract(value, key), [tn, td] = tolerance(key);
+      return abs(n) * td <= tn * d;
+    }
+    const [a, b] = [float(value), float(key)];
+    return Math.abs(a - b) <= roughTolerance(b) * (1 + 1e-12);
+  };
+  const sampled = (test) => {
+    let tried = 0;
+    for (const point of POINTS) {
+      const verdict = test(point);
+      if (verdict === false) return false;
+      tried += 1;
+    }
+    return tried > 0;
+  };
+  const equivalent = (value, key) => sampled((point) => {
+    const [a, b] = [float(value(point)), float(key(point))];
+    return Math.abs(a - b) <= 1e-9 * Math.max(1, Math.abs(a), Math.abs(b));
+  });
+
+  function right(reading, keyText, parameters = []) {
+    const key = new Parser(keyText, parameters).all();
+    const open = parameters.some((name) => new RegExp(`(?<![A-Za-z])${name}(?![A-Za-z])`).test(keyText)) || varies(reading.value);
+    if (!open) return near(reading.value(0.5), key(0.5));
+    if (equivalent(reading.value, key)) return true;
+    return reading.decimal && sampled((point) => near(reading.value(point), key(point)));
+  }
+  const varies = (value) => { const [a, b] = POINTS.map((point) => float(value(point))); return a !== b; };
+  const closeTo = (reading, keyText, parameters) => {
+    const key = new Parser(keyText, parameters).all();
+    if (parameters.length && (varies(reading.value) || varies(key))) return false;
+    const [a, b] = [float(reading.value(0.5)), float(key(0.5))];
+    return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
+  };
+
+  // One part: what was typed for each of its cells, and what is known of it.
+  function part(task, typed) {
+    const readings = [];
+    for (const [index, cell] of task.cells.entries()) {
+      if (cell.words) {
+        if (!typed[index]) return { outcome: "unreadable", says: "Choose an answer.", cell: index };
+        readings.push(typed[index]);
+        continue;
+      }
+      try {
+        readings.push(read(typed[index] ?? "", task.parameters));
+      } catch (error) {
+        if (!(error instanceof Unreadable)) throw error;
+        return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.message, cell: index };
+      }
+    }
+    const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
+    const wrong = task.cells.map((_, index) => index).filter((index) => !fits(index, task.cells[index].words ?? task.cells[index].key));
+    if (!wrong.length) return { outcome: "right", says: "Right." };
+    const made = task.mistakes.find((mistake) => mistake.cells.every((key, index) => fits(index, key)));
+    if (made) return { outcome: "misconception", says: made.says, wrong };
+    if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
+      return { outcome: "close", says: "Right idea; give an exact value or three digits.", wrong };
+    }
+    const names = wrong.map((index) => task.cells[index].name).filter(Boolean);
+    const some = names.length && names.length < task.cells.length;
+    return { outcome: "wrong", says: some ? `Not right at ${names.join("; ")}; the rest is right.` : "Not right.", wrong };
+  }
+
+  return { part, read, right, Unreadable };
+})();

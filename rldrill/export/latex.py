@@ -1,0 +1,81 @@
+"""An exam in LaTeX's ``exam`` class, to be edited by hand and compiled with any engine."""
+
+from rldrill.exam.exam import Exam, Version
+from rldrill.exercise import Exercise
+from rldrill.print.words import words
+from rldrill.problems.parts import Choice, Part, YesNo
+from rldrill.render.latex import latex_document, latex_text
+from rldrill.render.mathematics.latex import latex_plain
+from rldrill.solutions.effort import minutes_of, whole
+
+_PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
+\usepackage{iftex}
+\ifPDFTeX
+  \usepackage[T1]{fontenc}
+  \usepackage[utf8]{inputenc}
+\else
+  \usepackage{fontspec}
+\fi
+\IfFileExists{lmodern.sty}{\usepackage{lmodern}}{}
+\usepackage{amsmath,amssymb,tikz,graphicx}
+%% What is wider than the line is made smaller.
+\newsavebox{\fittedbox}
+\newcommand{\fitted}[1]{\par\noindent\sbox{\fittedbox}{#1}%%
+  \ifdim\wd\fittedbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fittedbox}}\else\usebox{\fittedbox}\fi\par}
+\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}
+\pagestyle{headandfoot}
+\firstpageheader{}{}{}
+\runningheader{%(title)s}{}{%(code)s}
+\footer{}{\thepage\ / \numpages}{}
+%(answers)s
+\begin{document}
+"""
+
+
+def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
+    """A version; its solutions are in the file, unless the exam goes without, and printed only for practice."""
+    head, told = exam.head, words(exam.head.language)
+    code = f"{told.version} {version.code}" if len(exam.versions) > 1 else ""
+    preamble = _PREAMBLE % {
+        "paper": {"a4": "a4paper", "letter": "letterpaper"}[exam.layout.paper],
+        "title": latex_plain(head.title),
+        "code": code,
+        "answers": r"\printanswers" if practice else "% \\printanswers % prints the solutions",
+    }
+    name, number = r"\makebox[6cm]{\hrulefill}", r"\makebox[4cm]{\hrulefill}"
+    if version.person is not None:
+        name, number = latex_plain(version.person.name), latex_plain(version.person.number)
+    who = rf"{told.name}: {name}\hfill {told.number}: {number}"
+    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    place = " · ".join(filter(None, (head.course, head.date, code)))
+    lines = [f"{{\\Large\\bfseries {latex_plain(head.title)}\\par}}", latex_plain(place), who]
+    lines += [latex_plain(f"{told.rule} {time}"), latex_plain(head.instructions)]
+    front = "\n\n".join(line for line in lines if line)
+    with_solutions = exam.layout.solutions != "none"
+    problems = "\n".join(_problem(exercise, with_solutions=with_solutions) for exercise in version.exercises)
+    return (
+        f"{preamble}{front}\n\n\\begin{{center}}\\fitted{{\\gradetable[h][questions]}}\\end{{center}}\n\n"
+        f"\\begin{{questions}}\n{problems}\\end{{questions}}\n\\end{{document}}\n"
+    )
+
+
+def _problem(exercise: Exercise, *, with_solutions: bool) -> str:
+    title = latex_text(exercise.problem.family.title)
+    parts = "\n".join(_part(exercise, part, with_solutions=with_solutions) for part in exercise.parts)
+    question = latex_document(exercise.question())
+    return f"\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
+
+
+def _part(exercise: Exercise, part: Part, *, with_solutions: bool) -> str:
+    options = ""
+    if isinstance(part.kind, Choice):
+        choices = "\n".join(rf"\choice {latex_text(text)}" for text in part.kind.options.values())
+        options = f"\\begin{{checkboxes}}\n{choices}\n\\end{{checkboxes}}\n"
+    elif isinstance(part.kind, YesNo):
+        options = "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n"
+    asked = f"\\part[{part.points}] {latex_text(part.ask)}\n{options}"
+    space = "" if options else f"{max(2, whole(minutes_of(exercise.solution, part.label)))}cm"
+    if not with_solutions:
+        return f"{asked}\\vspace{{{space}}}\n" if space else asked
+    body = latex_document((exercise.answer(part), *exercise.working(part.label)))
+    return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}\\end{{solution}}\n"

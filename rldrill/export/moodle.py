@@ -1,0 +1,152 @@
+"""An exam as Moodle XML: a cloze question for every problem, with our tolerance and the mistakes as feedback."""
+
+import re
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from decimal import Decimal
+from html import escape
+from math import gcd, lcm
+from xml.etree import ElementTree
+
+from rldrill.exam.exam import Exam, points_of
+from rldrill.exercise import Exercise
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, quantity_of, wrong_answers
+from rldrill.problems.parts import Choice, Matrix, Part
+from rldrill.problems.pictures import Picture
+from rldrill.render.html import LatexHtml
+from rldrill.render.mathematics.unicode import inline
+from rldrill.render.pictures.described import described
+from rldrill.render.pictures.svg import svg
+
+#: So many wrong answers are told in one box.
+_TOLD = 6
+_SPECIAL = re.compile(r'([\\}#~/"{])')
+_NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
+_BY_HAND = "Answer in words and formulas; it is marked by hand."
+
+
+class _Writer(LatexHtml):
+    """HTML whose pictures are files beside it."""
+
+    def __init__(self) -> None:
+        self.files: dict[str, str] = {}
+
+    def picture(self, picture: Picture) -> str:
+        """A picture as a file that the text refers to."""
+        if not (drawing := svg(picture)):
+            return ""
+        name = f"picture-{len(self.files) + 1}.svg"
+        self.files[name] = drawing
+        return f'<p><img src="@@PLUGINFILE@@/{name}" alt="{escape(described(picture))}"></p>'
+
+
+def moodle_exam(exam: Exam, *, practice: bool) -> bytes:
+    """All versions in one file, each in a category of its own.
+
+    Args:
+        exam: the exam.
+        practice: whether the working is told after an attempt.
+    """
+    quiz = ElementTree.Element("quiz")
+    for version in exam.versions:
+        category = ElementTree.SubElement(quiz, "question", type="category")
+        name = exam.head.title.replace("/", "//") + (f"/{version.code}" if len(exam.versions) > 1 else "")
+        _text(ElementTree.SubElement(category, "category"), f"$course$/top/{name}")
+        for number, exercise in enumerate(version.exercises, 1):
+            quiz.append(_question(number, exercise, practice=practice))
+    ElementTree.indent(quiz)
+    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(quiz, encoding="utf-8") + b"\n"
+
+
+def _text(parent: ElementTree.Element, text: str) -> ElementTree.Element:
+    ElementTree.SubElement(parent, "text").text = text
+    return parent
+
+
+def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | None = None) -> None:
+    element = _text(ElementTree.SubElement(question, tag, format="html"), text)
+    for name, drawing in writer.files.items() if writer else ():
+        file = ElementTree.SubElement(element, "file", name=name, path="/", encoding="base64")
+        file.text = b64encode(drawing.encode()).decode()
+
+
+def _question(number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
+    by_hand = any(is_open(cell) for part in exercise.parts for cell in cells(exercise, part))
+    question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
+    _text(ElementTree.SubElement(question, "name"), f"{number:02} {exercise.problem.family.title}")
+    writer = _Writer()
+    body = writer.blocks(exercise.question()) + f"<p><em>{_BY_HAND if by_hand else _NOTE}</em></p>"
+    _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
+    solved = _Writer()
+    working = "".join(
+        solved.block(exercise.answer(part)) + solved.blocks(exercise.working(part.label)) for part in exercise.parts
+    )
+    _html(question, "generalfeedback", working if practice else "", solved if practice else None)
+    if by_hand:
+        ElementTree.SubElement(question, "defaultgrade").text = str(max(1, points_of(exercise)))
+        ElementTree.SubElement(question, "responseformat").text = "editor"
+        _html(question, "graderinfo", working, solved)
+    if exercise.id:
+        ElementTree.SubElement(question, "idnumber").text = exercise.id
+    return question
+
+
+def _parts(writer: _Writer, exercise: Exercise, *, by_hand: bool) -> Iterator[str]:
+    asked = {part.label: cells(exercise, part) for part in exercise.parts}
+    common = lcm(*map(len, asked.values()))
+    weights = {part.label: max(1, part.points) * (common // len(asked[part.label])) for part in exercise.parts}
+    shared = gcd(*weights.values())
+    for part in exercise.parts:
+        label = f"({part.label}) " if len(exercise.parts) > 1 else ""
+        yield f"<p>{label}{writer.text(part.ask)}</p>"
+        if by_hand:
+            continue
+        weight = weights[part.label] // shared
+        wrong = tuple(wrong_answers(exercise, part))
+        boxes = [_box(cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
+        yield _laid_out(writer, part, asked[part.label], boxes)
+
+
+def _laid_out(writer: _Writer, part: Part, asked: Sequence[Cell], boxes: Sequence[str]) -> str:
+    if isinstance(part.kind, Matrix):
+        lines = (boxes[start : start + part.kind.columns] for start in range(0, len(boxes), part.kind.columns))
+        rows = "".join(f"<tr>{''.join(f'<td>{box}</td>' for box in line)}</tr>" for line in lines)
+        return f"<table>{rows}</table>"
+    lefts = ("" if cell.left is None else f"{writer.math(cell.left)} = " for cell in asked)
+    options = ""
+    if isinstance(part.kind, Choice):
+        options = "".join(f"<p>({letter}) {writer.text(text)}</p>" for letter, text in part.kind.options.items())
+    return options + "".join(f"<p>{left}{box}</p>" for left, box in zip(lefts, boxes, strict=True))
+
+
+def _box(cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
+    if isinstance(cell, Word):
+        return _options(cell, index, weight, wrong)
+    answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped('Right.')}"]
+    told = [cell]
+    for each in wrong:
+        other = quantity_of(each.cells[index])
+        if other is None or len(told) > _TOLD or any(_overlap(other, known) for known in told):
+            continue
+        told.append(other)
+        answers.append(f"%0%{other.decimal}:{other.tolerance}#{_escaped(each.says)}")
+    return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
+
+
+def _overlap(one: Quantity, other: Quantity) -> bool:
+    apart = abs(Decimal(one.decimal or 0) - Decimal(other.decimal or 0))
+    return apart <= Decimal(one.tolerance or 0) + Decimal(other.tolerance or 0)
+
+
+def _options(cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
+    says = {each.cells[index]: each.says for each in reversed(wrong)}
+    answers = [
+        f"={_escaped(option)}" if option in cell.right else f"{_escaped(option)}#{_escaped(says.get(option, ''))}"
+        for option in cell.options
+    ]
+    return f"{{{weight}:MULTICHOICE:{'~'.join(answers)}}}"
+
+
+def _escaped(text: str) -> str:
+    """A text inside a cloze box: its own signs carry a backslash, and it is HTML."""
+    return _SPECIAL.sub(r"\\\1", escape(inline(text), quote=False))

@@ -1,0 +1,37 @@
+"use strict";
+// What the page does: each part is a form, judged where it stands; nothing leaves the page.
+(() => {
+  const data = JSON.parse(document.getElementById("tasks").textContent);
+  const done = new Set();
+  const marks = { right: "✓", close: "≈", unreadable: "?", misconception: "✗", wrong: "✗" };
+  const typed = (form, task) => task.cells.map((_, index) => {
+    const fields = form.elements[`cell-${index}`];
+    return fields instanceof RadioNodeList ? fields.value : fields.type === "radio" ? (fields.checked ? fields.value : "") : fields.value;
+  });
+  for (const form of document.querySelectorAll("form.part")) {
+    const task = data.tasks[form.id];
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      const verdict = Judge.part(task, typed(form, task));
+      const said = form.querySelector("output");
+      said.textContent = `${marks[verdict.outcome]} ${verdict.says}`;
+      said.className = verdict.outcome;
+      if (verdict.outcome === "unreadable") form.elements[`cell-${verdict.cell}`]?.focus?.();
+      form.querySelectorAll("[data-cell]").forEach((field) => {
+        const wrong = (verdict.wrong ?? []).includes(Number(field.dataset.cell));
+        field.setAttribute("aria-invalid", wrong ? "true" : "false");
+      });
+      if (verdict.outcome === "right") done.add(form.id);
+      document.getElementById("score").textContent = data.score.replace("{}", done.size).replace("{}", Object.keys(data.tasks).length);
+    });
+    // A whole row pasted into one box fills the boxes from there on.
+    form.addEventListener("paste", (event) => {
+      const boxes = [...form.querySelectorAll("input[data-cell]")];
+      const at = boxes.indexOf(event.target);
+      const pieces = (event.clipboardData?.getData("text") ?? "").replace(/[[\]]/g, "").split(/[,;\n\t]+/).map((piece) => piece.trim()).filter(Boolean);
+      if (at < 0 || pieces.length < 2 || pieces.length > boxes.length - at) return;
+      event.preventDefault();
+      pieces.forEach((piece, index) => { boxes[at + index].value = piece.replace(/^[^:=]*[:=]\s*/, ""); });
+    });
+  }
+})();

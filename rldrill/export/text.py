@@ -1,0 +1,67 @@
+"""An exam as Markdown, with GitHub's mathematics, and as JSON."""
+
+import json
+from collections.abc import Iterator
+
+from rldrill.exam.exam import Exam, Version, points_of
+from rldrill.exercise import Exercise
+from rldrill.print.words import words, written_points
+from rldrill.problems.parts import Choice, Part
+from rldrill.render.markdown import markdown, markdown_text
+
+_MISTAKES = 8
+
+
+def markdown_exam(exam: Exam, version: Version, *, practice: bool) -> str:
+    """A version as Markdown; for practice with answer and working folded away behind each part."""
+    return "\n\n".join(_lines(exam, version, practice=practice)) + "\n"
+
+
+def _lines(exam: Exam, version: Version, *, practice: bool) -> Iterator[str]:
+    told, head = words(exam.head.language), exam.head
+    code = f" ({told.version} {version.code})" if len(exam.versions) > 1 else ""
+    yield f"# {_plain(head.title)}{code}"
+    for line in (head.course, head.date, head.instructions):
+        if line:
+            yield _plain(line)
+    time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
+    yield f"{told.rule} {time}"
+    for number, exercise in enumerate(version.exercises, 1):
+        worth = written_points(told, points_of(exercise))
+        yield f"## {told.problem} {number}: {markdown_text(exercise.problem.family.title)} ({worth})"
+        yield markdown(exercise.question())
+        for part in exercise.parts:
+            yield from _part(exercise, part, practice=practice)
+
+
+def _plain(text: str) -> str:
+    """Text that holds no mathematics, whatever signs are in it."""
+    return r"\$".join(map(markdown_text, text.split("$")))
+
+
+def _part(exercise: Exercise, part: Part, *, practice: bool) -> Iterator[str]:
+    yield f"**({part.label})** {markdown_text(part.ask)}"
+    if isinstance(part.kind, Choice):
+        yield "\n".join(f"- ({letter}) {markdown_text(text)}" for letter, text in part.kind.options.items())
+    if practice:
+        yield "<details><summary>Answer and working</summary>"
+        yield markdown((exercise.answer(part), *exercise.working(part.label)))
+        yield "</details>"
+
+
+def json_exam(exam: Exam, *, practice: bool) -> str:
+    """All versions as JSON; for practice with answers, steps and wrong answers."""
+    data = {
+        "title": exam.head.title,
+        "versions": [
+            {
+                "code": version.code,
+                "problems": [
+                    exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0)
+                    for exercise in version.exercises
+                ],
+            }
+            for version in exam.versions
+        ],
+    }
+    return json.dumps(data, ensure_ascii=False, indent=2) + "\n"

@@ -1,0 +1,134 @@
+"""Blocks as HTML, every text escaped: mathematics as MathML, or as LaTeX for programs that typeset it themselves."""
+
+from collections.abc import Iterable
+from html import escape
+
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.mathematics import EMPTY, Math
+from rldrill.problems.pictures import Picture, Timeline
+from rldrill.render.markdown import latex_block_equation
+from rldrill.render.mathematics.latex import latex
+from rldrill.render.mathematics.mathml import element, mathml, relation
+from rldrill.render.mathematics.unicode import inline
+from rldrill.render.pictures.described import described
+from rldrill.render.pictures.svg import svg
+
+
+class Html:
+    """Writes blocks as HTML with MathML, which needs nothing else."""
+
+    def blocks(self, blocks: Iterable[Block]) -> str:
+        """Blocks one under the other."""
+        return "".join(map(self.block, blocks))
+
+    def text(self, text: str) -> str:
+        """Running text with its mathematics."""
+        return "".join(escape(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
+
+    def math(self, math: Math) -> str:
+        """Mathematics within a line."""
+        return mathml(math)
+
+    def block(self, block: Block) -> str:
+        """One block."""
+        match block:
+            case Paragraph(text):
+                return f"<p>{self.text(text)}</p>"
+            case Heading(text):
+                return f'<p class="heading"><strong>{self.text(text)}</strong></p>'
+            case Table():
+                return self.table(block)
+            case Equation():
+                return self.equation(block)
+            case Beside(blocks):
+                return f'<div class="beside">{"".join(f"<div>{self.block(each)}</div>" for each in blocks)}</div>'
+            case Timeline():
+                return self.timeline(block)
+            case Picture():
+                return self.picture(block)
+            case _:
+                raise TypeError(f"{type(block).__name__} has no HTML")
+
+    def table(self, table: Table) -> str:
+        """A table, moved sideways where the screen is narrower."""
+        head = "".join(
+            f'<th scope="col" aria-label="{escape(inline(cell))}">{self.text(cell)}</th>' for cell in table.header
+        )
+        lines = ("".join(f"<td>{self.text(cell)}</td>" for cell in line) for line in table.rows)
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        return _wide(f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>", "Table")
+
+    def equation(self, equation: Equation) -> str:
+        """An equation, its right sides one under the other."""
+        links = list(zip(equation.signs, equation.rights, strict=True))
+        if not any(equation.signs):  # mathematics that stands side by side where there is room
+            sides = "".join(f'<span class="wide">{self.math(right)}</span>' for right in equation.rights)
+            return f'<div class="flow">{sides}</div>'
+        left = "" if equation.left == EMPTY else element(equation.left)
+        if len(links) == 1:
+            ((sign, right),) = links
+            line = f"<mrow>{left}{relation(sign)}{element(right)}</mrow>"
+            return _wide(f'<math display="block">{line}</math>', "Formula")
+        lefts = (left, *[""] * (len(links) - 1))
+        lines = "".join(
+            f"<mtr><mtd>{before}</mtd><mtd><mrow>{relation(sign)}{element(right)}</mrow></mtd></mtr>"
+            for before, (sign, right) in zip(lefts, links, strict=True)
+        )
+        table = f'<mtable class="chain" displaystyle="true">{lines}</mtable>'
+        return _wide(f'<math display="block">{table}</math>', "Formula")
+
+    def picture(self, picture: Picture) -> str:
+        """A picture; nothing where it cannot be drawn readably."""
+        drawing = svg(picture)
+        return f'<figure class="wide" tabindex="0">{drawing}</figure>' if drawing else ""
+
+    def timeline(self, line: Timeline) -> str:
+        """A run as a row of texts, broken where the screen ends."""
+        last = len(line.states) - 1
+        steps = []
+        for time, state in enumerate(line.states):
+            ends = ' class="end"' if line.ended and time == last else ""
+            steps.append(f"<li><small>{self.text(line.times[time])}</small><b{ends}>{self.text(state)}</b></li>")
+            if time < last or time < len(line.actions):
+                action = self.text(line.actions[time]) if time < len(line.actions) else ""
+                reward = self.text(line.rewards[time]) if time < last else ""
+                steps.append(f'<li class="arrow"><small>{action}</small><i>⟶</i><small>{reward}</small></li>')
+        return f'<ol class="timeline" aria-label="{escape(described(line))}">{"".join(steps)}</ol>'
+
+
+class LatexHtml(Html):
+    """Writes blocks as HTML with LaTeX between ``\\(`` and ``\\)``, as MathJax reads it; tables go without styles."""
+
+    def math(self, math: Math) -> str:
+        """Mathematics within a line."""
+        return escape(rf"\({latex(math)}\)")
+
+    def table(self, table: Table) -> str:
+        """A table, and nothing around it."""
+        lines = [f"<tr>{''.join(f'<th>{self.text(cell)}</th>' for cell in table.header)}</tr>"]
+        lines += [f"<tr>{''.join(f'<td>{self.text(cell)}</td>' for cell in line)}</tr>" for line in table.rows]
+        return f"<table>{''.join(lines)}</table>"
+
+    def equation(self, equation: Equation) -> str:
+        """An equation on lines of its own."""
+        if not any(equation.signs):
+            return f"<p>{' &emsp; '.join(map(self.math, equation.rights))}</p>"
+        written = rf"\[{latex_block_equation(equation)}\]"
+        return f"<p>{escape(written)}</p>"
+
+    def timeline(self, line: Timeline) -> str:
+        """A run on one line."""
+        last = len(line.states) - 1
+        steps = []
+        for time, state in enumerate(line.states):
+            steps.append(" ".join(filter(None, (self.text(line.times[time]), f"<b>{self.text(state)}</b>"))))
+            if time < last or time < len(line.actions):
+                action = self.text(line.actions[time]) if time < len(line.actions) else ""
+                reward = self.text(line.rewards[time]) if time < last else ""
+                steps.append(f"—{', '.join(filter(None, (action, reward)))}→")
+        return f"<p>{' '.join(steps)}</p>"
+
+
+def _wide(body: str, what: str) -> str:
+    """Something that is moved sideways where the screen is narrower; with the keyboard, too."""
+    return f'<div class="wide" role="group" aria-label="{what}" tabindex="0">{body}</div>'

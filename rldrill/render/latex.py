@@ -1,0 +1,63 @@
+"""Blocks as LaTeX, for any engine: amsmath, amssymb and TikZ must be loaded."""
+
+from collections.abc import Iterable
+
+from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table, pieces
+from rldrill.problems.pictures import Picture, Timeline
+from rldrill.render.markdown import latex_block_equation
+from rldrill.render.mathematics.latex import latex_plain, latex_typed, typed
+from rldrill.render.pictures.tikz import tikz
+
+
+def latex_document(blocks: Iterable[Block]) -> str:
+    """Blocks one under the other."""
+    return "\n".join(map(latex_block, blocks)) + "\n"
+
+
+def latex_text(text: str) -> str:
+    """Running text with its mathematics; every sign of it stands for itself."""
+    return "".join(
+        latex_plain(piece) if isinstance(piece, str) else f"${latex_typed(piece)}$" for piece in pieces(text)
+    )
+
+
+def latex_block(block: Block) -> str:
+    """One block."""
+    match block:
+        case Paragraph(text):
+            return f"\n{latex_text(text)}\n"
+        case Heading(text):
+            return f"\n\\textbf{{{latex_text(text)}}}\\nopagebreak\n"
+        case Table(header, rows):
+            lines = [" & ".join(map(latex_text, line)) + r" \\ \hline" for line in (header, *rows)]
+            body = "\n".join(lines)
+            table = f"\\begin{{tabular}}{{|{'c|' * len(header)}}}\\hline\n{body}\n\\end{{tabular}}"
+            return f"\n\\fitted{{{table}}}\n"
+        case Equation(_, rights, signs):
+            if not any(signs):
+                sides = " \\quad ".join(f"$\\displaystyle {latex_typed(right)}$" for right in rights)
+                return f"\n{{\\raggedright {sides}\\par}}\n"
+            return f"\n\\fitted{{$\\displaystyle {typed(latex_block_equation(block))}$}}\n"
+        case Beside(blocks):
+            return "\n".join(map(latex_block, blocks))
+        case Timeline():
+            return _timeline(block)
+        case Picture():
+            drawing = tikz(block)
+            return f"\n\\fitted{{{drawing}}}\n" if drawing else ""
+        case _:
+            raise TypeError(f"{type(block).__name__} has no LaTeX")
+
+
+def _timeline(line: Timeline) -> str:
+    last = len(line.states) - 1
+    steps: list[str] = []
+    for time, state in enumerate(line.states):
+        frame = rf"\fbox{{{latex_text(state)}}}"
+        when = latex_text(line.times[time])
+        steps.append(rf"$\overset{{\text{{{when}}}}}{{\text{{{frame}}}}}$" if when else frame)
+        if time < last or time < len(line.actions):
+            action = latex_text(line.actions[time]) if time < len(line.actions) else ""
+            reward = latex_text(line.rewards[time]) if time < last else ""
+            steps.append(rf"$\xrightarrow[\text{{{reward}}}]{{\text{{{action}}}}}$")
+    return "\n{\\raggedright " + " ".join(steps) + "\\par}\n"

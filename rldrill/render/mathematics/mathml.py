@@ -1,0 +1,172 @@
+"""Mathematics as MathML, which every browser sets and every screen reader reads."""
+
+import re
+from collections.abc import Sequence
+from html import escape
+
+from rldrill.problems.mathematics import (
+    Accent,
+    Big,
+    Fence,
+    Fraction,
+    Glyph,
+    Math,
+    Root,
+    Row,
+    Script,
+    Tabular,
+)
+
+_NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
+_DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+_BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
+_MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
+_FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tan", "tr", "det"}
+_BLOCK = ' display="block"'
+#: A sign that belongs to what follows, as in −5.
+_SIGNED: dict[Math, str] = {
+    Glyph(sign, "operator"): f'<mo form="prefix" lspace="0" rspace="0">{sign}</mo>' for sign in "+−±"
+}
+_BEFORE_A_SIGN = ("relation", "operator", "punctuation")
+_THIN = '<mspace width="0.17em"></mspace>'
+
+
+def mathml(math: Math, *, display: bool = False) -> str:
+    """Mathematics as a ``math`` element, within a line or on one of its own."""
+    return f"<math{_BLOCK if display else ''}>{element(math)}</math>"
+
+
+def element(math: Math) -> str:
+    """Mathematics as what stands inside of a ``math`` element: one element, always."""
+    match math:
+        case Glyph():
+            base, below, above = _taken_apart(math)
+            return _scripts(base, below, above)
+        case Row(items):
+            return f"<mrow>{_row(items)}</mrow>"
+        case Fraction(numerator, denominator):
+            return f"<mfrac>{element(numerator)}{element(denominator)}</mfrac>"
+        case Script(body, below, above):
+            return _script(body, below, above)
+        case Fence(body, left, right):
+            return f"<mrow>{_fence(left, 'prefix')}{element(body)}{_fence(right, 'postfix')}</mrow>"
+        case Big(sign, below, above):
+            return _limits(_big(sign), below, above)
+        case Root(body):
+            return f"<msqrt>{element(body)}</msqrt>"
+        case Accent(body, mark):
+            return f'<mover accent="true">{element(body)}<mo stretchy="false">{_MARKS[mark]}</mo></mover>'
+        case Tabular(rows, left, right):
+            lines = "".join(f"<mtr>{''.join(f'<mtd>{element(cell)}</mtd>' for cell in line)}</mtr>" for line in rows)
+            return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"
+
+
+def relation(sign: str) -> str:
+    """The sign between two sides; nothing where there is none."""
+    return f"<mo>{escape(sign)}</mo>" if sign else ""
+
+
+def _fence(sign: str, form: str) -> str:
+    return f'<mo fence="true" stretchy="true" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>' if sign else ""
+
+
+def _big(sign: str) -> str:
+    if sign in _BIGS:
+        return f'<mo movablelimits="false">{_BIGS[sign]}</mo>'
+    return f'<mo movablelimits="false" lspace="0.1em" rspace="0.17em">{escape(sign)}</mo>'
+
+
+def _limits(base: str, below: Math | None, above: Math | None) -> str:
+    if below is not None and above is not None:
+        return f"<munderover>{base}{element(below)}{element(above)}</munderover>"
+    if below is not None:
+        return f"<munder>{base}{element(below)}</munder>"
+    return base if above is None else f"<mover>{base}{element(above)}</mover>"
+
+
+def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
+    """A glyph as base, subscript and superscript: ``s₁′`` has all three."""
+    match = _NAME.fullmatch(glyph.text)
+    if match is None or glyph.style not in ("variable", "word") or not match["stem"]:
+        return _sign(glyph.text, glyph.style), "", ""
+    digits = match["digits"].translate(_DIGITS)
+    below = f"<mn>{digits}</mn>" if digits else ""
+    above = f"<mo>{'′' * len(match['primes'])}</mo>" if match["primes"] else ""
+    return _sign(match["stem"], glyph.style), below, above
+
+
+def _sign(text: str, style: str) -> str:
+    shown = escape(text)
+    match style:
+        case "number":
+            return f"<mn>{shown}</mn>"
+        case "variable":
+            return f"<mi>{shown}</mi>"
+        case "word":
+            return f"<mi>{shown}</mi>" if text in _FUNCTIONS else f"<mtext>{shown}</mtext>"
+        case "punctuation" if text == "|":
+            return '<mo stretchy="false" lspace="0.2em" rspace="0.2em" form="infix">|</mo>'
+        case "punctuation" if text == "/":
+            return '<mo lspace="0" rspace="0">/</mo>'
+        case "punctuation":
+            return f'<mo separator="true" stretchy="false" lspace="0" rspace="0.25em">{shown}</mo>'
+        case _:
+            return f"<mo>{shown}</mo>"
+
+
+def _script(body: Math, below: Math | None, above: Math | None) -> str:
+    base, digits, primes = _taken_apart(body) if isinstance(body, Glyph) else (element(body), "", "")
+    lower = [part for part in (digits, "" if below is None else element(_on_one_line(below))) if part]
+    upper = [part for part in (primes, "" if above is None else element(_on_one_line(above))) if part]
+    return _scripts(base, _joined(lower), _joined(upper))
+
+
+def _joined(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"<mrow>{''.join(parts)}</mrow>" if parts else ""
+
+
+def _scripts(base: str, below: str, above: str) -> str:
+    if below and above:
+        return f"<msubsup>{base}{below}{above}</msubsup>"
+    if below:
+        return f"<msub>{base}{below}</msub>"
+    return f"<msup>{base}{above}</msup>" if above else base
+
+
+def _on_one_line(math: Math) -> Math:
+    """Small print has no room for one number above another: ``3/2``."""
+    if isinstance(math, Row):
+        return Row(tuple(map(_on_one_line, math.items)))
+    if isinstance(math, Fraction) and isinstance(math.numerator, Glyph) and isinstance(math.denominator, Glyph):
+        return Row((math.numerator, Glyph("/", "punctuation"), math.denominator))
+    return math
+
+
+def _row(items: tuple[Math, ...]) -> str:
+    written: list[str] = []
+    for before, item in zip((None, *items), items, strict=False):
+        if before is not None and _needs_space(before, item):
+            written.append(_THIN)
+        written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
+    return "".join(written)
+
+
+def _opens(before: Math) -> bool:
+    """Whether a sign behind this belongs to what follows."""
+    return isinstance(before, Big) or (isinstance(before, Glyph) and before.style in _BEFORE_A_SIGN)
+
+
+def _needs_space(before: Math, item: Math) -> bool:
+    """Whether a word stands beside a letter, a number or another word."""
+    return (_is_word(before) and (_is_name(item) or isinstance(item, Fraction | Accent))) or (
+        _is_word(item) and (_is_name(before) or isinstance(before, Fence))
+    )
+
+
+def _is_word(math: Math) -> bool:
+    return isinstance(math, Glyph) and math.style == "word"
+
+
+def _is_name(math: Math) -> bool:
+    head = math.body if isinstance(math, Script) else math
+    return isinstance(head, Glyph) and head.style in ("variable", "word", "number")

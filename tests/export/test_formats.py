@@ -1,0 +1,167 @@
+"""What is written for other programs: read back as those programs read it."""
+
+import io
+import json
+import re
+import shutil
+import sqlite3
+import subprocess
+import zipfile
+from decimal import Decimal
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+import rldrill
+from rldrill.exam.exam import Exam, Head, Version
+from rldrill.export.formats import FORMATS, export, format_of
+from rldrill.problems.errors import UsageError
+
+PROBLEMS = [
+    "td-zero/2/7",
+    "value-iteration/2/1",
+    "policy-value/3/1",
+    "principle-of-optimality/1/2",
+    "kalman-filter/2/1",
+]
+_VOID = {"meta", "input", "img", "br", "hr", "rect", "line", "path", "ellipse", "polygon", "polyline"}
+
+
+@cache
+def exam(title: str = "Costs $5 & <b>6</b>") -> Exam:
+    exercises = tuple(map(rldrill.load, PROBLEMS))
+    return Exam(Head(title=title), 1, (Version("A", exercises, tuple(range(len(exercises)))),))
+
+
+def written(name: str, folder: Path, *, practice: bool = True) -> bytes:
+    format_ = FORMATS[name]
+    (path,) = export(exam(), folder / f"exam{format_.ending}", format_, practice=practice)
+    return path.read_bytes()
+
+
+class Nesting(HTMLParser):
+    """Complains about elements that are closed in another order than they are opened, and about names given twice."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.names: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.names += [value for name, value in attrs if name == "id" and value]
+        if tag not in _VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        pass
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_the_page_is_well_formed_and_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
+    text = written("html", tmp_path).decode()
+    reader = Nesting()
+    reader.feed(text)
+    reader.close()
+    assert reader.open == []
+    assert len(reader.names) == len(set(reader.names))
+    assert not re.search(r'(?:src|href)="', text)
+    assert "Costs $5 &amp; &lt;b&gt;6&lt;/b&gt;" in text
+
+
+def test_an_exam_as_a_page_holds_nothing_of_its_answers(tmp_path: Path) -> None:
+    text = written("html", tmp_path, practice=False).decode()
+    assert "<script" not in text
+    assert "<details" not in text
+    for part in rldrill.load("kalman-filter/2/1").parts:
+        assert part.ask.split("$")[0].strip() in text  # the questions are there, though
+
+
+def test_every_box_of_moodle_has_the_key_the_tolerance_and_the_mistakes(tmp_path: Path) -> None:
+    quiz = ElementTree.fromstring(written("moodle", tmp_path))
+    kinds = [question.get("type") for question in quiz]
+    assert kinds == ["category", "cloze", "cloze", "essay", "cloze", "cloze"]  # an open parameter is marked by hand
+    text = quiz[1].findtext("questiontext/text") or ""
+    boxes = re.findall(r"\{(\d+):NUMERICAL:(.*?)(?<!\\)\}", text)
+    # δ₀ = 1 + 1/2·10 − (−2) = 8, and 8.00 allows 0.005
+    assert boxes[0][1].startswith("=8:0.005#Right.~%0%")
+    assert len(boxes) == 5
+    for _, answers in boxes:
+        known: list[tuple[Decimal, Decimal]] = []
+        for answer in re.split(r"(?<!\\)~", answers):
+            found = re.fullmatch(r"(?:=|%0%)(-?[0-9.]+(?:e[+-]?\d+)?):([0-9.]+)#.+", answer, re.DOTALL)
+            assert found, answer
+            value, bound = Decimal(found[1]), Decimal(found[2])
+            assert all(abs(value - other) > bound + room for other, room in known), "two answers in one range"
+            known.append((value, bound))
+
+
+def test_points_of_moodle_are_shared_as_those_of_the_parts(tmp_path: Path) -> None:
+    text = ElementTree.fromstring(written("moodle", tmp_path))[1].findtext("questiontext/text") or ""
+    weights = [int(weight) for weight in re.findall(r"\{(\d+):NUMERICAL", text)]
+    first, second = rldrill.load("td-zero/2/7").parts
+    assert sum(weights[:3]) * second.points == sum(weights[3:]) * first.points
+
+
+def test_a_picture_of_moodle_is_a_file_with_its_words(tmp_path: Path) -> None:
+    question = ElementTree.fromstring(written("moodle", tmp_path))[2]
+    assert 'src="@@PLUGINFILE@@/picture-1.svg" alt="State diagram' in (question.findtext("questiontext/text") or "")
+    assert [file.get("name") for file in question.findall("questiontext/file")] == ["picture-1.svg"]
+
+
+def test_anki_reads_the_deck_and_knows_each_problem_by_its_id(tmp_path: Path) -> None:
+    pytest.importorskip("genanki")
+    package = written("anki", tmp_path)
+    with zipfile.ZipFile(io.BytesIO(package)) as files:
+        (tmp_path / "collection").write_bytes(files.read("collection.anki2"))
+    with sqlite3.connect(tmp_path / "collection") as database:
+        notes: list[Any] = database.execute("select guid, flds from notes order by id").fetchall()
+    assert [fields.split("\x1f")[0] for _, fields in notes] == [rldrill.load(name).id for name in PROBLEMS]
+    assert len({guid for guid, _ in notes}) == len(PROBLEMS)
+    assert package == written("anki", tmp_path), "the same exam is the same file"
+
+
+def test_latex_compiles(tmp_path: Path) -> None:
+    source = written("latex", tmp_path).decode()
+    assert source.count(r"\begin{solution}") == sum(len(exercise.parts) for exercise in exam().versions[0].exercises)
+    for name in re.findall(r"\\begin\{(\w+)\}", source):
+        assert source.count(f"\\begin{{{name}}}") == source.count(f"\\end{{{name}}}")
+    if (program := shutil.which("pdflatex")) is None or not _has_exam_class():
+        pytest.skip("there is no LaTeX with the exam class here")
+    run = [program, "-interaction=nonstopmode", "-halt-on-error", "exam.tex"]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stdout.decode(errors="replace")[-2000:]
+
+
+def _has_exam_class() -> bool:
+    finder = shutil.which("kpsewhich")
+    return finder is not None and subprocess.run([finder, "exam.cls"], capture_output=True, check=False).returncode == 0
+
+
+def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> None:
+    assert b"<details>" in written("markdown", tmp_path)
+    assert b"<details>" not in written("markdown", tmp_path, practice=False)
+    problems = json.loads(written("json", tmp_path, practice=False))["versions"][0]["problems"]
+    assert not any("answer" in part or "mistakes" in part for problem in problems for part in problem["parts"])
+    (first, *_) = json.loads(written("json", tmp_path))["versions"][0]["problems"]
+    assert first["parts"][0]["answer"]["exact"] == ["8", "-9", "4"]
+
+
+@pytest.mark.parametrize(
+    ("path", "name"), [("a.html", "html"), ("a.tex", "latex"), ("a.apkg", "anki"), ("a.md", "markdown")]
+)
+def test_the_ending_tells_the_format(path: str, name: str) -> None:
+    found = format_of(Path(path))
+    assert found is not None
+    assert found.name == name
+    assert format_of(Path("a.pdf")) is None
+
+
+def test_an_unknown_format_is_said() -> None:
+    with pytest.raises(UsageError, match="There is no format 'docs'"):
+        format_of(None, "docs")

@@ -1,0 +1,127 @@
+"""The page judges in the browser as rldrill does; its script is run here by the browser's own engine."""
+
+import json
+from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import pytest
+from py_mini_racer import MiniRacer
+
+import rldrill
+from number_spellings import spellings
+from rldrill.export.html import task
+from rldrill.export.page import beside
+from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.text import Unreadable, read_number
+
+READ = """
+var said = (text) => {
+  try { const value = Judge.read(text).value(0.5); return Array.isArray(value) ? value.join("/") : String(value); }
+  catch (error) { if (!(error instanceof Judge.Unreadable)) throw error; return "unreadable"; }
+};
+"""
+#: One problem for every form of answer: whole numbers, e, roots, logarithms, open parameters, words.
+PROBLEMS = [
+    "td-zero/2/7", "value-iteration/2/1", "policy-value/3/1", "softmax-policy/2/1",
+    "rbf/3/1", "lqr-backward/3/1", "bandit/2/1", "lambda-return/3/1", "principle-of-optimality/1/2",
+]  # fmt: skip
+
+
+@cache
+def engine() -> Callable[[str], Any]:
+    machine = MiniRacer()
+    machine.eval(beside("judge.js").replace("const Judge", "var Judge") + READ)
+    return machine.eval
+
+
+def judged(task: dict[str, Any], typed: list[str]) -> dict[str, Any]:
+    verdict: dict[str, Any] = json.loads(
+        engine()(f"JSON.stringify(Judge.part({json.dumps(task)}, {json.dumps(typed)}))")
+    )
+    return verdict
+
+
+def typed_cells(exercise: rldrill.Exercise, label: str, text: str) -> list[str]:
+    """What is typed into each box of the page, from an answer that is typed as one text."""
+    part = next(part for part in exercise.parts if part.label == label)
+    problem = exercise.problem
+    read = answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+    return [
+        cell if isinstance(cell, str) else cell[0] if isinstance(cell, tuple) else cell.echo for cell in read.values()
+    ]
+
+
+def test_the_page_reads_no_number_as_another_one() -> None:
+    read = 0
+    for _, (text, value) in spellings(1000, seed=5):
+        said = engine()(f"said({json.dumps(text)})")
+        if said == "unreadable":
+            continue
+        try:
+            read_number(text)
+        except Unreadable:
+            continue  # the terminal asks back where the page takes the one meaning that it knows
+        assert abs(float(Fraction(said)) - float(value)) <= 1e-9 * abs(float(value)), f"{text!r} was read as {said}"
+        read += 1
+    assert read > 300
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("3/4", "3/4"), ("−0.75", "-3/4"), ("1 1/2", "3/2"), ("2½", "5/2"), ("75 %", "3/4"),
+                        ("V(s) = 1/4 = 0.25", "1/4"), ("2·3 + 1", "7"), (r"\frac{3}{4}", "3/4"), ("1e-2", "1/100"),
+                        ("2³", "8"), ("√9", "3"), ("-2^2", "-4"), ("(1+2)(3)", "9"), ("6/2*3", "9")],
+)  # fmt: skip
+def test_the_page_reads_what_people_type(text: str, value: str) -> None:
+    assert Fraction(engine()(f"said({json.dumps(text)})")) == Fraction(value)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "1,5", "1,234", "1/2/3", "2^3^2", "3/2%", "0.(3)", "1/2γ", "x", "1/0", "3 e -2", "alert(1)"]
+)
+def test_the_page_asks_back_where_it_is_not_sure(text: str) -> None:
+    assert engine()(f"said({json.dumps(text)})") == "unreadable"
+
+
+@pytest.mark.parametrize("identity", PROBLEMS)
+def test_the_page_judges_as_the_library_does(identity: str) -> None:
+    exercise = rldrill.load(identity)
+    for part in exercise.parts:
+        asked = task(exercise, part)
+        samples = answer_kind(part.kind).samples(exercise.solution.answers[part.label])
+        for text in (*samples.right[:1], *samples.wrong):
+            verdict = judged(asked, typed_cells(exercise, part.label, text))
+            assert (verdict["outcome"] == "right") == exercise.check(text, part.label).accepted, (identity, text)
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome"),
+    [("2/3", "right"), ("0.667", "right"), ("0.6662", "right"), ("0.6661", "close"), ("0.66", "close"),
+     ("0.6", "wrong"), ("-2/3", "wrong"), ("0.6671", "right"), ("0.6672", "close")],
+)  # fmt: skip
+def test_three_significant_digits_are_enough(typed: str, outcome: str) -> None:
+    """2/3 allows 0.0005 on either side: 0.66616… to 0.66716…"""
+    one = {"parameters": [], "cells": [{"name": "", "key": "2/3"}], "mistakes": []}
+    assert judged(one, [typed])["outcome"] == outcome
+
+
+def test_the_bound_itself_is_right_and_what_lies_beyond_is_not() -> None:
+    one = {"parameters": [], "cells": [{"name": "", "key": "1234"}], "mistakes": []}
+    assert [judged(one, [typed])["outcome"] for typed in ("1229", "1239", "1239.001", "1228.999")] == [
+        "right", "right", "close", "close",
+    ]  # fmt: skip
+
+
+def test_a_typical_mistake_is_told() -> None:
+    exercise = rldrill.load("td-zero/2/7")
+    wrong = exercise.diagnosing.wrong_answers("a", 1)[0]
+    verdict = judged(task(exercise, exercise.parts[0]), typed_cells(exercise, "a", wrong.answer))
+    assert (verdict["outcome"], verdict["says"]) == ("misconception", wrong.sentence)
+
+
+def test_what_is_unreadable_is_named_by_its_box() -> None:
+    exercise = rldrill.load("td-zero/2/7")
+    verdict = judged(task(exercise, exercise.parts[0]), ["1", "one", "2"])
+    assert verdict["outcome"] == "unreadable"
+    assert verdict["says"].startswith("entry 2: ")
