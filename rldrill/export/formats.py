@@ -7,8 +7,8 @@ from importlib import import_module
 from pathlib import Path
 
 from rldrill.exam.exam import Exam, Version
-from rldrill.print.files import write_bytes_atomically
 from rldrill.problems.errors import UsageError
+from rldrill.writing import write_bytes_atomically
 
 
 @dataclass(frozen=True, slots=True)

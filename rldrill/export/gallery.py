@@ -9,13 +9,13 @@ from rldrill.exercise import Exercise, draw
 from rldrill.export.html import HTML, part_form, scripts, task
 from rldrill.export.page import beside, page
 from rldrill.export.words import page_words
-from rldrill.print.files import write_bytes_atomically
 from rldrill.print.words import words
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.headers import Header
 from rldrill.render.mathematics.unicode import inline
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import solver
+from rldrill.writing import write_bytes_atomically
 
 _TITLE = "rldrill: what can be drilled"
 _SEED = 1
