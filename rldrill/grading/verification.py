@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rldrill.diagnosis import Diagnosis
+from rldrill.diagnosis import IN_A_FILE, Diagnosis
 from rldrill.exercise import Exercise, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, read_answers
@@ -254,7 +254,7 @@ class _Submission:
             verdict = given.verdict
             diagnosis = None
             if verdict is not None and not given.accepted:
-                found = self.exercise.diagnosed(part.label, texts[part.label], verdict, verdicts)
+                found = self.exercise.diagnosed(part.label, texts[part.label], verdict, verdicts, IN_A_FILE)
                 diagnosis = found if found.explains else None
             yield MarkedPart(
                 problem=self.name,

@@ -17,7 +17,7 @@ from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.vector import Vector
 
 #: A place whose quantity has more values than this elsewhere is not tried with all of them.
@@ -164,6 +164,23 @@ def plain(value: Any) -> bool:
         and not is_matrix(value)
         and hasattr(value, "__add__")
     )
+
+
+def numbers(value: Any) -> list[Any] | None:
+    """The numbers of a number, a vector or a matrix; None of anything else."""
+    if is_matrix(value):
+        return list(value.entries())
+    if isinstance(value, Vector):
+        return list(value)
+    return [value] if plain(value) else None
+
+
+def of_numbers(value: Any, others: Sequence[Any]) -> Any:
+    """A value of the form of another, of these numbers."""
+    if is_matrix(value):
+        wide = value.ncols()
+        return matrix([list(others[start : start + wide]) for start in range(0, len(others), wide)])
+    return Vector(others) if isinstance(value, Vector) else others[0]
 
 
 def _distinct(values: Iterable[Any]) -> list[Any]:
