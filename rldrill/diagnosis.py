@@ -7,6 +7,7 @@ from threading import Event, Thread
 from typing import Any
 
 from rldrill.problems.document import Equation
+from rldrill.render.differences import differences
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
 from rldrill.solutions.answers.kinds import Cell, answer_kind
@@ -22,11 +23,14 @@ from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.solution import Solution
+from rldrill.solutions.work import Step
 
 #: The time that there is for one answer, in seconds: at a prompt, and in a file of answers.
 AT_THE_PROMPT, IN_A_FILE = 0.15, 1.5
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
+#: Steps that were not taken as they are written, but left out or taken twice.
+_NOT_WRITTEN = ("kept", "repeated")
 #: A decimal of more places than this is no rounded one.
 _PLACES = 8
 
@@ -55,7 +59,8 @@ class Diagnosis:
         place: where it was done; None where it was no step.
         alternatives: what else gives the same answer, as likely.
         confidence: how sure this is, 0 to 1; what it shares with the alternatives is how sure it is one of them.
-        wrong: the formula as it was read, where one was misread, and ``right`` as it is.
+        wrong: the step as it was taken, or the formula as it was read everywhere; ``right`` as it should be. What
+            differs between the two is what ``rldrill.render.differences`` finds.
     """
 
     kind: str
@@ -86,7 +91,21 @@ class Diagnosis:
             "place": where,
             "confidence": self.confidence,
             "alternatives": [other.to_json() for other in self.alternatives],
-        }
+        } | self._lines()
+
+    def _lines(self) -> dict[str, Any]:
+        """What was written and what is right, on a line each, and what differs in them."""
+        if self.wrong is None or self.right is None:
+            return {"yours": None, "right": None}
+        found = differences(_line(self.wrong), _line(self.right))
+        yours, right = (
+            {
+                "line": "".join(piece for piece, _ in pieces),
+                "differs": [text for piece, differs in pieces if differs and (text := piece.strip())],
+            }
+            for pieces in found
+        )
+        return {"yours": yours, "right": right}
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,10 +266,34 @@ def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: fl
     if cause.mistake is not None:
         return Diagnosis("listed", cause.mistake.says, None, (), confidence)
     said = f"It looks as if {_sentence(saying(cause, applications))}."
-    wrong = right = None
-    if cause.edit is not None and cause.formula is not None and not cause.term:
-        wrong, right = cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
+    wrong, right = _compared(cause) or (None, None)
     return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)
+
+
+def _compared(cause: Cause) -> tuple[Equation, Equation] | None:
+    """What was written and what is right: the step, where it was one, else the formula."""
+    if cause.probe is not None or cause.term or cause.nth is not None:
+        return None
+    if cause.application is not None and cause.became is not None and cause.kind not in _NOT_WRITTEN:
+        step = cause.application.step
+        right = step.right if cause.edit is None else cause.edit.right
+        with suppress(*UNDONE):
+            return _short(replace(step, right=right, value=cause.became)), _short(step)
+    if cause.edit is not None and cause.formula is not None:
+        return cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
+    return None
+
+
+def _short(step: Step) -> Equation:
+    """A step with the numbers put in and its value, nothing between."""
+    whole = step.equation()
+    rights = whole.rights[:1] if len(whole.rights) == 1 else (whole.rights[0], whole.rights[-1])
+    return Equation(whole.left, rights, (whole.signs[0], "=")[: len(rights)])
+
+
+def _line(equation: Equation) -> str:
+    sides = zip(equation.signs, equation.rights, strict=True)
+    return unicode(equation.left).strip() + "".join(f" {sign} {unicode(side).strip()}" for sign, side in sides)
 
 
 def _place(cause: Cause) -> Place | None:

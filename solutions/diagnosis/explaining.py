@@ -20,9 +20,7 @@ from rldrill.solutions.exact import is_rational
 
 #: How much must speak for a cause, before it is told: the logarithm of a ratio of chances, see ``_evidence``. Chosen so
 #: that one number from nowhere in twenty is accused of something.
-ENOUGH = 0.55
-#: What is likely is found for numbers from nowhere, too: what a cause's weight counts against it, as evidence.
-EXPECTED = 0.7
+ENOUGH = 0.92
 #: What it says for a cause that it leaves right cells right, where nearly all of them are.
 RIGHT_CELLS = 2.0
 #: Of the causes whose answers are not computed so many lead to numbers of the form that was typed.
@@ -76,7 +74,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
-    evidence = _evidence(search, typed, found)
+    evidence = _evidence(search, typed, best)
     every = tuple(_distinct([each.cause for each in found]))
     if evidence < ENOUGH or (interrupted and best.cause.weight < SURE_ENOUGH):
         return Explained((), 0.0, evidence, every)
@@ -143,37 +141,34 @@ def _together(first: Cause, second: Cause) -> Cause:
     return replace(one, weight=weight, then=two)
 
 
-def _evidence(search: Search, typed: Typed, found: Sequence[Candidate]) -> float:
-    """How much speaks for a cause, and against chance, as a logarithm.
+def _evidence(search: Search, typed: Typed, best: Candidate) -> float:
+    """How much speaks for causes, and against chance, as a logarithm.
 
-    Of all answers of the typed form and size, each is as likely if it comes from nowhere. Of those that some cause
-    leads to, the typed one has the share of its own causes. A whole number among twenty that could have been typed
-    proves nothing if causes lead to most of them; one with seven digits nearly everything.
+    Of all answers of the typed form and size each is as likely, if it comes from nowhere, and some of them are those
+    that causes lead to. A whole number among twenty that could have been typed proves nothing if causes lead to ten
+    of them; one with seven digits proves nearly everything. Nobody leaves right cells right by chance.
     """
-    best = found[0].cause
-    room = _room(typed, exact=_exactly(typed, found[0]))
-    if best.then is not None:
-        return log(room / ROOM_FOR_TWO) + ENOUGH
-    mine = sum(candidate.cause.weight for candidate in found)
-    share = mine / max(mine, _of_the_form(search, typed, exact=_exactly(typed, found[0])))
+    exact = _exactly(typed, best)
+    room = _room(typed, exact=exact)
+    if best.cause.then is not None:
+        return ENOUGH + log(room / ROOM_FOR_TWO)
     right_cells = 1 - len(typed.wrong) / len(typed.key)
-    return log(room * share) - EXPECTED * log(best.weight) + RIGHT_CELLS * right_cells
+    return log(room / _of_the_form(search, typed, exact=exact)) + RIGHT_CELLS * right_cells
 
 
 def _of_the_form(search: Search, typed: Typed, *, exact: bool) -> float:
-    """How likely all causes together are that lead to answers of the form and size that was typed."""
+    """How many answers of the form and size that was typed causes lead to, if they spoil the same cells."""
     steps = [_step(typed, name, exact=exact) for name in typed.wrong]
-    found: dict[tuple[int, ...], float] = {}
-    others = 0.0
-    for weight, sizes in search.rivals(typed):
+    found: set[tuple[int | None, ...]] = set()
+    others = 0
+    for sizes in search.rivals(typed):
         if sizes is None:
-            others += weight
+            others += 1
             continue
-        point = [_on_grid(size, *step, exact=exact) for size, step in zip(sizes, steps, strict=True)]
+        point = tuple(_on_grid(size, *step, exact=exact) for size, step in zip(sizes, steps, strict=True))
         if None not in point:
-            key = tuple(place for place in point if place is not None)
-            found[key] = max(weight, found.get(key, 0.0))
-    return sum(found.values()) + _OF_THE_FORM * others
+            found.add(point)
+    return max(1, len(found)) + _OF_THE_FORM * others
 
 
 def _step(typed: Typed, name: str, *, exact: bool) -> tuple[float, float]:

@@ -128,6 +128,8 @@ def saying(cause: Cause, applications: Sequence[Application]) -> Words:
 def _what(cause: Cause) -> Words:
     if cause.edit is not None:
         template = _EDITS[cause.kind]
+        if cause.kind == "factor-left-out" and not cause.edit.part.is_Symbol:
+            template = "the factor {part} is missing"
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
         return _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
     if cause.probe is not None:

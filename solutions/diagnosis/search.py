@@ -4,7 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 from sympy import Expr
@@ -60,11 +60,8 @@ _ALIKE = 4
 Predict = Callable[[Any], dict[str, float]]
 
 
-class Rival(NamedTuple):
-    """How likely a cause is, and what it makes of the wrong cells; None where that is not known."""
-
-    weight: float
-    sizes: tuple[float, ...] | None
+#: What a cause makes of the wrong cells; None where that is not known.
+Rival = tuple[float, ...] | None
 
 
 class Search:
@@ -399,17 +396,16 @@ class Search:
         return None if wanted is None else approximate(value) + wanted
 
     def rivals(self, typed: Typed) -> list[Rival]:
-        """The causes that spoil just the cells that are wrong, and what they make of them."""
+        """What the causes make of the wrong cells, those that spoil just these."""
         spoilt = frozenset(typed.wrong)
         key = typed.part.label, spoilt
         if key not in self._rivals:
             candidates = [*self._whole, *written_down(typed, self.applications)]
-            found = []
+            found: list[Rival] = []
             for candidate in candidates:
                 cells = typed.cells_of(candidate.answers)
                 if cells is not None and typed.differing(cells) == spoilt:
-                    sizes = tuple(approximate(cells[name]) for name in typed.wrong)
-                    found.append(Rival(candidate.cause.weight, sizes))
+                    found.append(tuple(approximate(cells[name]) for name in typed.wrong))
             for application in self.applications:
                 predicted = self._predicted(application, typed)
                 if predicted is not None and predicted[0] == spoilt and application.number in self._alternatives:
@@ -419,11 +415,8 @@ class Search:
 
     def _rivals_at(self, application: Application, wrong: Sequence[str], predict: Predict | None) -> Iterator[Rival]:
         for cause in self.alternatives(application):
-            if predict is None:
-                yield Rival(cause.weight, None)
-            else:
-                sizes = predict(cause.became)
-                yield Rival(cause.weight, tuple(sizes[name] for name in wrong))
+            sizes = None if predict is None else predict(cause.became)
+            yield None if sizes is None else tuple(sizes[name] for name in wrong)
 
     def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
         """Whether these answers are what was typed."""
