@@ -22,6 +22,7 @@ from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import is_rational
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Step
 
@@ -274,11 +275,12 @@ def _compared(cause: Cause) -> tuple[Equation, Equation] | None:
     """What was written and what is right: the step, where it was one, else the formula."""
     if cause.probe is not None or cause.term or cause.nth is not None:
         return None
-    if cause.application is not None and cause.became is not None and cause.kind not in _NOT_WRITTEN:
-        step = cause.application.step
+    if cause.application is not None and cause.kind not in (*_NOT_WRITTEN, "another-quantity"):
+        step, known = cause.application.step, cause.application.known
         right = step.right if cause.edit is None else cause.edit.right
         with suppress(*UNDONE):
-            return _short(replace(step, right=right, value=cause.became)), _short(step)
+            value = value_of(right, known) if cause.became is None else cause.became
+            return _short(replace(step, right=right, value=value)), _short(step)
     if cause.edit is not None and cause.formula is not None:
         return cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
     return None

@@ -90,16 +90,17 @@ def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[st
     leaf = isinstance(part, Quantity) or part.is_Symbol
     if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
         yield "crosswise", crosswise
-    for kind, other in slips(was):
+    slipped = list(slips(was))
+    for kind, other in slipped:
         lost = kind == "sign" and leaf and is_rational(was) and was < 0
         yield "minus-lost" if lost else kind, other
+    told = {str(other) for _, other in slipped} | {str(was)}
     if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
         elsewhere = _distinct(known[part.code].values())
         if len(elsewhere) <= _ELSEWHERE:
-            yield from (("elsewhere", other) for other in elsewhere if other != was)
+            yield from (("elsewhere", other) for other in elsewhere if str(other) not in told)
     if leaf:
-        scalars = _distinct(known.values())
-        yield from (("elsewhere", other) for other in scalars if other != was)
+        yield from (("elsewhere", other) for other in _distinct(known.values()) if str(other) not in told)
 
 
 def likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:

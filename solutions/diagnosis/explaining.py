@@ -20,11 +20,15 @@ from rldrill.solutions.exact import is_rational
 
 #: How much must speak for a cause, before it is told: the logarithm of a ratio of chances, see ``_evidence``. Chosen so
 #: that one number from nowhere in twenty is accused of something.
-ENOUGH = 0.92
+ENOUGH = 1.4
+#: What is less likely than this is not spoken of at all.
+FAINT = 0.25
 #: What it says for a cause that it leaves right cells right, where nearly all of them are.
 RIGHT_CELLS = 2.0
 #: Of the causes whose answers are not computed so many lead to numbers of the form that was typed.
 _OF_THE_FORM = 0.3
+#: How much it counts how many answers any causes lead to, beside how many causes as likely lead to.
+_UNLIKELY_TOO = 0.3
 #: Where the time did not suffice, something likelier may have been missed: less than this is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
@@ -76,7 +80,7 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     best = found[0]
     evidence = _evidence(search, typed, best)
     every = tuple(_distinct([each.cause for each in found]))
-    if evidence < ENOUGH or (interrupted and best.cause.weight < SURE_ENOUGH):
+    if best.cause.weight < FAINT or evidence < ENOUGH or (interrupted and best.cause.weight < SURE_ENOUGH):
         return Explained((), 0.0, evidence, every)
     near = tuple(cause for cause in every[:MOST] if cause.weight >= NEAR * best.cause.weight)
     return Explained(near, 1 / (1 + exp(-evidence)), evidence, every)
@@ -152,23 +156,30 @@ def _evidence(search: Search, typed: Typed, best: Candidate) -> float:
     room = _room(typed, exact=exact)
     if best.cause.then is not None:
         return ENOUGH + log(room / ROOM_FOR_TWO)
+    causes = _of_the_form(search, typed, best.cause.weight, exact=exact)
     right_cells = 1 - len(typed.wrong) / len(typed.key)
-    return log(room / _of_the_form(search, typed, exact=exact)) + RIGHT_CELLS * right_cells
+    return log(room / causes) + RIGHT_CELLS * right_cells
 
 
-def _of_the_form(search: Search, typed: Typed, *, exact: bool) -> float:
-    """How many answers of the form and size that was typed causes lead to, if they spoil the same cells."""
+def _of_the_form(search: Search, typed: Typed, weight: float, *, exact: bool) -> float:
+    """How many answers of the form and size that was typed causes lead to, if they spoil the same cells.
+
+    Those that are less likely than this weight count little.
+    """
     steps = [_step(typed, name, exact=exact) for name in typed.wrong]
-    found: set[tuple[int | None, ...]] = set()
+    found: dict[tuple[int | None, ...], float] = {}
     others = 0
-    for sizes in search.rivals(typed):
+    for heaviness, sizes in search.rivals(typed):
         if sizes is None:
             others += 1
             continue
         point = tuple(_on_grid(size, *step, exact=exact) for size, step in zip(sizes, steps, strict=True))
         if None not in point:
-            found.add(point)
-    return max(1, len(found)) + _OF_THE_FORM * others
+            found[point] = max(heaviness, found.get(point, 0.0))
+    likely = sum(heaviness >= weight for heaviness in found.values())
+    more = _OF_THE_FORM * others
+    every = max(1, len(found)) + more
+    return float(every**_UNLIKELY_TOO * (max(1, likely) + more) ** (1 - _UNLIKELY_TOO))
 
 
 def _step(typed: Typed, name: str, *, exact: bool) -> tuple[float, float]:

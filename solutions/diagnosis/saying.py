@@ -23,6 +23,7 @@ Words: TypeAlias = tuple[str | Math, ...]
 _EDITS = {
     "term-left-out": "{part} is missing",
     "factor-left-out": "{part} is missing",
+    "only-factor-left-out": "the factor {part} is missing",
     "bracket-left-out": "the factor ({part}) is missing",
     "sign": "{part} has the wrong sign",
     "twice": "{part} is counted twice",
@@ -80,7 +81,7 @@ _INSIDE = {
 }
 #: What happened to the value that a step gives.
 _VALUES = {
-    "kept": "the old value {became} is kept, as if the update were left out",
+    "kept": "the old value {became} is kept",
     "repeated": "the update is made twice",
     "sign": "the result has the wrong sign: {became} for {was}",
     "tenfold": "the decimal point of the result has slipped: {became} for {was}",
@@ -102,15 +103,15 @@ _WHOLE = {
     "reversed": "the {what} are taken in the opposite order",
     "entry-left-out": "the {what} is left out",
     "entries-exchanged": "the order is wrong in {what}",
-    "another-quantity": "this is {left}, not what is asked for",
+    "another-quantity": "you gave {left}, which is not what is asked for",
     "exchanged-cells": "the answers for {what} are exchanged",
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",
     "answer-transposed": "rows and columns are exchanged",
     "answer-scaled": "all entries are wrong by the same factor, {was}",
-    "one-minus": "this is 1 minus the answer",
-    "inverse": "this is the answer upside down",
-    "percent": "this is the answer times 100",
+    "one-minus": "you gave 1 minus the answer",
+    "inverse": "the answer is upside down",
+    "percent": "the answer is given in percent",
     "tenfold": "the decimal point has slipped",
     "digits": "two digits are exchanged",
     "": "there is a slip of arithmetic in the last step",

@@ -60,8 +60,8 @@ _ALIKE = 4
 Predict = Callable[[Any], dict[str, float]]
 
 
-#: What a cause makes of the wrong cells; None where that is not known.
-Rival = tuple[float, ...] | None
+#: How likely a cause is, and what it makes of the wrong cells; None where that is not known.
+Rival = tuple[float, tuple[float, ...] | None]
 
 
 class Search:
@@ -405,7 +405,7 @@ class Search:
             for candidate in candidates:
                 cells = typed.cells_of(candidate.answers)
                 if cells is not None and typed.differing(cells) == spoilt:
-                    found.append(tuple(approximate(cells[name]) for name in typed.wrong))
+                    found.append((candidate.cause.weight, tuple(approximate(cells[name]) for name in typed.wrong)))
             for application in self.applications:
                 predicted = self._predicted(application, typed)
                 if predicted is not None and predicted[0] == spoilt and application.number in self._alternatives:
@@ -416,7 +416,7 @@ class Search:
     def _rivals_at(self, application: Application, wrong: Sequence[str], predict: Predict | None) -> Iterator[Rival]:
         for cause in self.alternatives(application):
             sizes = None if predict is None else predict(cause.became)
-            yield None if sizes is None else tuple(sizes[name] for name in wrong)
+            yield cause.weight, None if sizes is None else tuple(sizes[name] for name in wrong)
 
     def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
         """Whether these answers are what was typed."""

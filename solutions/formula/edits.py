@@ -273,6 +273,8 @@ def _of_product(part: Expr) -> Iterator[Change]:
             yield "sign", _product(_others(factors, place)), _unsigned(part), None
             continue
         kind = "bracket-left-out" if factor.is_Add or isinstance(factor, Over) else "factor-left-out"
+        if factors[0] == -1 and len(factors) == 2:
+            kind = "only-factor-left-out"  # −V read as −1
         yield kind, _product(_others(factors, place)), factor, None
         if scalar[place]:
             if not factor.is_Pow and not factor.is_Add:
