@@ -30,8 +30,8 @@ from rldrill.solutions.work import Step
 AT_THE_PROMPT, IN_A_FILE = 0.15, 1.5
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
-#: Steps that were not taken as they are written, but left out or taken twice.
-_NOT_WRITTEN = ("kept", "repeated")
+#: What is not written in a step: one that was left out or taken twice, a minimum, a quantity that was not asked for.
+_NOT_WRITTEN = ("kept", "repeated", "min-for-max", "smallest", "another-quantity")
 #: A decimal of more places than this is no rounded one.
 _PLACES = 8
 
@@ -273,9 +273,9 @@ def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: fl
 
 def _compared(cause: Cause) -> tuple[Equation, Equation] | None:
     """What was written and what is right: the step, where it was one, else the formula."""
-    if cause.probe is not None or cause.term or cause.nth is not None:
+    if cause.probe is not None or cause.term or cause.nth is not None or cause.kind in _NOT_WRITTEN:
         return None
-    if cause.application is not None and cause.kind not in (*_NOT_WRITTEN, "another-quantity"):
+    if cause.application is not None:
         step, known = cause.application.step, cause.application.known
         right = step.right if cause.edit is None else cause.edit.right
         with suppress(*UNDONE):

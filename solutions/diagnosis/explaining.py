@@ -239,6 +239,9 @@ def _distinct(causes: Sequence[Cause]) -> list[Cause]:
 def _alike(one: Cause, two: Cause) -> bool:
     if one.application is not two.application and None not in (one.application, two.application):
         return False
+    for zero, other in ((one, two), (two, one)):
+        if zero.kind == "elsewhere" and zero.other == 0 and other.kind.endswith("left-out"):
+            return True
     if one.mistake or two.mistake:
         return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)

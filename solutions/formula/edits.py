@@ -238,7 +238,7 @@ def _of_sum(part: Expr) -> Iterator[Change]:
     terms = part.args
     for place, term in enumerate(terms):
         rest = _others(terms, place)
-        yield "term-left-out", _sum(rest), term, None
+        yield "term-left-out", _sum(rest), _unsigned(term), None
         yield "sign", _sum([*terms[:place], _opposite(term), *terms[place + 1 :]]), _unsigned(term), None
         yield "twice", _sum([*terms, term]), term, None
     if len(terms) == 2:
