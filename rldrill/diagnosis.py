@@ -8,13 +8,14 @@ from typing import Any
 
 from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
+from rldrill.render.differences import differences
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
-from rldrill.solutions.diagnosis.explaining import MOST, Explained, explained
+from rldrill.solutions.diagnosis.explaining import SURE_ENOUGH, Explained, explained
 from rldrill.solutions.diagnosis.following import Line, Standing, follow
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
@@ -22,12 +23,16 @@ from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import is_rational
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import Solution
+from rldrill.solutions.work import Step
 
-#: The time that there is at a prompt, in seconds.
-AT_THE_PROMPT = 0.15
-#: What is close to the key is wrong where this much speaks for it.
+#: The time that there is for one answer, in seconds: at a prompt, and in a file of answers.
+AT_THE_PROMPT, IN_A_FILE = 0.15, 1.5
+#: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
+#: What is not written in a step: one that was left out or taken twice, a minimum, a quantity that was not asked for.
+_NOT_WRITTEN = ("kept", "repeated", "min-for-max", "smallest", "another-quantity")
 #: A decimal of more places than this is no rounded one.
 _PLACES = 8
 
@@ -51,12 +56,13 @@ class Diagnosis:
 
     Args:
         kind: ``right``, ``unreadable`` or ``unexplained``; ``listed`` for a typical mistake of the family; else the
-            name of what was done, such as ``factor-left-out``; ``located`` where only the place is known.
+            name of what was done, such as ``factor-left-out``.
         sentence: one sentence to the person.
         place: where it was done; None where it was no step.
         alternatives: what else gives the same answer, as likely.
-        confidence: how sure this is, 0 to 1.
-        wrong: the formula as it was read, where one was misread, and ``right`` as it is.
+        confidence: how sure this is, 0 to 1; what it shares with the alternatives is how sure it is one of them.
+        wrong: the step as it was taken, or the formula as it was read everywhere; ``right`` as it should be. What
+            differs between the two is what ``rldrill.render.differences`` finds.
     """
 
     kind: str
@@ -87,7 +93,21 @@ class Diagnosis:
             "place": where,
             "confidence": self.confidence,
             "alternatives": [other.to_json() for other in self.alternatives],
-        }
+        } | self._lines()
+
+    def _lines(self) -> dict[str, Any]:
+        """What was written and what is right, on a line each, and what differs in them."""
+        if self.wrong is None or self.right is None:
+            return {"yours": None, "right": None}
+        found = differences(_line(self.wrong), _line(self.right))
+        yours, right = (
+            {
+                "line": "".join(piece for piece, _ in pieces),
+                "differs": [text for piece, differs in pieces if differs and (text := piece.strip())],
+            }
+            for pieces in found
+        )
+        return {"yours": yours, "right": right}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +149,7 @@ class Diagnosing:
             if clock.over:
                 return
             search.alternatives(application)
+            search.responses(application)
 
     def _finish(self) -> None:
         """Whatever was searched ahead is enough now."""
@@ -141,10 +162,13 @@ class Diagnosing:
         """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
         if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
             return verdict
-        diagnosis = self.diagnose(label, text, verdict)
-        if diagnosis.confidence < _SURE:
+        self._finish()
+        found = explained(self.search({}), self._typed(label, text), Clock())  # a verdict depends on no clock
+        likely = sum(cause.weight for cause in found.causes if cause.weight >= SURE_ENOUGH)
+        if found.confidence * likely < _SURE * sum(cause.weight for cause in found.causes) or not likely:
             return verdict
-        return replace(verdict, outcome=Outcome.WRONG, says=diagnosis.sentence)
+        said = _told(found, self.search({}).applications).sentence
+        return replace(verdict, outcome=Outcome.WRONG, says=said)
 
     def _rounded(self, label: str, text: str) -> bool:
         """Whether the wrong numbers are right ones with fewer digits than are asked for."""
@@ -206,7 +230,7 @@ class Diagnosing:
             search = self.search(carried)
             found = explained(search, typed, clock)
             if found.causes:
-                return _told(found, search.applications, verdict)
+                return _told(found, search.applications)
         return Diagnosis("unexplained", verdict.says)
 
 
@@ -229,35 +253,50 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right)
 
 
-def _told(found: Explained, applications: Sequence[Application], verdict: Verdict) -> Diagnosis:
+def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     causes = found.causes
-    if len(causes) > MOST:
-        return _located(causes, applications) or Diagnosis("unexplained", verdict.says)
-    first, *others = (_diagnosis(cause, applications, found.confidence) for cause in causes)
+    whole = sum(cause.weight for cause in causes)
+    first, *others = (
+        _diagnosis(cause, applications, round(found.confidence * cause.weight / whole, 2)) for cause in causes
+    )
     said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
     said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says
     return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
-
-
-def _located(causes: Sequence[Cause], applications: Sequence[Application]) -> Diagnosis | None:
-    """Several causes at the same place: the place is known, at least."""
-    places = {None if cause.application is None else cause.application.number for cause in causes}
-    where = causes[0].application
-    if len(places) != 1 or where is None:
-        return None
-    return Diagnosis(
-        "located", f"Something is wrong{_sentence(place(where, applications))}.", _place(causes[0]), (), 0.5
-    )
 
 
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:
     if cause.mistake is not None:
         return Diagnosis("listed", cause.mistake.says, None, (), confidence)
     said = f"It looks as if {_sentence(saying(cause, applications))}."
-    wrong = right = None
-    if cause.edit is not None and cause.formula is not None and not cause.term:
-        wrong, right = cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
+    wrong, right = _compared(cause) or (None, None)
     return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)
+
+
+def _compared(cause: Cause) -> tuple[Equation, Equation] | None:
+    """What was written and what is right: the step, where it was one, else the formula."""
+    if cause.probe is not None or cause.term or cause.nth is not None or cause.kind in _NOT_WRITTEN:
+        return None
+    if cause.application is not None:
+        step, known = cause.application.step, cause.application.known
+        right = step.right if cause.edit is None else cause.edit.right
+        with suppress(*UNDONE):
+            value = value_of(right, known) if cause.became is None else cause.became
+            return _short(replace(step, right=right, value=value)), _short(step)
+    if cause.edit is not None and cause.formula is not None:
+        return cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
+    return None
+
+
+def _short(step: Step) -> Equation:
+    """A step with the numbers put in and its value, nothing between."""
+    whole = step.equation()
+    rights = whole.rights[:1] if len(whole.rights) == 1 else (whole.rights[0], whole.rights[-1])
+    return Equation(whole.left, rights, (whole.signs[0], "=")[: len(rights)])
+
+
+def _line(equation: Equation) -> str:
+    sides = zip(equation.signs, equation.rights, strict=True)
+    return unicode(equation.left).strip() + "".join(f" {sign} {unicode(side).strip()}" for sign, side in sides)
 
 
 def _place(cause: Cause) -> Place | None:

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from rldrill.diagnosis import IN_A_FILE
 from rldrill.exam.exam import Version
 from rldrill.exam.manifest import read_exam
 from rldrill.exercise import Exercise, draw, load
@@ -22,8 +23,6 @@ from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 Ref: TypeAlias = str | tuple[str, int]
 #: The label of a part, what was typed, and the earlier answers that it may go on from.
 _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
-#: How long is searched for what one wrong answer comes from, in seconds.
-SEARCH = 2.0
 #: So many judgements are kept.
 _KEPT = 50_000
 #: Entries that are the same in so many other draws are the same in every draw.
@@ -218,7 +217,7 @@ class _Problem:
         diagnosis = None
         if self._rules.causes and not verdict.accepted:
             wrong = {label: each for label, each in before.items() if not each.accepted}
-            found = self.exercise.diagnosed(part.label, text, verdict, wrong, SEARCH)
+            found = self.exercise.diagnosed(part.label, text, verdict, wrong, IN_A_FILE)
             diagnosis = replace(found, wrong=None, right=None) if found.explains else None
         reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
         mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence

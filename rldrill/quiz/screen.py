@@ -19,7 +19,7 @@ from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import how_to_type
-from rldrill.render.terminal import asked, render, renderable, words
+from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.rule import RULE
 
@@ -230,10 +230,7 @@ class Screen:
         read = _read_otherwise(verdict, part)
         self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
-            self._print(Text("  Your answer comes from this:", style="dim"))
-            self._indented(renderable(diagnosis.wrong))
-            self._print(Text("  The formula is:", style="dim"))
-            self._indented(renderable(diagnosis.right))
+            self._print(compared(diagnosis.wrong, diagnosis.right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
         if counted and part.tries == 1 and part.state is State.OPEN:
             self._print(Text(f"  {_OR_ELSE}", style="dim"))

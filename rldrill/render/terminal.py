@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from textwrap import wrap
@@ -18,6 +18,7 @@ from rich.text import Text
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
+from rldrill.render.differences import differences
 from rldrill.render.encodable import Spelling
 from rldrill.render.mathematics.unicode import GLUE
 
@@ -238,6 +239,28 @@ def _equation(equation: Equation, spelling: Spelling) -> RenderableType:
             Text(shift + left if index == 0 else ""), Text(shift + spelling.plain(sign)), Text("\n".join(lines))
         )
     return grid
+
+
+def compared(wrong: Equation, right: Equation) -> RenderableType:
+    """An equation as it was read above the right one, underlined where they differ."""
+    return _Spelled(lambda spelling, _: _compared(wrong, right, spelling))
+
+
+def _compared(wrong: Equation, right: Equation, spelling: Spelling) -> RenderableType:
+    lines = differences(*("".join(_one_line(equation, spelling)) for equation in (wrong, right)))
+    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    grid.add_column(no_wrap=True)
+    grid.add_column(overflow="fold")
+    for who, pieces in zip(("yours:", "right:"), lines, strict=True):
+        marked = (Text(piece, style="underline" if differs else "") for piece, differs in pieces)
+        grid.add_row(Text(who, style="dim"), Text("").join(marked))
+    return _indented(grid)
+
+
+def _one_line(equation: Equation, spelling: Spelling) -> Iterator[str]:
+    yield " ".join(spelling.stacked(equation.left))
+    for sign, side in zip(equation.signs, equation.rights, strict=True):
+        yield f" {spelling.plain(sign)} {' '.join(line.strip() for line in spelling.stacked(side))}"
 
 
 def _indented(content: RenderableType) -> RenderableType:

@@ -17,7 +17,7 @@ from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.matrices import is_matrix
+from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.vector import Vector
 
 #: A place whose quantity has more values than this elsewhere is not tried with all of them.
@@ -90,16 +90,17 @@ def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[st
     leaf = isinstance(part, Quantity) or part.is_Symbol
     if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
         yield "crosswise", crosswise
-    for kind, other in slips(was):
+    slipped = list(slips(was))
+    for kind, other in slipped:
         lost = kind == "sign" and leaf and is_rational(was) and was < 0
         yield "minus-lost" if lost else kind, other
+    told = {str(other) for _, other in slipped} | {str(was)}
     if isinstance(part, Quantity) and isinstance(known.get(part.code), Mapping):
         elsewhere = _distinct(known[part.code].values())
         if len(elsewhere) <= _ELSEWHERE:
-            yield from (("elsewhere", other) for other in elsewhere if other != was)
+            yield from (("elsewhere", other) for other in elsewhere if str(other) not in told)
     if leaf:
-        scalars = _distinct(known.values())
-        yield from (("elsewhere", other) for other in scalars if other != was)
+        yield from (("elsewhere", other) for other in _distinct(known.values()) if str(other) not in told)
 
 
 def likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[str, float, Edit | None, Any]]:
@@ -164,6 +165,23 @@ def plain(value: Any) -> bool:
         and not is_matrix(value)
         and hasattr(value, "__add__")
     )
+
+
+def numbers(value: Any) -> list[Any] | None:
+    """The numbers of a number, a vector or a matrix; None of anything else."""
+    if is_matrix(value):
+        return list(value.entries())
+    if isinstance(value, Vector):
+        return list(value)
+    return [value] if plain(value) else None
+
+
+def of_numbers(value: Any, others: Sequence[Any]) -> Any:
+    """A value of the form of another, of these numbers."""
+    if is_matrix(value):
+        wide = value.ncols()
+        return matrix([list(others[start : start + wide]) for start in range(0, len(others), wide)])
+    return Vector(others) if isinstance(value, Vector) else others[0]
 
 
 def _distinct(values: Iterable[Any]) -> list[Any]:

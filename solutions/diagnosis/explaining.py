@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from math import exp, inf, log
 from typing import Any
 
 from rldrill.solutions.answers.judging import wrong_cells
@@ -17,33 +18,47 @@ from rldrill.solutions.diagnosis.weights import ALIKE
 from rldrill.solutions.diagnosis.written_down import written_down
 from rldrill.solutions.exact import is_rational
 
-#: How many likelier causes there may be for every answer that could have been typed, at most.
-CHANCE = 0.85
-#: The same for causes of less weight than this.
-UNLIKELY, CHANCE_OF_UNLIKELY = 1.5, 0.5
+#: How much must speak for a cause, before it is told: the logarithm of a ratio of chances, see ``_evidence``. Chosen so
+#: that one number from nowhere in twenty is accused of something.
+ENOUGH = 1.4
+#: What is less likely than this is not spoken of at all.
+FAINT = 0.25
+#: What it says for a cause that it leaves right cells right, where nearly all of them are.
+RIGHT_CELLS = 2.0
+#: Of the causes whose answers are not computed so many lead to numbers of the form that was typed.
+_OF_THE_FORM = 0.3
+#: How much it counts how many answers any causes lead to, beside how many causes as likely lead to.
+_UNLIKELY_TOO = 0.3
 #: Where the time did not suffice, something likelier may have been missed: less than this is not spoken of.
 SURE_ENOUGH = 4.0
-#: A cause so much less likely than the likeliest is not spoken of; where there are many, a little less is too much.
-NEAR = (0.2, 0.4, 0.65)
-#: More causes than this explain nothing.
-MOST = 2
+#: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
+NEAR, MOST = 0.2, 2
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
 #: Of so few answers one proves nothing: yes or no, a choice, an action or two.
 _FEW = 4
 #: A decimal has no more places than this.
 _PLACES = 8
+#: Numbers with parameters, and those of large denominators, are told apart so finely; and when one is on a grid.
+_FINE, _FINEST, _PRECISE = 1e6, 10_000, 1e-6
 #: A decimal tells no more numbers apart than this, where it is a rounded one.
 _ROUNDED = 900
 
 
 @dataclass(frozen=True)
 class Explained:
-    """The causes that an answer is put down to, the likeliest first, and how sure that is, 0 to 1."""
+    """The causes that an answer is put down to, the likeliest first, and how sure that is, 0 to 1.
+
+    Args:
+        causes: what is told.
+        confidence: how sure it is one of them.
+        evidence: how much speaks for them.
+        every: all that lead to the answer, told or not.
+    """
 
     causes: tuple[Cause, ...]
     confidence: float
-    chance: float = 0.0
+    evidence: float = 0.0
     every: tuple[Cause, ...] = ()
 
 
@@ -63,16 +78,12 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
-    room = _room(typed, exact=_exactly(typed, best))
-    chance = _as_likely(search, typed, best.cause) / room
-    near = _near(found)
+    evidence = _evidence(search, typed, best)
     every = tuple(_distinct([each.cause for each in found]))
-    if interrupted and best.cause.weight < SURE_ENOUGH:
-        return Explained((), 0.0, chance, every)
-    if chance > (CHANCE if best.cause.weight >= UNLIKELY else CHANCE_OF_UNLIKELY):
-        return Explained((), 0.0, chance, every)
-    share = best.cause.weight / sum(cause.weight for cause in near)
-    return Explained(tuple(near), round(share / (1 + chance), 2), chance, every)
+    if best.cause.weight < FAINT or evidence < ENOUGH or (interrupted and best.cause.weight < SURE_ENOUGH):
+        return Explained((), 0.0, evidence, every)
+    near = tuple(cause for cause in every[:MOST] if cause.weight >= NEAR * best.cause.weight)
+    return Explained(near, 1 / (1 + exp(-evidence)), evidence, every)
 
 
 def _weighed(typed: Typed, candidate: Candidate) -> Candidate:
@@ -91,16 +102,6 @@ def _to_the_last_digit(cell: Reading, value: Any) -> bool:
         return True
     places = next((places for places in range(_PLACES) if 10**places % int(cell.value.q) == 0), _PLACES)
     return abs(approximate(cell.value) - approximate(value)) <= 0.51 * 10.0**-places
-
-
-def _near(found: Sequence[Candidate]) -> list[Cause]:
-    """The causes that are about as likely as the likeliest; where they are many, only those that are nearly so."""
-    for bound in NEAR:
-        least = bound * found[0].cause.weight
-        near = _distinct([each.cause for each in found if each.cause.weight >= least])
-        if len(near) <= MOST:
-            break
-    return near
 
 
 def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
@@ -144,6 +145,62 @@ def _together(first: Cause, second: Cause) -> Cause:
     return replace(one, weight=weight, then=two)
 
 
+def _evidence(search: Search, typed: Typed, best: Candidate) -> float:
+    """How much speaks for causes, and against chance, as a logarithm.
+
+    Of all answers of the typed form and size each is as likely, if it comes from nowhere, and some of them are those
+    that causes lead to. A whole number among twenty that could have been typed proves nothing if causes lead to ten
+    of them; one with seven digits proves nearly everything. Nobody leaves right cells right by chance.
+    """
+    exact = _exactly(typed, best)
+    room = _room(typed, exact=exact)
+    if best.cause.then is not None:
+        return ENOUGH + log(room / ROOM_FOR_TWO)
+    causes = _of_the_form(search, typed, best.cause.weight, exact=exact)
+    right_cells = 1 - len(typed.wrong) / len(typed.key)
+    return log(room / causes) + RIGHT_CELLS * right_cells
+
+
+def _of_the_form(search: Search, typed: Typed, weight: float, *, exact: bool) -> float:
+    """How many answers of the form and size that was typed causes lead to, if they spoil the same cells.
+
+    Those that are less likely than this weight count little.
+    """
+    steps = [_step(typed, name, exact=exact) for name in typed.wrong]
+    found: dict[tuple[int | None, ...], float] = {}
+    others = 0
+    for heaviness, sizes in search.rivals(typed):
+        if sizes is None:
+            others += 1
+            continue
+        point = tuple(_on_grid(size, *step, exact=exact) for size, step in zip(sizes, steps, strict=True))
+        if None not in point:
+            found[point] = max(heaviness, found.get(point, 0.0))
+    likely = sum(heaviness >= weight for heaviness in found.values())
+    more = _OF_THE_FORM * others
+    every = max(1, len(found)) + more
+    return float(every**_UNLIKELY_TOO * (max(1, likely) + more) ** (1 - _UNLIKELY_TOO))
+
+
+def _step(typed: Typed, name: str, *, exact: bool) -> tuple[float, float]:
+    """How many numbers of the form of a cell there are between 0 and 1, and how large they may be."""
+    cell = typed.cells[name]
+    if not isinstance(cell, Reading) or not is_rational(cell.value):
+        return _FINE, inf
+    size = max(abs(approximate(cell.value)), abs(approximate(typed.key[name])), 1.0)
+    return (min(int(cell.value.q), _FINEST) if exact else min(int(cell.value.q), _ROUNDED / (4 * size))), 2 * size
+
+
+def _on_grid(size: float, step: float, most: float, *, exact: bool) -> int | None:
+    """Which number of a form this is; None if it is none, or too large."""
+    if not abs(size) <= most:
+        return None
+    place = size * step
+    if exact and most < inf and abs(place - round(place)) > _PRECISE * max(1.0, abs(place)):
+        return None
+    return round(place)
+
+
 def _room(typed: Typed, *, exact: bool) -> float:
     """How many answers could have been typed as well as this one."""
     room = 1.0
@@ -170,13 +227,6 @@ def _exactly(typed: Typed, candidate: Candidate) -> bool:
     )
 
 
-def _as_likely(search: Search, typed: Typed, cause: Cause) -> float:
-    """How many causes are as likely as this one, or likelier, of those that spoil the same cells and no others."""
-    if cause.then is not None:
-        return ROOM_FOR_TWO
-    return max(1, sum(weight >= cause.weight for weight in search.rivals(typed)))
-
-
 def _distinct(causes: Sequence[Cause]) -> list[Cause]:
     """The causes that differ in what is done or where: of those that say the same, the likeliest."""
     found: list[Cause] = []
@@ -189,6 +239,9 @@ def _distinct(causes: Sequence[Cause]) -> list[Cause]:
 def _alike(one: Cause, two: Cause) -> bool:
     if one.application is not two.application and None not in (one.application, two.application):
         return False
+    for zero, other in ((one, two), (two, one)):
+        if zero.kind == "elsewhere" and zero.other == 0 and other.kind.endswith("left-out"):
+            return True
     if one.mistake or two.mistake:
         return bool(one.mistake and two.mistake and one.mistake.says == two.mistake.says)
     return one.kind == two.kind or any({one.kind, two.kind} <= group for group in ALIKE)

@@ -96,12 +96,12 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
         return
     yield "reversed", value[::-1], name
     for place in range(len(value)):
-        yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{_ordinal(place)} of {name}"
+        yield "entry-left-out", (*value[:place], *value[place + 1 :]), f"{_ordinal(place)} of the {name}"
         if place + 1 < len(value) and value[place] != value[place + 1]:
             swapped = (*value[:place], value[place + 1], value[place], *value[place + 2 :])
             yield "entries-exchanged", swapped, f"{name}, {_ordinal(place)} and {_ordinal(place + 1)}"
         if _number(value[place]) and value[place] < 0:
-            yield "minus-lost", (*value[:place], -value[place], *value[place + 1 :]), f"{_ordinal(place)} of {name}"
+            yield "minus-lost", (*value[:place], -value[place], *value[place + 1 :]), f"{_ordinal(place)} of the {name}"
         if isinstance(value[place], tuple | BaseModel):
             for kind, changed, what in _row(value[place], name, place):
                 yield kind, (*value[:place], changed, *value[place + 1 :]), what

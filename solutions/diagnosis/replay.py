@@ -1,6 +1,6 @@
 """The working of a problem taken down, and gone through again with something changed in it."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -121,13 +121,22 @@ Traced: TypeAlias = tuple[int, Expr, Mapping[str, Any], Any]
 
 
 class Replay(Work):
-    """A notebook in which the change is made, and nothing is written down."""
+    """A notebook in which the change is made, and nothing is written down.
+
+    The values of ``same``, the applications before the first one that is changed, are not computed again.
+    """
 
     def __init__(
-        self, change: Change, carried: Mapping[str, Any], limit: int, trace: list[Traced] | None = None
+        self,
+        change: Change,
+        carried: Mapping[str, Any],
+        limit: int,
+        trace: list[Traced] | None = None,
+        same: Sequence[Application] = (),
     ) -> None:
         super().__init__(carried=carried)
         self.change = change
+        self.same = same
         self.trace = trace
         self.limit = limit
         self.number = 0
@@ -138,6 +147,8 @@ class Replay(Work):
     def reading(self, formula: Formula) -> Expr:
         """The right side, exchanged if it is among those."""
         self._count()
+        if formula.right in self.change.rights:
+            self.same = ()  # what comes now can depend on it, though no step says so
         return self.change.rights.get(formula.right, formula.right)
 
     def step(self, formula: Formula, *, right: Any = None, **known: Any) -> Any:
@@ -145,6 +156,8 @@ class Replay(Work):
         for written in ("into", "sign", "label"):
             known.pop(written, None)
         number, self.number = self.number, self.number + 1
+        if number < len(self.same):
+            return self.same[number].value
         if number in self.change.values:
             self._count()
             self._again[_same(formula, known)] = value = self.change.values[number]
@@ -177,6 +190,9 @@ class Replay(Work):
     ) -> Any:
         """The solution, changed where its values are."""
         cases = list(cases)
+        if 0 < self.number + len(cases) <= len(self.same):
+            self.number += len(cases)
+            return dict(self.same[self.number - 1].known[unknown.code])
         solution = super().system(formula, unknown, cases, **named, **self._letters(named))
         for case in cases:
             if self.number in self.change.values:
@@ -215,17 +231,37 @@ def recorded(problem: Problem, carried: Mapping[str, Any]) -> Recorder:
 
 
 def replayed(
-    problem: Problem, change: Change, carried: Mapping[str, Any], steps: int, trace: list[Traced] | None = None
+    problem: Problem,
+    change: Change,
+    carried: Mapping[str, Any],
+    right: Sequence[Application],
+    trace: list[Traced] | None = None,
 ) -> Mapping[str, Any] | None:
-    """The answers of the changed working; None where it leads to none. Its applications are added to ``trace``."""
-    work = Replay(change, carried, _LONGER * steps + 100, trace)
+    """The answers of a working that is changed, where it was ``right``; None where it leads to none.
+
+    The applications from the first change on are added to ``trace``.
+    """
+    work = Replay(change, carried, _LONGER * len(right) + 100, trace, right[: _first(change, right)])
+    return _answers(problem, work)
+
+
+def _first(change: Change, right: Sequence[Application]) -> int:
+    """The number of the first application that is changed."""
+    if change.habit is not None:
+        return 0
+    read = (each.number for each in right if each.right in change.rights) if change.rights else ()
+    return min((*change.values, *read), default=0)
+
+
+def with_givens(problem: Problem, given: Any, carried: Mapping[str, Any], steps: int) -> Mapping[str, Any] | None:
+    """The answers for other givens; None where there are none."""
+    work = Replay(Change(), carried, _LONGER * steps + 100)
+    return _answers(Problem(problem.family, given), work)
+
+
+def _answers(problem: Problem, work: Replay) -> Mapping[str, Any] | None:
     try:
         solver(problem.family).solve(problem.given, work)
     except UNDONE:
         return None
     return work.answers
-
-
-def with_givens(problem: Problem, given: Any, carried: Mapping[str, Any], steps: int) -> Mapping[str, Any] | None:
-    """The answers for other givens; None where there are none."""
-    return replayed(Problem(problem.family, given), Change(), carried, steps)

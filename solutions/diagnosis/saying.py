@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 from sympy import Expr
 
 from rldrill.problems.mathematics import Math, name, relation, row
+from rldrill.solutions.diagnosis.alternatives import numbers
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.givens import ORDINALS
 from rldrill.solutions.diagnosis.replay import Application
@@ -23,6 +24,7 @@ Words: TypeAlias = tuple[str | Math, ...]
 _EDITS = {
     "term-left-out": "{part} is missing",
     "factor-left-out": "{part} is missing",
+    "only-factor-left-out": "the factor {part} is missing",
     "bracket-left-out": "the factor ({part}) is missing",
     "sign": "{part} has the wrong sign",
     "twice": "{part} is counted twice",
@@ -37,35 +39,35 @@ _EDITS = {
     "exchanged": "{part} and {instead} are exchanged",
     "squared": "the factor {part} is there twice",
     "squared-value": "the factor {part} is there twice",
-    "added": "the factors of {part} are added, not multiplied",
-    "divided": "it is divided by {part}, not multiplied with it",
+    "added": "the factors of {part} are added instead of multiplied",
+    "divided": "it is divided by {part} instead of multiplied with it",
     "upside-down": "{part} is upside down",
     "order-of-factors": "the matrices of {part} stand in the wrong order",
     "inverse": "the inverse is forgotten in {part}",
     "root": "the root is forgotten in {part}",
     "power": "the power is off in {part}",
-    "power-as-product": "{part} is multiplied out, not raised to its power",
+    "power-as-product": "{part} is taken for a product instead of a power",
     "transposed": "the transpose is forgotten in {part}",
     "case": "the wrong case is taken in {part}",
     "choice": "{instead} is taken without the choice",
     "function": "{instead} stands where {part} belongs",
     "summand-left-out": "a term of the sum is missing",
     "summand-sign": "a term of the sum has the wrong sign",
-    "smallest": "the smallest is taken, not the greatest",
+    "smallest": "the smallest is taken instead of the greatest",
     "other-taken": "the value of another action than the best is taken",
-    "mean-for-max": "the mean is taken, not the maximum",
-    "min-for-max": "the minimum is taken, not the maximum",
-    "sum-for-max": "the sum is taken, not the maximum",
-    "mean-for-sum": "the mean is taken, not the sum {part}",
-    "max-for-sum": "the maximum is taken, not the sum {part}",
-    "min-for-sum": "the minimum is taken, not the sum {part}",
-    "sum-for-mean": "the sum is taken, not the mean",
-    "max-for-mean": "the maximum is taken, not the mean",
-    "min-for-mean": "the minimum is taken, not the mean",
-    "sum-for-product": "the sum is taken, not the product",
-    "mean-for-product": "the mean is taken, not the product",
-    "max-for-product": "the maximum is taken, not the product",
-    "min-for-product": "the minimum is taken, not the product",
+    "mean-for-max": "the mean is taken instead of the maximum",
+    "min-for-max": "the minimum is taken instead of the maximum",
+    "sum-for-max": "the sum is taken instead of the maximum",
+    "mean-for-sum": "the mean is taken instead of the sum {part}",
+    "max-for-sum": "the maximum is taken instead of the sum {part}",
+    "min-for-sum": "the minimum is taken instead of the sum {part}",
+    "sum-for-mean": "the sum is taken instead of the mean",
+    "max-for-mean": "the maximum is taken instead of the mean",
+    "min-for-mean": "the minimum is taken instead of the mean",
+    "sum-for-product": "the sum is taken instead of the product",
+    "mean-for-product": "the mean is taken instead of the product",
+    "max-for-product": "the maximum is taken instead of the product",
+    "min-for-product": "the minimum is taken instead of the product",
 }
 #: What happened to the value of a place in a formula; {was} was right, {became} was taken.
 _INSIDE = {
@@ -80,7 +82,7 @@ _INSIDE = {
 }
 #: What happened to the value that a step gives.
 _VALUES = {
-    "kept": "the old value {became} is kept, as if the update were left out",
+    "kept": "the old value {became} is kept",
     "repeated": "the update is made twice",
     "sign": "the result has the wrong sign: {became} for {was}",
     "tenfold": "the decimal point of the result has slipped: {became} for {was}",
@@ -102,15 +104,15 @@ _WHOLE = {
     "reversed": "the {what} are taken in the opposite order",
     "entry-left-out": "the {what} is left out",
     "entries-exchanged": "the order is wrong in {what}",
-    "another-quantity": "this is {left}, not what is asked for",
+    "another-quantity": "you gave {left}, which is not what is asked for",
     "exchanged-cells": "the answers for {what} are exchanged",
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",
     "answer-transposed": "rows and columns are exchanged",
     "answer-scaled": "all entries are wrong by the same factor, {was}",
-    "one-minus": "this is 1 minus the answer",
-    "inverse": "this is the answer upside down",
-    "percent": "this is the answer times 100",
+    "one-minus": "you gave 1 minus the answer",
+    "inverse": "the answer is upside down",
+    "percent": "the answer is given in percent",
     "tenfold": "the decimal point has slipped",
     "digits": "two digits are exchanged",
     "": "there is a slip of arithmetic in the last step",
@@ -128,6 +130,8 @@ def saying(cause: Cause, applications: Sequence[Application]) -> Words:
 def _what(cause: Cause) -> Words:
     if cause.edit is not None:
         template = _EDITS[cause.kind]
+        if cause.kind == "factor-left-out" and not cause.edit.part.is_Symbol:
+            template = "the factor {part} is missing"
         instead = None if cause.edit.instead is None else typeset(cause.edit.instead)
         return _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
     if cause.probe is not None:
@@ -136,7 +140,8 @@ def _what(cause: Cause) -> Words:
         return _filled(template, part=part, was=_number(cause.was), became=_number(cause.other))
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
-        return _filled(template, was=_number(cause.was), became=_number(cause.became))
+        was, became = _changed(cause.was, cause.became)
+        return _filled(template, was=_number(was), became=_number(became))
     template = _WHOLE.get(cause.kind, _WHOLE[""])
     left = None if cause.application is None else typeset(cause.application.step.left)
     was = None if cause.was is None else _number(cause.was)
@@ -152,6 +157,15 @@ def _filled(template: str, **values: Any) -> Words:
 
 def _short(part: Expr) -> Math:
     return typeset(part.args[0]) if isinstance(part, Over) and part.body.is_Add else typeset(part)
+
+
+def _changed(was: Any, became: Any) -> tuple[Any, Any]:
+    """The entry that was changed, where it is one of several."""
+    one, two = numbers(was), numbers(became)
+    if one is None or two is None or len(one) != len(two):
+        return was, became
+    changed = [pair for pair in zip(one, two, strict=True) if str(pair[0]) != str(pair[1])]
+    return changed[0] if len(changed) == 1 else (was, became)
 
 
 def _number(value: Any) -> Any:

@@ -17,6 +17,8 @@ from rldrill.solutions.diagnosis.alternatives import (
     at_place,
     hashable,
     likely,
+    numbers,
+    of_numbers,
     plain,
     terms,
 )
@@ -35,13 +37,12 @@ from rldrill.solutions.diagnosis.replay import (
     with_givens,
 )
 from rldrill.solutions.diagnosis.typed import Typed, approximate, equal, near
+from rldrill.solutions.diagnosis.written_down import written_down
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
-from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.solution import Solution
-from rldrill.solutions.vector import Vector
 
 #: Two slips: the first is one of so many.
 _FIRST = 12
@@ -49,9 +50,18 @@ _FIRST = 12
 _TRIES = 100
 #: So many other values of one application are gone on from, for one answer.
 _REPLAYS = 30
-_NOT_COMPUTED = float("nan")
+#: A value of more numbers than this is not taken apart; a straight line is checked at so many other values.
+_NUMBERS, _CHECKS = 9, 2
 #: So many causes of the same value are told apart.
 _ALIKE = 4
+
+
+#: What wrong cells come to, for another value of an application.
+Predict = Callable[[Any], dict[str, float]]
+
+
+#: How likely a cause is, and what it makes of the wrong cells; None where that is not known.
+Rival = tuple[float, tuple[float, ...] | None]
 
 
 class Search:
@@ -64,8 +74,8 @@ class Search:
         self._whole: list[Candidate] = []
         self._unfinished: Iterator[Candidate] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
-        self._rivals: dict[Any, list[float]] = {}
-        self._responses: dict[int, list[tuple[Any, Mapping[str, Any] | None]]] = {}
+        self._rivals: dict[Any, list[Rival]] = {}
+        self._responses: dict[int, list[tuple[list[Any] | None, Mapping[str, Any] | None]]] = {}
 
     @cached_property
     def work(self) -> Recorder:
@@ -79,7 +89,7 @@ class Search:
 
     def replay(self, change: Change, trace: list[Traced] | None = None) -> Mapping[str, Any] | None:
         """The answers of a changed working."""
-        return replayed(self.problem, change, self.carried, len(self.applications), trace)
+        return replayed(self.problem, change, self.carried, self.applications, trace)
 
     # The whole working ------------------------------------------------------------------------------
     def whole(self, clock: Clock) -> list[Candidate]:
@@ -243,18 +253,19 @@ class Search:
         return self._alternatives[number]
 
     # How answers depend on one value ----------------------------------------------------------------
-    def responses(self, application: Application) -> list[tuple[Any, Mapping[str, Any] | None]]:
-        """The answers for a few other values of an application: how they depend on it."""
-        number = application.number
+    def responses(self, application: Application) -> list[tuple[list[Any] | None, Mapping[str, Any] | None]]:
+        """The answers for a few other values of an application, number by number: how they depend on it."""
+        number, value = application.number, application.value
         if number not in self._responses:
-            value = application.value
-            if plain(value):
-                others = [value + 1, value - 3, value * 4 + 7]
-            elif is_matrix(value) or isinstance(value, Vector):
-                others = [value * 3]
-            else:
-                others = []
-            self._responses[number] = [(other, self.replay(Change(values={number: other}))) for other in others]
+            own = numbers(value)
+            others: list[tuple[list[Any] | None, Any]] = []
+            if own is not None and len(own) > _NUMBERS:
+                others = [(None, value * 3)]
+            elif own is not None:
+                one_more = [[*own[:place], own[place] + 1, *own[place + 1 :]] for place in range(len(own))]
+                checks = [each - 3 - place for place, each in enumerate(own)], [each * 4 + 7 for each in own]
+                others = [(each, of_numbers(value, each)) for each in (*one_more, *checks)]
+            self._responses[number] = [(each, self.replay(Change(values={number: other}))) for each, other in others]
         return self._responses[number]
 
     def local(self, typed: Typed, clock: Clock, within: Callable[[set[str]], bool]) -> Iterator[Candidate]:
@@ -294,41 +305,43 @@ class Search:
                 if all(near(approximate(cells[name]), typed.sizes[name]) for name in changed & set(typed.sizes)):
                     yield Candidate(cause, answers)
 
-    def _predicted(
-        self, application: Application, typed: Typed
-    ) -> tuple[set[str], Callable[[Any], dict[str, float]] | None] | None:
+    def _predicted(self, application: Application, typed: Typed) -> tuple[set[str], Predict | None] | None:
         """The cells that depend on a value, and how, where it is a straight line; None where none of them is wrong."""
-        points: list[tuple[float, dict[str, Any]]] = [(approximate(application.value), dict(typed.key))]
-        if not plain(application.value):
-            points = [(_NOT_COMPUTED, dict(typed.key))]
-        for other, answers in self.responses(application):
-            if (cells := typed.cells_of(answers)) is not None:
-                points.append((approximate(other) if plain(other) else _NOT_COMPUTED, cells))
-        changed = {name for name in typed.key for _, cells in points[1:] if not equal(cells.get(name), typed.key[name])}
-        if len(points) > 1 and not changed & set(typed.wrong):
+        answered = [
+            (other, cells)
+            for other, answers in self.responses(application)
+            if (cells := typed.cells_of(answers)) is not None
+        ]
+        changed = {name for name in typed.key for _, cells in answered if not equal(cells.get(name), typed.key[name])}
+        if answered and not changed & set(typed.wrong):
             return None
-        if len(points) < 4 or any(x != x for x, _ in points) or set(typed.sizes) != set(typed.key):
+        own = numbers(application.value)
+        if own is None or len(answered) != len(own) + _CHECKS or set(typed.sizes) != set(typed.key):
             return changed or set(typed.wrong), None
-        lines: dict[str, tuple[float, float]] = {}
-        start = points[0][0]
+        start = list(map(approximate, own))
+        points = [
+            [approximate(each) - at for each, at in zip(other or [], start, strict=True)] for other, _ in answered
+        ]
+        lines: dict[str, tuple[float, list[float]]] = {}
         for name in changed:
-            heights = [approximate(cells[name]) for _, cells in points]
-            slope = (heights[1] - heights[0]) / (points[1][0] - start)
-            for (x, _), height in zip(points[2:], heights[2:], strict=True):
-                if not abs(heights[0] + slope * (x - start) - height) <= 1e-9 * (abs(height) + 1):
+            base, *heights = (approximate(cells[name]) for cells in (typed.key, *(cells for _, cells in answered)))
+            slopes = [height - base for height in heights[: len(own)]]
+            for by, height in zip(points[len(own) :], heights[len(own) :], strict=True):
+                if not abs(base + _along(slopes, by) - height) <= 1e-9 * (abs(height) + 1):
                     return changed, None
-            lines[name] = heights[0], slope
+            lines[name] = base, slopes
 
         def predict(value: Any) -> dict[str, float]:
-            by = approximate(value) - start
-            return {name: height + slope * by for name, (height, slope) in lines.items()}
+            others = numbers(value) or []
+            by = [approximate(other) - at for other, at in zip(others, start, strict=True)]
+            return {name: base + _along(slopes, by) for name, (base, slopes) in lines.items()}
 
         return changed, predict
 
     def in_turn(self, typed: Typed, clock: Clock) -> Iterator[Candidate]:
         """Two slips, the second one in a working that goes on from the first."""
         bearing = [each for each in self.applications if self._predicted(each, typed) is not None]
-        numbers = {each.number for each in bearing}
+        places = {each.number for each in bearing}
         tries = _TRIES
         for application in bearing:
             for first in self.alternatives(application)[:_FIRST]:
@@ -340,7 +353,7 @@ class Search:
                 if self.replay(Change(values={application.number: first.became}), trace) is None:
                     continue
                 for traced in trace:
-                    if traced[0] > application.number and traced[0] in numbers and plain(traced[3]):
+                    if traced[0] > application.number and traced[0] in places and plain(traced[3]):
                         tries -= 1
                         yield from self._then(typed, application, first, traced)
 
@@ -382,24 +395,28 @@ class Search:
                 return None
         return None if wanted is None else approximate(value) + wanted
 
-    def rivals(self, typed: Typed) -> list[float]:
-        """How likely the causes are that spoil just the cells that are wrong, one for each answer that they give."""
+    def rivals(self, typed: Typed) -> list[Rival]:
+        """What the causes make of the wrong cells, those that spoil just these."""
         spoilt = frozenset(typed.wrong)
         key = typed.part.label, spoilt
         if key not in self._rivals:
-            found: dict[str, float] = {}
-            for candidate in self._whole:
+            candidates = [*self._whole, *written_down(typed, self.applications)]
+            found: list[Rival] = []
+            for candidate in candidates:
                 cells = typed.cells_of(candidate.answers)
                 if cells is not None and typed.differing(cells) == spoilt:
-                    answer = str([str(cells[name]) for name in typed.wrong])
-                    found[answer] = max(candidate.cause.weight, found.get(answer, 0.0))
-            rivals = list(found.values())
+                    found.append((candidate.cause.weight, tuple(approximate(cells[name]) for name in typed.wrong)))
             for application in self.applications:
                 predicted = self._predicted(application, typed)
                 if predicted is not None and predicted[0] == spoilt and application.number in self._alternatives:
-                    rivals += [cause.weight for cause in self.alternatives(application)]
-            self._rivals[key] = rivals
+                    found += self._rivals_at(application, typed.wrong, predicted[1])
+            self._rivals[key] = found
         return self._rivals[key]
+
+    def _rivals_at(self, application: Application, wrong: Sequence[str], predict: Predict | None) -> Iterator[Rival]:
+        for cause in self.alternatives(application):
+            sizes = None if predict is None else predict(cause.became)
+            yield cause.weight, None if sizes is None else tuple(sizes[name] for name in wrong)
 
     def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
         """Whether these answers are what was typed."""
@@ -410,6 +427,10 @@ class Search:
             return matches(typed.part, typed.cells, answers)
         except UNDONE:
             return False
+
+
+def _along(slopes: Sequence[float], by: Sequence[float]) -> float:
+    return sum(slope * way for slope, way in zip(slopes, by, strict=True))
 
 
 def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:

@@ -35,6 +35,7 @@ IDEAS = {
     "summand-left-out": 14.0,
     "summand-sign": 8.0,
     "squared": 1.6,
+    "only-factor-left-out": 1.5,
     "twice": 1.4,
     "twin": 1.3,
     "divided": 1.2,
@@ -106,8 +107,8 @@ PROCEDURE = {
 ANSWERS = {
     "another-quantity": 3.0,
     "exchanged-cells": 4.0,
-    "all-signs": 5.0,
-    "sign": 4.0,
+    "all-signs": 9.0,
+    "sign": 9.0,
     "answer-transposed": 5.0,
     "answer-scaled": 0.4,
     "one-minus": 2.0,

@@ -25,9 +25,8 @@ def written_down(typed: Typed, applications: Sequence[Application]) -> Iterator[
         return
 
     def made(name: str, cells: dict[str, Any], what: str = "", of: str = "") -> Iterator[Candidate]:
-        if typed.near(cells):
-            cause = Cause(of or name, weights.ANSWERS[of or name], what=what)
-            yield Candidate(cause, {typed.part.label: kind.value(cells)})
+        cause = Cause(of or name, weights.ANSWERS[of or name], what=what)
+        yield Candidate(cause, {typed.part.label: kind.value(cells)})
 
     if len(key) > 1:
         for one, two in combinations(typed.wrong, 2):

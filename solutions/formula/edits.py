@@ -238,7 +238,7 @@ def _of_sum(part: Expr) -> Iterator[Change]:
     terms = part.args
     for place, term in enumerate(terms):
         rest = _others(terms, place)
-        yield "term-left-out", _sum(rest), term, None
+        yield "term-left-out", _sum(rest), _unsigned(term), None
         yield "sign", _sum([*terms[:place], _opposite(term), *terms[place + 1 :]]), _unsigned(term), None
         yield "twice", _sum([*terms, term]), term, None
     if len(terms) == 2:
@@ -273,6 +273,8 @@ def _of_product(part: Expr) -> Iterator[Change]:
             yield "sign", _product(_others(factors, place)), _unsigned(part), None
             continue
         kind = "bracket-left-out" if factor.is_Add or isinstance(factor, Over) else "factor-left-out"
+        if factors[0] == -1 and len(factors) == 2:
+            kind = "only-factor-left-out"  # −V read as −1
         yield kind, _product(_others(factors, place)), factor, None
         if scalar[place]:
             if not factor.is_Pow and not factor.is_Add:

@@ -35,8 +35,8 @@ from rldrill.solutions.solution import Solution
 ACCEPTED_NAMES = {
     "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept range summand-left-out "
     "term-left-out twin",
-    "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse power sign tenfold "
-    "term-left-out",
+    "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse only-factor-left-out power "
+    "sign tenfold term-left-out",
     "sign_turned": "all-signs difference minus-lost sign summand-sign twice",
     "bracket_lost": "bracket",
     "bracket_widened": "bracket",
