@@ -193,8 +193,8 @@ def test_the_lines_of_a_table_are_one_answer() -> None:
 
 
 def test_pasted_numbers_answer_one_part_after_the_other() -> None:
-    # r = 5, 9, 3, 2 and γ = 1/2: R_1 = 9 + 3/2 + 2/4 = 11, R_0 = 5 + 11/2 = 21/2.
-    _, session, _ = quiz("11\n21/2", "", names=("return/1/7",))
+    # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2, R_0 = 9 + 2/3 = 29/3.
+    _, session, _ = quiz("2\n29/3", "", names=("return/1/7",))
     assert [part.state for part in session.parts] == [State.DONE, State.DONE]
 
 

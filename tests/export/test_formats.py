@@ -88,8 +88,8 @@ def test_every_box_of_moodle_has_the_key_the_tolerance_and_the_mistakes(tmp_path
     assert kinds == ["category", "cloze", "cloze", "essay", "cloze", "cloze"]  # an open parameter is marked by hand
     text = quiz[1].findtext("questiontext/text") or ""
     boxes = re.findall(r"\{(\d+):NUMERICAL:(.*?)(?<!\\)\}", text)
-    # δ₀ = 1 + 1/2·10 − (−2) = 8, and 8.00 allows 0.005
-    assert boxes[0][1].startswith("=8:0.005#Right.~%0%")
+    # δ₀ = 4 + 1/2·8 − (−2) = 10, and 10.0 allows 0.05
+    assert boxes[0][1].startswith("=10:0.05#Right.~%0%")
     assert len(boxes) == 5
     for _, answers in boxes:
         known: list[tuple[Decimal, Decimal]] = []

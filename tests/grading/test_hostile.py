@@ -39,10 +39,10 @@ def command(*arguments: object, **options: object) -> "subprocess.CompletedProce
 @pytest.mark.parametrize(
     "content",
     [
-        ("student;problem;part;answer\r\nAnn;td-zero/1/7;a;9,4\r\n").encode("utf-16"),
-        b"\xef\xbb\xbfsep=;\r\nstudent;problem;part;answer\r\nAnn;td-zero/1/7;a;9,4\r\n",
-        b'student,problem,part,answer\rAnn,td-zero/1/7,a,"=""9.4"""\r',
-        "student,problem,part,answer\nA\u200cn\u200dn,td-zero/1/7,a,9.4\n",
+        ("student;problem;part;answer\r\nAnn;td-zero/1/7;a;5,25\r\n").encode("utf-16"),
+        b"\xef\xbb\xbfsep=;\r\nstudent;problem;part;answer\r\nAnn;td-zero/1/7;a;5,25\r\n",
+        b'student,problem,part,answer\rAnn,td-zero/1/7,a,"=""5.25"""\r',
+        "student,problem,part,answer\nA\u200cn\u200dn,td-zero/1/7,a,5.25\n",
         "Student\u00a0Name\tProblem\tPart\tAnswer\nAnn\u00a0Lee\ttd-zero/1/7\ta\t9.4\n",
     ],
 )
@@ -111,7 +111,7 @@ def test_paths_in_a_manifest_open_nothing(tmp_path: Path) -> None:
 
 
 def test_a_closed_output_is_no_reason_to_fail(tmp_path: Path) -> None:
-    path = written(tmp_path, "a.csv", HEAD + "Ann,td-zero/1/7,a,9.4\n")
+    path = written(tmp_path, "a.csv", HEAD + "Ann,td-zero/1/7,a,5.25\n")
     for streams in (">&- 2>&-",):
         line = f'"{sys.executable}" -m rldrill verify "{path}" {streams}'
         assert subprocess.run(line, shell=True, check=False, timeout=60, stderr=subprocess.DEVNULL).returncode == 0

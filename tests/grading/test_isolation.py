@@ -14,8 +14,8 @@ from rldrill.solutions.answers.judging import Verdict, judge
 from rldrill.solutions.solution import Solution
 
 HEAD = "student,problem,part,answer\n"
-#: V(even) = 8 + 1/5 (9 + 3/4 · 8 − 8) = 47/5, see examples/answers.toml.
-RIGHT = "47/5"
+#: V(worn) = 4 + 1/4 (6 + 3/4 · 4 − 4) = 21/4, see examples/answers.toml.
+RIGHT = "21/4"
 
 
 def graded(folder: Path, *answers: str, **settings: float) -> tuple[dict[str, float], list[str]]:
@@ -39,7 +39,7 @@ def hostile(monkeypatch: pytest.MonkeyPatch, what: object) -> None:
 
 def test_marking_apart_gives_what_marking_here_gives(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(HEAD + "A,return/1/7,a,11/2\nA,return/1/7,b,31/4\nB,return/1/7,a,10\n")
+    path.write_text(HEAD + "A,return/1/7,a,2/3\nA,return/1/7,b,83/9\nB,return/1/7,a,10\n")
     assert verify([path], Settings(isolated=True)) == verify([path])
 
 

@@ -27,7 +27,7 @@ def course(tmp_path: Path) -> Path:
     """A folder with an exam of td-zero/1/7 and return/1/7, 1 and 2 points, the first right, and rldrill in the path."""
     made = plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/7")), seed=7))
     (tmp_path / "exam.json").write_bytes(written(manifest(made)))
-    (tmp_path / "ann.answers.toml").write_text('"1" = "47/5"\n["2"]\na = "10"\n')
+    (tmp_path / "ann.answers.toml").write_text('"1" = "21/4"\n["2"]\na = "10"\n')
     tool = tmp_path / "bin" / "rldrill"
     tool.parent.mkdir()
     tool.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m rldrill "$@"\n')
@@ -125,7 +125,7 @@ def test_the_gradescope_autograder_writes_its_results(course: Path, handed_in: b
         ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("answer", "right"), [("47/5", True), (9.4, True), ("9", False)])
+@pytest.mark.parametrize(("answer", "right"), [("21/4", True), (5.25, True), ("9", False)])
 def test_the_notebook_cell_passes_for_right_answers_alone(answer: object, right: bool) -> None:
     cell = compile((CI / "notebook" / "cell.py").read_text(encoding="utf-8"), "cell.py", "exec")
     if right:
@@ -148,7 +148,7 @@ def test_the_hook_takes_answer_files_and_refuses_what_is_wrong(course: Path) -> 
 def test_the_plugin_makes_a_test_of_every_part(tmp_path: Path) -> None:
     right = (CI / "pytest" / "course.answers.toml").read_text(encoding="utf-8")
     (tmp_path / "course.answers.toml").write_text(right, encoding="utf-8")
-    (tmp_path / "wrong.answers.toml").write_text('"return/1/7" = {a = "11/2"}\n"nonsense" = 1\n')
+    (tmp_path / "wrong.answers.toml").write_text('"return/1/7" = {a = "2/3"}\n"nonsense" = 1\n')
     plugin = ["-p", "rldrill.grading.pytest_plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "--color=no", *plugin, str(tmp_path)]
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}

@@ -23,9 +23,9 @@ from rldrill.grading.verification import Settings, verify
 EVIL = "=cmd|' /C calc'!A0"
 ROWS = [
     ("student", "problem", "part", "answer"),
-    ("Ann", "td-zero/1/7", "a", "47/5"),
-    ("Ben", "td-zero/1/7", "a", "even: 9,4"),
-    ("Ben", "return/1/7", "a", "11/2"),
+    ("Ann", "td-zero/1/7", "a", "21/4"),
+    ("Ben", "td-zero/1/7", "a", "worn: 5,25"),
+    ("Ben", "return/1/7", "a", "2/3"),
     (EVIL, "return/1/7", "a", "<script>alert(1)</script>"),
     (EVIL, "return/1/7", "b", "=1+1\n::error::mine"),
     ("Cem", "td-zero/9/7", "a", "1"),
@@ -166,7 +166,7 @@ def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
     assert tags.found.count("svg") == 2
     assert "script" not in tags.found
     assert "https://" not in text
-    # 11/2 is 1/2 · 11: the first reward discounted too, once.
+    # 2/3 is 1/3 · 2: the first reward discounted too, once.
     assert "first reward" in text
 
 
@@ -174,7 +174,7 @@ def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
 def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> None:
     forms = (data, junit, github, gradescope, tables)
     text = "\n".join(form.written(report, feedback) for form in forms) + github.summary(report, feedback)
-    assert ("21/2" in text) == (feedback == "key")  # the key of (b)
+    assert ("29/3" in text) == (feedback == "key")  # the key of (b)
     assert ("misconception" in text) == (feedback != "none")
     seen = github.summary(report, feedback) + junit.written(report, feedback)
     assert ("points" in seen) == (feedback != "none")
