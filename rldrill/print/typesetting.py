@@ -20,7 +20,7 @@ from rldrill.print.worksheet import worksheet_source
 #: From so many versions on, other processes take longer to start than they save.
 _MANY = 6
 #: After so many versions a process is replaced by a fresh one, which has less in its memory.
-_REPLACED = 8
+_REPLACED = 4
 
 
 @dataclass(frozen=True)
