@@ -1,13 +1,13 @@
 """The PDFs of one version of an exam, made from the manifest alone: in this process, or in several at once."""
 
+import signal
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
-from signal import SIG_IGN, SIGINT, signal
 
 from rldrill.exam.exam import Exam, Layout, Version
 from rldrill.exam.manifest import read_exam
@@ -21,7 +21,7 @@ from rldrill.writing import write_bytes_atomically
 #: From so many versions on, other processes take longer to start than they save.
 _MANY = 6
 #: After so many versions a process is replaced by a fresh one, which has less in its memory.
-_REPLACED = 20
+_REPLACED = 4
 
 
 @dataclass(frozen=True)
@@ -54,29 +54,23 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
     if len(tasks) < _MANY or processes < 2:
         yield from map(_typeset, tasks)
         return
-    pool = ProcessPoolExecutor(
-        processes,
-        mp_context=get_context("spawn"),
-        initializer=_deaf,
-        initargs=(in_use(),),
-        max_tasks_per_child=_REPLACED,
-    )
+    with _deaf():
+        pool = get_context("spawn").Pool(processes, use, (in_use(),), maxtasksperchild=_REPLACED)
+    with pool:  # which ends them, whatever happens
+        yield from pool.imap_unordered(_typeset, tasks)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """What is started here does not hear Ctrl-C: that is for the process that waits for it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
-        waiting: set[Future[Task]] = set()
-        for task in (*tasks, None):
-            if task is not None:
-                waiting.add(pool.submit(_typeset, task))
-            while waiting and (task is None or len(waiting) > 2 * processes):
-                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-                yield from (future.result() for future in done)
+        yield
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _deaf(notation: str) -> None:
-    """Ctrl-C is for the process that waits for this one, which also knows the notation."""
-    use(notation)
-    signal(SIGINT, SIG_IGN)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _typeset(task: Task) -> Task:

@@ -162,16 +162,17 @@ def test_ctrl_d_in_a_real_terminal(terminal: pexpect.spawn) -> None:
     assert terminal.exitstatus == 0
 
 
-GAIN = "lqr-gain/3/3"  # L = [0 1/4; 3/8 3/8]
+#: S = 4I, so R + BᵀSB = [23 4; 4 9], with determinant 191, and BᵀSA = [16 12; 8 0]: L = [112 108; 120 −48]/191.
+GAIN = "lqr-gain/3/7"
 
 
 @pytest.mark.parametrize(
     "lines",
     [
-        ("0 1/4\n3/8 3/8",),
-        ("[0 1/4\n3/8 3/8]",),
-        ("[[0, 1/4],", "[3/8, 3/8]]"),
-        ("[", "0 1/4", "3/8 3/8", "]"),
+        ("112/191, 108/191\n120/191, -48/191",),
+        ("[112/191, 108/191\n120/191, -48/191]",),
+        ("[[112/191, 108/191],", "[120/191, -48/191]]"),
+        ("[", "112/191, 108/191", "120/191, -48/191", "]"),
     ],
 )
 def test_the_lines_of_a_matrix_are_one_answer(lines: tuple[str, ...]) -> None:
@@ -209,7 +210,7 @@ def spawned(*arguments: str, **environment: str) -> pexpect.spawn:
 def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) -> None:
     child = spawned(GAIN, TERM=terminal_name)
     child.expect("> $")
-    rows = "0 1/4\n3/8 3/8"
+    rows = "112/191, 108/191\n120/191, -48/191"
     # A terminal that can do so tells where a paste begins and ends; another one types it.
     child.send(f"\x1b[200~{rows}\x1b[201~\r" if terminal_name == "xterm" else rows.replace("\n", "\r") + "\r")
     child.expect(r"✓\S* Right")
@@ -219,9 +220,9 @@ def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) ->
 def test_an_open_bracket_goes_on_in_a_real_terminal() -> None:
     child = spawned(GAIN)
     child.expect("> $")
-    child.sendline("[[0, 1/4],")
+    child.sendline("[[112/191, 108/191],")
     child.expect(r"\.\.\. ")
-    child.sendline("[3/8, 3/8]]")
+    child.sendline("[120/191, -48/191]]")
     child.expect(r"✓\S* Right")
     child.close(force=True)
 
@@ -250,10 +251,10 @@ def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
 
 def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     # Windows has no select for a console; msvcrt tells whether keys wait.
-    waiting = ["0 1/4", "3/8 3/8"]
+    waiting = ["112/191, 108/191", "120/191, -48/191"]
     console = types.ModuleType("msvcrt")
     monkeypatch.setattr(console, "kbhit", lambda: bool(waiting), raising=False)
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
-    assert line_editor()("> ") == "0 1/4\n3/8 3/8"
+    assert line_editor()("> ") == "112/191, 108/191\n120/191, -48/191"

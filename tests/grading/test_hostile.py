@@ -43,7 +43,7 @@ def command(*arguments: object, **options: object) -> "subprocess.CompletedProce
         b"\xef\xbb\xbfsep=;\r\nstudent;problem;part;answer\r\nAnn;td-zero/1/7;a;5,25\r\n",
         b'student,problem,part,answer\rAnn,td-zero/1/7,a,"=""5.25"""\r',
         "student,problem,part,answer\nA\u200cn\u200dn,td-zero/1/7,a,5.25\n",
-        "Student\u00a0Name\tProblem\tPart\tAnswer\nAnn\u00a0Lee\ttd-zero/1/7\ta\t9.4\n",
+        "Student\u00a0Name\tProblem\tPart\tAnswer\nAnn\u00a0Lee\ttd-zero/1/7\ta\t5.25\n",
     ],
 )
 def test_what_spreadsheets_and_scripts_make_of_a_file_is_read(tmp_path: Path, content: str | bytes) -> None:

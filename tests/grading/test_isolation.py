@@ -47,7 +47,7 @@ def test_a_crash_of_the_interpreter_is_that_students_alone(tmp_path: Path, monke
     hostile(monkeypatch, lambda: os._exit(139))
     points, (says,) = graded(tmp_path, RIGHT, "13", RIGHT)
     assert points == {"A": 1, "C": 1}
-    assert "line 3: grading what was answered to td-zero/1/7@2 broke the interpreter down" in says
+    assert "line 3: grading what was answered to td-zero/1/7@3 broke the interpreter down" in says
 
 
 def test_an_endless_search_ends_with_that_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
