@@ -183,7 +183,7 @@ def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
     ],
 )
 def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, answer: str, share: Fraction) -> None:
-    # (b) asks for Ã = [0 −9; 0 1], by 1 − 12/(2·√9·2) = 0 and 9 + (1 − 36)/2 − 1/2 = −9; its last row is 0 1 in every draw.
+    # (b) asks for Ã = [0 −9; 0 1]: 1 − 12/(2·√9·2) = 0, 9 + (1 − 36)/2 − 1/2 = −9; the last row is 0 1 in every draw.
     path = tmp_path / "answers.csv"
     path.write_text(f'{HEAD}Ann,,linearise-affine/1/7,b,"{answer}"\n')
     (part,) = [part for part in verify([path]).parts if part.part == "b"]
