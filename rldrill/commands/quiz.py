@@ -62,7 +62,7 @@ def command(
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
     """
     from rldrill.problems.errors import UsageError
-    from rldrill.quiz.prompt import is_interactive, line_editor
+    from rldrill.quiz.prompt import is_interactive, line_editor, on_resume
 
     if not is_interactive():
         raise UsageError(
@@ -83,10 +83,11 @@ def command(
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
         typer.echo(plan.says())  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
-    from rldrill.quiz.questions import planned, questions, timed
+    from rldrill.quiz.questions import is_problem, planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
+    from rldrill.quiz.topics import topic_map
     from rldrill.render.terminal import console
 
     recorder = Recorder(keeper.keep)
@@ -101,7 +102,16 @@ def command(
         "rldrill quiz" if exam_date is None else " ".join(["rldrill quiz", *wanted, f"--exam-date {exam_date.date()}"])
     )
     session = Session(total if number or not minutes else None, minutes=minutes, again=again)
-    if not Screen(console(), line_editor(), recorder).run(exercises, session):
+    attempts = keeper.read()
+    screen = Screen(
+        console(),
+        line_editor(),
+        recorder,
+        None if any(map(is_problem, wanted)) else {attempt.family for attempt in attempts},
+        lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+    )
+    on_resume(screen.redraw)
+    if not screen.run(exercises, session):
         raise typer.Exit(130)
 
 

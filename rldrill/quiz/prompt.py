@@ -34,6 +34,24 @@ def _ask(prompt: str) -> str:
     return "\n".join(lines)
 
 
+def on_resume(redraw: Callable[[], str]) -> None:
+    """After Ctrl-Z and fg show again what is asked, and what was typed so far.
+
+    Args:
+        redraw: shows it, and gives the prompt.
+    """
+    if sys.platform == "win32":
+        return
+
+    def resumed(*_: object) -> None:
+        import readline
+
+        print()
+        print(f"{redraw()}{readline.get_line_buffer()}", end="", flush=True)
+
+    signal.signal(signal.SIGCONT, resumed)
+
+
 def _is_waiting() -> bool:
     """Whether more has been typed already, as when lines are pasted on a terminal that does not say so."""
     if sys.platform == "win32":
