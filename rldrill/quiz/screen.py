@@ -208,7 +208,10 @@ class Screen:
             self._how_to_type(record, part)
             self._recorder.asked()
             record.exercise.diagnosing.begin()
-            then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
+            try:
+                then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
+            finally:
+                record.exercise.diagnosing.finish()
             if then is not Then.NEXT:
                 return then
         return Then.NEXT

@@ -1,0 +1,45 @@
+"""Which share of all problems fits a screen, with what is asked, how to type it, the keys and the prompt.
+
+    python benchmarks/screens.py [COLUMNS LINES]
+"""
+
+import sys
+from io import StringIO
+
+from rich.console import Console
+
+from rldrill.exercise import draw
+from rldrill.problems.catalogue import families, family
+from rldrill.quiz.screen import Screen
+from rldrill.quiz.session import Session
+
+_SEEDS = (1, 2, 3)
+
+
+def lines(name: str, level: int, seed: int, width: int, height: int) -> int:
+    """How many lines a problem takes on such a screen, up to its first prompt."""
+    console = Console(file=StringIO(), width=width, height=height, color_system=None, highlight=False)
+    shown = 0
+
+    def ask(_: str) -> str:
+        nonlocal shown
+        shown = shown or console.file.getvalue().count("\n") + 1  # type: ignore[attr-defined]
+        raise EOFError
+
+    Screen(console, ask).run([draw(name, level, seed)], Session(10))
+    return shown
+
+
+def main() -> None:
+    """Print the share, and what does not fit."""
+    width, height = map(int, sys.argv[1:]) if sys.argv[1:] else (80, 24)
+    drawn = [(name, level, seed) for name in families() for level in family(name).levels for seed in _SEEDS]
+    taken = {key: lines(*key, width, height) for key in drawn}
+    large = {key: needed for key, needed in taken.items() if needed > height}
+    print(f"{len(drawn) - len(large)} of {len(drawn)} problems fit {width} × {height}: {1 - len(large) / len(drawn):.1%}")
+    for key, needed in large.items():
+        print("/".join(map(str, key)), needed)
+
+
+if __name__ == "__main__":
+    main()
