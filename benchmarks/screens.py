@@ -36,7 +36,8 @@ def main() -> None:
     drawn = [(name, level, seed) for name in families() for level in family(name).levels for seed in _SEEDS]
     taken = {key: lines(*key, width, height) for key in drawn}
     large = {key: needed for key, needed in taken.items() if needed > height}
-    print(f"{len(drawn) - len(large)} of {len(drawn)} problems fit {width} × {height}: {1 - len(large) / len(drawn):.1%}")
+    fit = len(drawn) - len(large)
+    print(f"{fit} of {len(drawn)} problems fit {width} × {height}: {fit / len(drawn):.1%}")
     for key, needed in large.items():
         print("/".join(map(str, key)), needed)
 

@@ -52,8 +52,8 @@ _STANDINGS = {
     "miscalculated": ("✗", "red"),
     "unread": ("?", "yellow"),
 }
-#: The lines of a screen that are not the question: header, what is asked, how to type it, keys, and the prompt.
-_BESIDES = 9
+#: The lines of every screen with a question: its header, a blank line under that and under the question, the prompt.
+_BESIDES = 4
 #: So many more of the weakest skill are asked at the end, of this level where the problem had none.
 _FIVE, _LEVEL = 5, 2
 #: After so many misses the next hint is the first line with the numbers in.
@@ -196,7 +196,14 @@ class Screen:
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
-        self._print(Compact(tuple(exercise.question()), besides=_BESIDES + len(exercise.notes)))
+        first = exercise.parts[0]
+        others = (
+            asked(first, only=len(exercise.parts) == 1),
+            Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
+            *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
+        )
+        taken = sum(len(self._console.render_lines(other)) for other in others)
+        self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
         for note in exercise.notes:
             self._print(Text(f"({note})", style="dim"))
