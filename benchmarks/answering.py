@@ -1,6 +1,6 @@
 """How long it takes from Enter to the verdict, and from Enter to the next problem, where somebody reads and types.
 
-    python benchmarks/answering.py [PROBLEMS]
+python benchmarks/answering.py [PROBLEMS]
 """
 
 import sys
@@ -44,6 +44,8 @@ class Person:
         now = time.perf_counter()
         if self._since is not None:
             self.times.setdefault(self._since[0], []).append(now - self._since[1])
+        if prompt.startswith("f five more"):
+            raise EOFError
         if prompt.startswith("Enter next"):
             return self._types("next problem", "", _READS)
         if self._exercise is not self._next:

@@ -1,6 +1,6 @@
 """Which share of all problems fits a screen, with what is asked, how to type it, the keys and the prompt.
 
-    python benchmarks/screens.py [COLUMNS LINES]
+python benchmarks/screens.py [COLUMNS LINES]
 """
 
 import sys

@@ -51,6 +51,9 @@ def command(
         typer.Option("--exam", metavar="FILE", help="Sit an exam: its blueprint or manifest."),
     ] = None,
     version: Annotated[str | None, typer.Option("--version", help="Which version of the exam.")] = None,
+    plain: Annotated[
+        bool, typer.Option("--plain", help="For screen readers: ASCII, no pictures, no colours, no columns.")
+    ] = False,
     answers: Annotated[
         Path | None, typer.Option("--answers", metavar="FILE.toml", help="Where the answers to the exam are kept.")
     ] = None,
@@ -104,11 +107,12 @@ def command(
     session = Session(total if number or not minutes else None, minutes=minutes, again=again)
     attempts = keeper.read()
     screen = Screen(
-        console(),
+        console(plain=plain),
         line_editor(),
         recorder,
         None if any(map(is_problem, wanted)) else {attempt.family for attempt in attempts},
         lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+        plain=plain,
     )
     on_resume(screen.redraw)
     if not screen.run(exercises, session):

@@ -22,6 +22,8 @@ from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import how_to_type
 from rldrill.render.compact import Compact
+from rldrill.render.encodable import Spelling
+from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.rule import RULE
@@ -81,9 +83,13 @@ class Screen:
         recorder: Recorder | None = None,
         seen: Iterable[str] | None = None,
         topics: Callable[[], RenderableType] = Text,
+        *,
+        plain: bool = False,
     ) -> None:
+        self._plain = plain
         self._console = console
-        self._ask = ask
+        spelling = Spelling(console.encoding)
+        self._ask: Ask = lambda prompt: ask(spelling.plain(prompt))
         self._recorder = recorder or Recorder()
         self._seen = None if seen is None else set(seen)
         self._topics = topics
@@ -184,7 +190,8 @@ class Screen:
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
         line = Text(f"Problem {number}", style="bold")
         if session.total is not None:
-            done = "━" * number + "─" * (session.total - number) if session.total <= 40 else ""
+            bar = session.total <= 40 and not self._plain
+            done = "━" * number + "─" * (session.total - number) if bar else ""
             line.append(f" of {session.total}").append(f"  {done}", style="cyan")
         elif session.minutes is not None:
             line.append(f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}")
@@ -196,6 +203,10 @@ class Screen:
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
+        if self._plain:
+            self._print(render(linear(exercise.question())))
+            self._notes(exercise)
+            return
         first = exercise.parts[0]
         others = (
             asked(first, only=len(exercise.parts) == 1),
@@ -205,6 +216,9 @@ class Screen:
         taken = sum(len(self._console.render_lines(other)) for other in others)
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
+        self._notes(exercise)
+
+    def _notes(self, exercise: Exercise) -> None:
         for note in exercise.notes:
             self._print(Text(f"({note})", style="dim"))
 
