@@ -65,7 +65,7 @@ def command(
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
     """
     from rldrill.problems.errors import UsageError
-    from rldrill.quiz.prompt import is_interactive, line_editor, on_resume
+    from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
 
     if not is_interactive():
         raise UsageError(
@@ -75,6 +75,7 @@ def command(
     if exam is not None:
         _sit(exam, version, answers, seed)
         return
+    hold_resumes()
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))

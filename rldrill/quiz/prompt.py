@@ -4,6 +4,7 @@ import contextlib
 import signal
 import sys
 from collections.abc import Callable
+from threading import Thread
 
 #: Asks for what is typed: a line, or the lines that are pasted together. EOFError is the end of input.
 Ask = Callable[[str], str]
@@ -34,6 +35,15 @@ def _ask(prompt: str) -> str:
     return "\n".join(lines)
 
 
+def hold_resumes() -> None:
+    """Keep the signal of ``fg`` for the one thread that waits for it; to be called before any thread begins.
+
+    Else it may reach a thread of some library, and the main thread would not hear of it before the next line.
+    """
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCONT})
+
+
 def on_resume(redraw: Callable[[], str]) -> None:
     """After Ctrl-Z and fg show again what is asked, and what was typed so far.
 
@@ -43,13 +53,15 @@ def on_resume(redraw: Callable[[], str]) -> None:
     if sys.platform == "win32":
         return
 
-    def resumed(*_: object) -> None:
+    def wait() -> None:
         import readline
 
-        print()
-        print(f"{redraw()}{readline.get_line_buffer()}", end="", flush=True)
+        while True:
+            signal.sigwait({signal.SIGCONT})
+            print()
+            print(f"{redraw()}{readline.get_line_buffer()}", end="", flush=True)
 
-    signal.signal(signal.SIGCONT, resumed)
+    Thread(target=wait, daemon=True).start()
 
 
 def _is_waiting() -> bool:

@@ -118,7 +118,8 @@ class Screen:
                     self._problems(more, session)
                 finally:
                     self._redraw = Text
-                    self.summary(session, self._recorder.elapsed - begin)
+                    if session.parts or more is exercises:
+                        self.summary(session, self._recorder.elapsed - begin)
                 more = self._five_more(session)
                 session = Session(_FIVE, again=session.again)
         except EOFError:
@@ -265,6 +266,7 @@ class Screen:
 
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
         def again() -> None:
+            self._print(Text(record.exercise.id or "your own problem", style="dim"))
             self._question(record.exercise)
             self._print(asked(part.part, only=len(record.parts) == 1))
 

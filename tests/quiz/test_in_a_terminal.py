@@ -107,6 +107,7 @@ def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: 
     terminal.child.send("cool: 7/2, ")
     time.sleep(0.3)  # nothing tells that it was read
     os.kill(terminal.child.pid, signal.SIGSTOP)
+    time.sleep(0.1)  # else going on comes before having stopped
     os.kill(terminal.child.pid, signal.SIGCONT)
     terminal.sees("Value iteration starts", "(a) > cool: 7/2, ")
     terminal.types("warm: 5/2", "Right")
