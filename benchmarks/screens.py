@@ -1,11 +1,9 @@
-"""How many problems fit a terminal: what stands on the screen until the first answer is typed, in lines.
+"""Which share of all problems fits a screen, with what is asked, how to type it, the keys and the prompt.
 
-python benchmarks/screens.py [WIDTH HEIGHT]
+python benchmarks/screens.py [COLUMNS LINES]
 """
 
-import contextlib
 import sys
-from collections import Counter
 from io import StringIO
 
 from rich.console import Console
@@ -15,37 +13,33 @@ from rldrill.problems.catalogue import families, family
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
 
-
-class _EnoughError(Exception):
-    """Something is asked."""
-
-
-def _nothing(_: str) -> str:
-    raise _EnoughError
+_SEEDS = (1, 2, 3)
 
 
 def lines(name: str, level: int, seed: int, width: int, height: int) -> int:
-    """The lines from the header to the prompt, that included."""
-    out = StringIO()
-    console = Console(file=out, width=width, height=height, color_system=None, markup=False, highlight=False)
-    with contextlib.suppress(_EnoughError):
-        Screen(console, _nothing).run([draw(name, level, seed)], Session(10))
-    return out.getvalue().strip("\n").count("\n") + 2
+    """How many lines a problem takes on such a screen, up to its first prompt."""
+    console = Console(file=StringIO(), width=width, height=height, color_system=None, highlight=False)
+    shown = 0
+
+    def ask(_: str) -> str:
+        nonlocal shown
+        shown = shown or console.file.getvalue().count("\n") + 1  # type: ignore[attr-defined]
+        raise EOFError
+
+    Screen(console, ask).run([draw(name, level, seed)], Session(10))
+    return shown
 
 
 def main() -> None:
-    """Print the share that fits, and what does not."""
-    width, height = (int(text) for text in sys.argv[1:3]) if len(sys.argv) > 2 else (80, 24)
-    seeds = range(3)
-    taller = Counter(
-        {
-            f"{name}/{level}": sum(lines(name, level, seed, width, height) > height for seed in seeds)
-            for name in families()
-            for level in family(name).levels
-        }
-    )
-    print(f"{width}×{height}: {1 - taller.total() / (len(taller) * len(seeds)):.0%} of {len(taller) * len(seeds)} fit")
-    print(", ".join(f"{place} {number}" for place, number in taller.most_common() if number))
+    """Print the share, and what does not fit."""
+    width, height = map(int, sys.argv[1:]) if sys.argv[1:] else (80, 24)
+    drawn = [(name, level, seed) for name in families() for level in family(name).levels for seed in _SEEDS]
+    taken = {key: lines(*key, width, height) for key in drawn}
+    large = {key: needed for key, needed in taken.items() if needed > height}
+    fit = len(drawn) - len(large)
+    print(f"{fit} of {len(drawn)} problems fit {width} × {height}: {fit / len(drawn):.1%}")
+    for key, needed in large.items():
+        print("/".join(map(str, key)), needed)
 
 
 if __name__ == "__main__":

@@ -151,7 +151,7 @@ class Diagnosing:
             search.alternatives(application)
             search.responses(application)
 
-    def _finish(self) -> None:
+    def finish(self) -> None:
         """Whatever was searched ahead is enough now."""
         if self._thread is not None:
             self._stop.set()
@@ -223,7 +223,7 @@ class Diagnosing:
             return Diagnosis("right", verdict.says, confidence=1.0)
         if verdict.told:
             return _listed(self.solution, verdict)
-        self._finish()
+        self.finish()
         typed = self._typed(label, text)
         clock = Clock(seconds)
         for carried in ({}, earlier) if earlier else ({},):

@@ -51,6 +51,9 @@ def command(
         typer.Option("--exam", metavar="FILE", help="Sit an exam: its blueprint or manifest."),
     ] = None,
     version: Annotated[str | None, typer.Option("--version", help="Which version of the exam.")] = None,
+    plain: Annotated[
+        bool, typer.Option("--plain", help="For screen readers: ASCII, no pictures, no colours, no columns.")
+    ] = False,
     answers: Annotated[
         Path | None, typer.Option("--answers", metavar="FILE.toml", help="Where the answers to the exam are kept.")
     ] = None,
@@ -63,7 +66,7 @@ def command(
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
     """
     from rldrill.problems.errors import UsageError
-    from rldrill.quiz.prompt import is_interactive, line_editor
+    from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
 
     if not is_interactive():
         raise UsageError(
@@ -73,6 +76,7 @@ def command(
     if exam is not None:
         _sit(exam, version, answers, seed)
         return
+    hold_resumes()
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
@@ -84,10 +88,11 @@ def command(
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
         typer.echo(plan.says())  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
-    from rldrill.quiz.questions import planned, questions, timed
+    from rldrill.quiz.questions import is_problem, planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
+    from rldrill.quiz.topics import topic_map
     from rldrill.render.terminal import console
 
     recorder = Recorder(keeper.keep)
@@ -102,7 +107,17 @@ def command(
         "rldrill quiz" if exam_date is None else " ".join(["rldrill quiz", *wanted, f"--exam-date {exam_date.date()}"])
     )
     session = Session(total if number or not minutes else None, minutes=minutes, again=again)
-    if not Screen(console(), line_editor(), recorder).run(exercises, session):
+    attempts = keeper.read()
+    screen = Screen(
+        console(plain=plain),
+        line_editor(),
+        recorder,
+        None if any(map(is_problem, wanted)) else {attempt.family for attempt in attempts},
+        lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+        plain=plain,
+    )
+    on_resume(screen.redraw)
+    if not screen.run(exercises, session):
         raise typer.Exit(130)
 
 

@@ -35,6 +35,8 @@ class Weak:
 
     title: str
     command: str
+    family: str
+    level: int | None
 
 
 def mistakes(session: Session) -> Counter[str]:
@@ -60,7 +62,7 @@ def weakest(session: Session) -> Weak | None:
         return None
     family, level = exercise.problem.family, exercise.problem.level
     at, option = (f", level {level}", f" --level {level}") if level else ("", "")
-    return Weak(f"{family.title}{at}", f"rldrill quiz {family.name}{option} -n 5")
+    return Weak(f"{family.title}{at}", f"rldrill quiz {family.name}{option} -n 5", family.name, level)
 
 
 def _time(seconds: float) -> str:

@@ -24,10 +24,11 @@ _NO_FORMULA = "No formula is needed here: go by what is given, and by what you f
 
 @dataclass(frozen=True, slots=True)
 class Rung:
-    """One hint: what it is about, and what it shows."""
+    """One hint: what it is about, what it shows, and whether that is a line of the working."""
 
     says: str
     blocks: Document
+    is_working: bool = False
 
 
 def ladder(exercise: Exercise, label: str) -> list[Rung]:
@@ -43,7 +44,7 @@ def ladder(exercise: Exercise, label: str) -> list[Rung]:
     lines = list(_lines(written))
     for number, several in enumerate(_spread(lines)):
         says = "how it begins" if number == 0 else "how it goes on"
-        rungs.append(Rung(says, tuple(block for line in several for block in line)))
+        rungs.append(Rung(says, tuple(block for line in several for block in line), is_working=True))
     return rungs
 
 

@@ -5,8 +5,9 @@ import re
 from rldrill.exercise import Exercise
 from rldrill.problems.parts import Choice, Kind, Policy
 
-KEYS = "h hint · p problem · w working · s skip · v variant · q quit · ? all keys"
-SHORT_KEYS = "h hint · p problem · ? all keys"
+#: The keys that are told once, at the first question, and what reminds of them afterwards.
+KEYS = ("h hint · p problem again · m check my own working", "s skip · w working · t topics · q quit · ? all keys")
+SHORT_KEYS = "h ? q"
 HELP = (
     ("h", "hint: the formula, what its symbols are here, then the working line by line"),
     ("p", "problem: show it again"),
@@ -15,6 +16,7 @@ HELP = (
     ("s", "skip this part, and see its answer"),
     ("r", "restart: begin this problem again from its first part"),
     ("v", "variant: another problem of the same kind"),
+    ("t", "topics: the map of all, with what you have done"),
     ("q", "quit, with a summary (Ctrl-C and Ctrl-D do the same)"),
     ("?", "this help"),
 )

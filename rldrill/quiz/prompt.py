@@ -4,6 +4,7 @@ import contextlib
 import signal
 import sys
 from collections.abc import Callable
+from threading import Thread
 
 #: Asks for what is typed: a line, or the lines that are pasted together. EOFError is the end of input.
 Ask = Callable[[str], str]
@@ -32,6 +33,35 @@ def _ask(prompt: str) -> str:
         except EOFError:
             break
     return "\n".join(lines)
+
+
+def hold_resumes() -> None:
+    """Keep the signal of ``fg`` for the one thread that waits for it; to be called before any thread begins.
+
+    Else it may reach a thread of some library, and the main thread would not hear of it before the next line.
+    """
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCONT})
+
+
+def on_resume(redraw: Callable[[], str]) -> None:
+    """After Ctrl-Z and fg show again what is asked, and what was typed so far.
+
+    Args:
+        redraw: shows it, and gives the prompt.
+    """
+    if sys.platform == "win32":
+        return
+
+    def wait() -> None:
+        import readline
+
+        while True:
+            signal.sigwait({signal.SIGCONT})
+            print()
+            print(f"{redraw()}{readline.get_line_buffer()}", end="", flush=True)
+
+    Thread(target=wait, daemon=True).start()
 
 
 def _is_waiting() -> bool:

@@ -1,7 +1,7 @@
 """The quiz in the terminal: one problem after the other, part by part."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from enum import Enum
 
 from rich.console import Console, Group, RenderableType
@@ -9,21 +9,27 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
-from rldrill.quiz.ending import ending
+from rldrill.quiz.ahead import Ahead
+from rldrill.quiz.ending import ending, weakest
 from rldrill.quiz.hints import ladder
 from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import how_to_type
+from rldrill.render.compact import Compact
+from rldrill.render.encodable import Spelling
+from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.rule import RULE
 
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
+_FIRST_LINE = "Still wrong, so h now shows the first line with the numbers in; w shows all of it."
 _STYLES = {
     Outcome.RIGHT: "green",
     Outcome.FOLLOW_THROUGH: "green",
@@ -48,6 +54,12 @@ _STANDINGS = {
     "miscalculated": ("✗", "red"),
     "unread": ("?", "yellow"),
 }
+#: The lines of every screen with a question: its header, a blank line under that and under the question, the prompt.
+_BESIDES = 4
+#: So many more of the weakest skill are asked at the end, of this level where the problem had none.
+_FIVE, _LEVEL = 5, 2
+#: After so many misses the next hint is the first line with the numbers in.
+_MISSES = 3
 #: The names of places that nobody types.
 _PLACES = re.compile(r"(?:row \d+, column \d+|entry \d+): ")
 
@@ -64,12 +76,33 @@ class Then(Enum):
 class Screen:
     """Runs a quiz on a console, asking through ``ask``."""
 
-    def __init__(self, console: Console, ask: Ask, recorder: Recorder | None = None) -> None:
+    def __init__(
+        self,
+        console: Console,
+        ask: Ask,
+        recorder: Recorder | None = None,
+        seen: Iterable[str] | None = None,
+        topics: Callable[[], RenderableType] = Text,
+        *,
+        plain: bool = False,
+    ) -> None:
+        self._plain = plain
         self._console = console
-        self._ask = ask
+        spelling = Spelling(console.encoding)
+        self._ask: Ask = lambda prompt: ask(spelling.plain(prompt))
         self._recorder = recorder or Recorder()
+        self._seen = None if seen is None else set(seen)
+        self._topics = topics
         self._pasted: list[str] = []
-        self._keys = KEYS
+        self._keys: tuple[str, ...] = KEYS
+        self._ahead = Ahead(iter(()))
+        self._redraw: Callable[[], object] = Text
+        self._prompt = ""
+
+    def redraw(self) -> str:
+        """Show what is asked now once more; what is returned is its prompt."""
+        self._redraw()
+        return self._prompt
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -77,18 +110,66 @@ class Screen:
         Returns:
             False when the person pressed Ctrl-C.
         """
+        more: Iterable[Exercise] | None = exercises
         try:
-            for number, exercise in enumerate(exercises, 1):
-                if self._problem(exercise, number, session) is Then.QUIT:
-                    break
+            while more is not None:
+                begin = self._recorder.elapsed
+                try:
+                    self._problems(more, session)
+                finally:
+                    self._redraw = Text
+                    if session.parts or more is exercises:
+                        self.summary(session, self._recorder.elapsed - begin)
+                more = self._five_more(session)
+                session = Session(_FIVE, again=session.again)
         except EOFError:
             self._print()
         except KeyboardInterrupt:
             self._print()
-            self.summary(session)
             return False
-        self.summary(session)
         return True
+
+    def _problems(self, exercises: Iterable[Exercise], session: Session) -> None:
+        self._ahead = Ahead(iter(exercises))
+        try:
+            for number, exercise in enumerate(self._ahead, 1):
+                if self._example(exercise) is Then.QUIT or self._problem(exercise, number, session) is Then.QUIT:
+                    break
+        except (EOFError, KeyboardInterrupt):
+            self._print()
+            raise
+
+    def _five_more(self, session: Session) -> Iterator[Exercise] | None:
+        """Problems of the weakest skill, if there is one and they are wanted."""
+        weak = weakest(session) if session.parts else None
+        if weak is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
+            return None
+        self._print()
+        return (draw(weak.family, weak.level or _LEVEL, fresh_seed()) for _ in range(_FIVE))
+
+    def _example(self, exercise: Exercise) -> Then:
+        """Show one of a family that is new worked out, if that is wanted."""
+        family = exercise.problem.family
+        if self._seen is None or exercise.id is None or family.name in self._seen:
+            return Then.NEXT
+        self._seen.add(family.name)
+        self._print(words("New: ", (family.title, "bold"), "."))
+        wanted = self._line("Enter shows one worked example · n goes to the problem > ").strip().lower()
+        if wanted == "q":
+            return Then.QUIT
+        self._print()
+        if wanted in ("n", "next"):
+            return Then.NEXT
+        shown = variant(exercise)
+        self._question(shown)
+        for part in shown.parts:
+            self._print(asked(part, only=len(shown.parts) == 1))
+            self._indented(render(shown.working(part.label)))
+            self._indented(renderable(shown.answer(part)))
+            self._print()
+        wanted = self._line("Enter: your turn > ").strip().lower()
+        self._print()
+        return Then.QUIT if wanted == "q" else Then.NEXT
 
     def _problem(self, exercise: Exercise, number: int, session: Session) -> Then:
         record = Record.of(exercise)
@@ -108,19 +189,37 @@ class Screen:
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
-        self._print()
         line = Text(f"Problem {number}", style="bold")
         if session.total is not None:
-            done = "━" * number + "─" * (session.total - number) if session.total <= 40 else ""
+            bar = session.total <= 40 and not self._plain
+            done = "━" * number + "─" * (session.total - number) if bar else ""
             line.append(f" of {session.total}").append(f"  {done}", style="cyan")
         elif session.minutes is not None:
             line.append(f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}")
-        self._print(line.append(f"  {family.title}{level}"))
-        self._print(Text(exercise.id or "your own problem", style="dim"))
+        named = f"  {exercise.id or 'your own problem'}"
+        line.append(f"  {family.title}{level}")
+        if len(line) + len(named) < self._console.width:
+            line.append(named, style="dim")
+        self._print(line)
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
-        self._print(render(exercise.question()))
+        if self._plain:
+            self._print(render(linear(exercise.question())))
+            self._notes(exercise)
+            return
+        first = exercise.parts[0]
+        others = (
+            asked(first, only=len(exercise.parts) == 1),
+            Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
+            *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
+        )
+        taken = sum(len(self._console.render_lines(other)) for other in others)
+        self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
+        self._print()
+        self._notes(exercise)
+
+    def _notes(self, exercise: Exercise) -> None:
         for note in exercise.notes:
             self._print(Text(f"({note})", style="dim"))
 
@@ -128,21 +227,29 @@ class Screen:
         only = len(record.parts) == 1
         for part in record.parts:
             self._print(asked(part.part, only=only))
-            shape = how_to_type(part.part.kind, record.exercise.problem.parameters)
-            self._print(words((f"  {shape}", "dim")))
-            self._print(words((f"  {self._keys}", "dim")))
-            self._keys = SHORT_KEYS
+            self._how_to_type(record, part)
             self._recorder.asked()
             record.exercise.diagnosing.begin()
-            then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
+            try:
+                then = self._part(record, part, "> " if only else f"({part.part.label}) > ")
+            finally:
+                record.exercise.diagnosing.finish()
             if then is not Then.NEXT:
                 return then
         return Then.NEXT
+
+    def _how_to_type(self, record: Record, part: PartRecord) -> None:
+        """The shape of an answer; with the keys, which are told at length once."""
+        shape = how_to_type(part.part.kind, record.exercise.problem.parameters)
+        keys, self._keys = self._keys, ()
+        for line in (shape, *keys) if keys else (f"{shape}  ({SHORT_KEYS})",):
+            self._print(words((f"  {line}", "dim")))
 
     def _typed(self, prompt: str, kind: Kind) -> str:
         """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
         if not isinstance(kind, Matrix | Values | Numbers | Policy):
             return self._line(prompt)
+        self._prompt = prompt
         lines = [*self._pasted, *([] if self._pasted else [self._ask(prompt)])]
         self._pasted = []
         while sum(line.count("[") - line.count("]") for line in lines) > 0:
@@ -153,10 +260,17 @@ class Screen:
 
     def _line(self, prompt: str) -> str:
         """One line, the next of those that were pasted together, if there are any left."""
+        self._prompt = prompt
         self._pasted = self._pasted or self._ask(prompt).split("\n")
         return self._pasted.pop(0)
 
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
+        def again() -> None:
+            self._print(Text(record.exercise.id or "your own problem", style="dim"))
+            self._question(record.exercise)
+            self._print(asked(part.part, only=len(record.parts) == 1))
+
+        self._redraw = again
         while part.state is State.OPEN:
             text = self._typed(prompt, part.part.kind).strip()
             match command(text, record.exercise, part.part.kind):
@@ -171,8 +285,9 @@ class Screen:
                 case "?":
                     self._help()
                 case "p":
-                    self._question(record.exercise)
-                    self._print(asked(part.part, only=len(record.parts) == 1))
+                    self._redraw()
+                case "t":
+                    self._print(self._topics())
                 case "h":
                     self._hint(record, part)
                 case "m":
@@ -204,6 +319,7 @@ class Screen:
 
     def _after(self, record: Record) -> Then:
         prompt = "Enter next · p problem · w working · v variant · r again · q quit > "
+        self._ahead.begin()
         while True:
             text = self._line(prompt).strip()
             match COMMANDS.get(text.lower().removeprefix(":"), text):
@@ -219,6 +335,10 @@ class Screen:
                     return Then.RESTART
                 case "q":
                     return Then.QUIT
+                case "t":
+                    self._print(self._topics())
+                case "?":
+                    self._help()
                 case _:
                     self._print(words(("  All parts of this problem are done, so that was not judged: ", "dim"), text))
 
@@ -232,14 +352,16 @@ class Screen:
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
             self._print(compared(diagnosis.wrong, diagnosis.right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
-        if counted and part.tries == 1 and part.state is State.OPEN:
-            self._print(Text(f"  {_OR_ELSE}", style="dim"))
+        if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
+            self._print(words((f"  {_OR_ELSE if part.tries == 1 else _FIRST_LINE}", "dim")))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
         rungs = ladder(record.exercise, part.part.label)
         if part.hints >= len(rungs):
             self._print(Text("  That was the whole working; what it ends in is the answer.", style="dim"))
             return
+        if part.tries >= _MISSES:
+            part.hints = max(part.hints, next((n for n, rung in enumerate(rungs) if rung.is_working), part.hints))
         rung = rungs[part.hints]
         part.hints += 1
         self._print(Text(f"  Hint {part.hints} of {len(rungs)}: {rung.says}", style="dim"))
@@ -279,13 +401,13 @@ class Screen:
         self._print(grid)
         self._print(Text(f"  Right is {RULE}. {COUNTS}", style="dim"))
 
-    def summary(self, session: Session) -> None:
+    def summary(self, session: Session, seconds: float) -> None:
         """Print what was answered, and how."""
         parts = session.parts
         if not parts:
             self._print("Nothing was answered. Come back soon.")
             return
-        for line in ending(session, self._recorder.elapsed):
+        for line in ending(session, seconds):
             self._print(line)
 
     def _indented(self, content: RenderableType) -> None:

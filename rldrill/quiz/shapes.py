@@ -45,7 +45,7 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
 def _exact(parameters: Sequence[str]) -> str:
     if parameters:
         return f"in {' and '.join(parameters)} where it depends on {'them' if len(parameters) > 1 else 'it'}"
-    return f"exact or right to {DIGITS} significant digits"
+    return f"exact or to {DIGITS} significant digits"
 
 
 def _examples(parameters: Sequence[str]) -> "cycle[str]":

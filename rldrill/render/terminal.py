@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from io import StringIO
+from io import StringIO, TextIOWrapper
 from textwrap import wrap
 from typing import TypeAlias
 
@@ -35,11 +35,16 @@ _BETWEEN_COLUMNS = 2
 Span: TypeAlias = tuple[str, str] | str
 
 
-def console(*, stderr: bool = False) -> Console:
-    """A console that leaves texts as they are, and is wide enough when its output is a file or a pipe."""
+def console(*, stderr: bool = False, plain: bool = False) -> Console:
+    """A console that leaves texts as they are, and is wide enough when its output is a file or a pipe.
+
+    A ``plain`` one has no colours, and spells every sign in ASCII.
+    """
     stream = sys.stderr if stderr else sys.stdout
+    if plain and isinstance(stream, TextIOWrapper):
+        stream.reconfigure(encoding="ascii", errors=stream.errors)
     width = None if stream.isatty() or "COLUMNS" in os.environ else PIPED
-    return Console(stderr=stderr, highlight=False, markup=False, emoji=False, width=width)
+    return Console(stderr=stderr, highlight=False, markup=False, emoji=False, width=width, no_color=plain or None)
 
 
 def render(blocks: Iterable[Block]) -> Group:

@@ -1,0 +1,131 @@
+"""The quiz in a pseudo-terminal, narrow and wide: every key, and every way to end."""
+
+import os
+import re
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pexpect
+import pytest
+
+#: A blank, or a line that ends there, or a colour that does.
+_BLANK = r"(?:\s|\x1b\[[0-9;?]*[a-z])"
+RACING_CAR = str(Path(__file__).parent.parent.parent / "examples" / "racing-car.toml")
+
+
+class Terminal:
+    """A quiz that runs, with a history of its own."""
+
+    def __init__(self, home: Path, width: int, *arguments: str, **environment: str) -> None:
+        own = {"TERM": "xterm", "NO_COLOR": "1", "RLDRILL_HOME": str(home), "PYTHONUTF8": "1", **environment}
+        inherited = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
+        self.child = pexpect.spawn(
+            sys.executable, ["-m", "rldrill", "quiz", *arguments], encoding="utf-8", timeout=15, echo=False,
+            dimensions=(30, width), env={**inherited, **own}, preexec_fn=_fresh_signals,
+        )  # fmt: skip
+
+    def types(self, line: str, *then: str) -> None:
+        """Type a line, and wait for one text after the other."""
+        self.child.sendline(line)
+        self.sees(*then)
+
+    def sees(self, *texts: str) -> None:
+        """Wait for one text after the other."""
+        for text in texts:
+            self.child.expect(re.escape(text).replace(r"\ ", rf"{_BLANK}+") + f"{_BLANK}*")
+
+    def ends(self) -> int:
+        """Wait for the end; what is returned is the exit code."""
+        self.child.expect(pexpect.EOF)
+        self.child.close()
+        assert isinstance(self.child.exitstatus, int)
+        return self.child.exitstatus
+
+
+def _fresh_signals() -> None:
+    """Whoever runs the tests may have blocked or ignored signals, which a child would inherit."""
+    signal.pthread_sigmask(signal.SIG_SETMASK, ())
+    for each in (signal.SIGINT, signal.SIGTSTP, signal.SIGCONT):
+        signal.signal(each, signal.SIG_DFL)
+
+
+@pytest.fixture(params=[60, 120])
+def terminal(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Terminal]:
+    running = Terminal(tmp_path, request.param, RACING_CAR)
+    running.sees("(a) > ")
+    yield running
+    running.child.close(force=True)
+
+
+def test_every_key(terminal: Terminal) -> None:
+    terminal.types("?", "show it again", "the map", "this help", "(a) > ")
+    terminal.types("p", "Value iteration starts", "(a) > ")
+    terminal.types("hint", "Hint 1 of", "(a) > ")
+    terminal.types("t", "fundamentals", "0 of", "(a) > ")
+    terminal.types("m", "Your working", "ends it", "... ")
+    terminal.types("V1 = 2", "... ")
+    terminal.types("", "(a) > ")
+    terminal.types("r", "Problem 1", "(a) > ")
+    terminal.types("cool: 7/2, warm: 5/2", "Right", "counts 3/4", "(b) > ")
+    terminal.types("w", "The answer:", "Enter next")
+    terminal.types("cool: fast", "was not judged: cool: fast", "Enter next")
+    terminal.types("p", "Value iteration starts", "Enter next")
+    terminal.types("w", "V₁", "Enter next")
+    terminal.types("", "1 of 2 parts right", "Weakest", "Tomorrow: rldrill quiz", "f five more of these")
+    terminal.types("f", "Problem 1 of 5", "(a) > ")
+    terminal.types("v", "Problem 1 of 5", "(a) > ")
+    terminal.types("s", "The answer:", "> ")
+    terminal.types("q", "0 of", "f five more of these")
+    terminal.types("")
+    assert terminal.ends() == 0
+
+
+def test_quitting_before_an_answer(terminal: Terminal) -> None:
+    terminal.types("q", "Nothing was answered")
+    assert terminal.ends() == 0
+
+
+def test_ctrl_d_sums_up(terminal: Terminal) -> None:
+    terminal.types("1, 2", "(a) > ")
+    terminal.child.sendeof()
+    terminal.sees("0 of 2 parts right")
+    terminal.child.sendeof()
+    assert terminal.ends() == 0
+
+
+def test_ctrl_c_sums_up(terminal: Terminal) -> None:
+    terminal.types("1, 2", "(a) > ")
+    terminal.child.sendintr()
+    terminal.sees("0 of 2 parts right")
+    assert terminal.ends() == 130
+
+
+def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: Terminal) -> None:
+    terminal.child.send("cool: 7/2, ")
+    time.sleep(0.3)  # nothing tells that it was read
+    os.kill(terminal.child.pid, signal.SIGSTOP)
+    time.sleep(0.1)  # else going on comes before having stopped
+    os.kill(terminal.child.pid, signal.SIGCONT)
+    terminal.sees("Value iteration starts", "(a) > cool: 7/2, ")
+    terminal.types("warm: 5/2", "Right")
+
+
+def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80)
+    running.sees("Your first quiz", "New: ", "n goes to the problem > ")
+    running.types("", "your turn > ")
+    running.types("", "Problem 1 of 10", "h hint", "> ")
+    running.types("q", "Nothing was answered")
+    assert running.ends() == 0
+
+
+def test_plain_is_ascii_without_pictures(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "--plain", RACING_CAR)
+    running.sees("(a) > ")
+    assert running.child.before.isascii()
+    assert "s: cool, a: slow, s': cool" in running.child.before.replace("\r\n", "\n")
+    assert "--" not in running.child.before
+    running.child.close(force=True)
