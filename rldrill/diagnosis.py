@@ -162,7 +162,7 @@ class Diagnosing:
         """The verdict itself; but what is close to the key by accident, since something is missing, is wrong."""
         if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
             return verdict
-        self._finish()
+        self.finish()
         found = explained(self.search({}), self._typed(label, text), Clock())  # a verdict depends on no clock
         likely = sum(cause.weight for cause in found.causes if cause.weight >= SURE_ENOUGH)
         if found.confidence * likely < _SURE * sum(cause.weight for cause in found.causes) or not likely:
