@@ -15,8 +15,12 @@ _PASTED = 0.03
 
 def line_editor() -> Ask:
     """``input`` with line editing; importing readline is what makes it edit."""
-    if is_interactive():  # whoever sits there may press Ctrl-C, though a script that started us may have ignored it
+    if (
+        is_interactive()
+    ):  # whoever sits there may press Ctrl-C, though a script that started us may have ignored or blocked it
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     with contextlib.suppress(ImportError):  # Windows' own console edits lines by itself
         import readline
 
