@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from threading import Event, Thread
 from typing import Any
 
+from rldrill.background import in_background
 from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
 from rldrill.render.differences import differences
@@ -139,8 +140,7 @@ class Diagnosing:
         if self._thread is not None and self._thread.is_alive():
             return
         self._stop.clear()
-        self._thread = Thread(target=self._ahead, daemon=True)
-        self._thread.start()
+        self._thread = in_background(self._ahead)
 
     def _ahead(self) -> None:
         search, clock = self.search({}), Clock(stop=self._stop)

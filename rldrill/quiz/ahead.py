@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from threading import Thread
 
+from rldrill.background import in_background
 from rldrill.exercise import Exercise
 
 
@@ -18,8 +19,7 @@ class Ahead:
     def begin(self) -> None:
         """Draw the next one; nothing happens if that has begun."""
         if self._thread is None:
-            self._thread = Thread(target=self._draw, daemon=True)
-            self._thread.start()
+            self._thread = in_background(self._draw)
 
     def __iter__(self) -> Iterator[Exercise]:
         return self

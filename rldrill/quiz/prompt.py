@@ -4,7 +4,8 @@ import contextlib
 import signal
 import sys
 from collections.abc import Callable
-from threading import Thread
+
+from rldrill.background import in_background
 
 #: Asks for what is typed: a line, or the lines that are pasted together. EOFError is the end of input.
 Ask = Callable[[str], str]
@@ -15,8 +16,11 @@ _PASTED = 0.03
 
 def line_editor() -> Ask:
     """``input`` with line editing; importing readline is what makes it edit."""
-    if is_interactive():  # whoever sits there may press Ctrl-C, though a script that started us may have ignored it
+    # Whoever sits there may press Ctrl-C, though a script that started us has ignored or blocked it.
+    if is_interactive():
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     with contextlib.suppress(ImportError):  # Windows' own console edits lines by itself
         import readline
 
@@ -61,7 +65,7 @@ def on_resume(redraw: Callable[[], str]) -> None:
             print()
             print(f"{redraw()}{readline.get_line_buffer()}", end="", flush=True)
 
-    Thread(target=wait, daemon=True).start()
+    in_background(wait)
 
 
 def _is_waiting() -> bool:

@@ -4,6 +4,7 @@ import os
 import sys
 import types
 from collections.abc import Iterator
+from fractions import Fraction
 from io import StringIO
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from rich.console import Console
 
 import rldrill
 from rldrill.problems.catalogue import family
+from rldrill.problems.errors import UsageError
+from rldrill.quiz.ahead import Ahead
 from rldrill.quiz.keys import HELP
 from rldrill.quiz.prompt import line_editor
 from rldrill.quiz.questions import questions
@@ -92,6 +95,43 @@ def test_hint_first_the_formula_then_the_sentence() -> None:
     assert session.parts[0].state is State.SHOWN
 
 
+def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
+    # r = 5, 9, 3, 2 and γ = 1/2: R_1 = 9 + 3/2 + 2/4.
+    typist, session, _ = quiz("1", "2", "3", "h", "11", names=("return/1/7",))
+    assert "Still wrong, so h now shows the first line" in typist.seen
+    assert "9 + 1/2·3 + (1/2)²·2" in typist.seen
+    assert session.parts[0].points == Fraction(1, 4)
+
+
+def test_a_family_that_is_new_begins_with_another_problem_worked_out() -> None:
+    typist = Typist("", "", "q")
+    Screen(typist.screen, typist, seen=["td-zero"]).run([rldrill.draw("return", 1, 7)], Session(1))
+    assert "New: Return." in typist.seen
+    example, _, own = typist.seen.partition("your turn")
+    assert "R₁ = " in example
+    assert "r₁ = 5, r₂ = 9" in own
+    assert "r₁ = 5, r₂ = 9" not in example
+
+
+@pytest.mark.parametrize("lines", [("n", "q"), ("q",)])
+def test_the_worked_example_is_not_pressed_on_anybody(lines: tuple[str, ...]) -> None:
+    typist = Typist(*lines)
+    Screen(typist.screen, typist, seen=[]).run([rldrill.draw("return", 1, 7)], Session(1))
+    assert "R₁ = " not in typist.seen
+
+
+def test_a_problem_that_cannot_be_drawn_ahead_is_told_where_it_is_asked_for() -> None:
+    def drawn() -> Iterator[rldrill.Exercise]:
+        yield rldrill.draw("return", 1, 7)
+        raise UsageError("There are no more.")
+
+    ahead = Ahead(drawn())
+    assert next(ahead).id == rldrill.draw("return", 1, 7).id
+    ahead.begin()
+    with pytest.raises(UsageError, match="no more"):
+        next(ahead)
+
+
 def test_restart_and_variant_leave_no_trace_of_what_was_not_begun() -> None:
     _, session, _ = quiz("r", "v", "s", names=("td-zero/1/7",))
     assert [record.exercise.id for record in session.records] == [f"td-zero/1/8@{family('td-zero').revision}"]
@@ -139,24 +179,6 @@ def test_in_a_real_terminal(terminal: pexpect.spawn) -> None:
     terminal.expect("Enter next")
     terminal.sendline("")
     terminal.expect("2 of 2 parts right")
-    terminal.expect(pexpect.EOF)
-    terminal.close()
-    assert terminal.exitstatus == 0
-
-
-def test_ctrl_c_in_a_real_terminal(terminal: pexpect.spawn) -> None:
-    terminal.expect(r"\(a\) > ")
-    terminal.sendintr()
-    terminal.expect("Nothing was answered")
-    terminal.expect(pexpect.EOF)
-    terminal.close()
-    assert terminal.exitstatus == 130
-
-
-def test_ctrl_d_in_a_real_terminal(terminal: pexpect.spawn) -> None:
-    terminal.expect(r"\(a\) > ")
-    terminal.sendeof()
-    terminal.expect("Nothing was answered")
     terminal.expect(pexpect.EOF)
     terminal.close()
     assert terminal.exitstatus == 0
