@@ -32,7 +32,8 @@ from rldrill.solutions.answers.numbers import Reading, number, plain
 from rldrill.solutions.answers.pasted import laid_out
 from rldrill.solutions.answers.rule import equivalent, is_right
 from rldrill.solutions.answers.source import clean
-from rldrill.solutions.exact import NotReal
+from rldrill.solutions.exact import NotReal, sign
+from rldrill.solutions.exact import parameters as parameters_of
 
 __all__ = [
     "Reading",
@@ -60,6 +61,7 @@ _DRAWN = re.compile(r"(?=.*[↑↓←→<>^]|v+$)[↑↓←→<>^v.#*_A-Z-]{2,}"
 _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
+_BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
 _ENTRIES = 200
 _FORMS = 30
 
@@ -74,7 +76,14 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     Raises:
         Unreadable: it is not one number.
     """
-    return plain(text.strip()) or _number(clean(laid_out(text)), parameters, Arithmetic())
+    reading = plain(text.strip()) or _number(clean(laid_out(text)), parameters, Arithmetic())
+    bars = _BARS.fullmatch(text.strip())
+    if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
+        raise Unreadable(
+            f"{quoted(text.strip())} may be the absolute value, or {quoted(bars[1])} in a cell; write abs({bars[1]}), "
+            "or the number without bars."
+        )
+    return reading
 
 
 def read_vector(

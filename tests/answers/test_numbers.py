@@ -172,3 +172,14 @@ def test_plain_numbers_are_read_at_once_as_the_grammar_reads_them(text: str) -> 
     assert at_once.value == with_brackets.value == fmpq(*Fraction(text).as_integer_ratio())
     assert at_once.decimal == with_brackets.decimal
     assert at_once.echo == with_brackets.echo.strip("()") == text
+
+
+@pytest.mark.parametrize("text", ["|3 - 4|", "|-3|", "|γ|"])
+def test_bars_around_what_may_be_negative_are_refused_with_both_readings(text: str) -> None:
+    with pytest.raises(Unreadable, match=r"may be the absolute value, or .* in a cell; write abs"):
+        read_number(text, ["gamma"])
+
+
+@pytest.mark.parametrize(("text", "value"), [("|3|", 3), ("|4 - 1|", 3), ("| -3 |", -3), ("abs(3 - 4)", 1)])
+def test_bars_that_change_nothing_are_read(text: str, value: int) -> None:
+    assert read_number(text).value == value
