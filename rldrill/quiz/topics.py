@@ -19,7 +19,7 @@ def topic_map(attempts: Sequence[Attempt], now: datetime) -> RenderableType:
     groups = {name.replace("_", "-"): skills(families) for name, families in topics().items()}
     shares = progress(attempts, groups, now).shares
     rows = [
-        (share.name, "█" * round(_BAR * share.mastery) + "░" * (_BAR - round(_BAR * share.mastery)),
+        (share.name, "█" * round(_BAR * share.mastery) + "─" * (_BAR - round(_BAR * share.mastery)),
          f"{round(100 * share.mastery)} %", f"{share.seen} of {share.of} seen")
         for share in shares
     ]  # fmt: skip

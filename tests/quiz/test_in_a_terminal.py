@@ -125,4 +125,6 @@ def test_plain_is_ascii_without_pictures(tmp_path: Path) -> None:
     assert running.child.before.isascii()
     assert "s: cool, a: slow, s': cool" in running.child.before.replace("\r\n", "\n")
     assert "--" not in running.child.before
+    running.types("t", "fundamentals", "0 of", "(a) > ")
+    assert "\\u" not in running.child.before
     running.child.close(force=True)
