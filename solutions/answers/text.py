@@ -76,7 +76,7 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
     Raises:
         Unreadable: it is not one number.
     """
-    reading = plain(text.strip()) or _number(clean(laid_out(text)), parameters, Arithmetic())
+    reading = plain(text) or _number(clean(laid_out(text)), parameters, Arithmetic())
     bars = _BARS.fullmatch(text.strip())
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
         raise Unreadable(
@@ -204,7 +204,7 @@ def read_table(
     Raises:
         Unreadable: a key is unknown, repeated or missing, or its number cannot be read.
     """
-    if len(keys) == 1 and (reading := plain(text.strip())) is not None:
+    if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
     source = clean(laid_out(text))
     asked = Asked(keys, ends)

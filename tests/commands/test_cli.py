@@ -13,7 +13,8 @@ import rldrill
 
 ROOT = Path(__file__).parent.parent.parent
 COMMANDS = (
-    "quiz", "history", "worksheet", "verify", "solve", "show", "sheet", "list", "fields", "generate", "audit",
+    "quiz", "stats", "history", "worksheet", "verify", "solve", "show", "sheet", "list", "fields", "generate",
+    "gallery", "audit",
 )  # fmt: skip
 
 

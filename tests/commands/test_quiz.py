@@ -96,10 +96,10 @@ def test_hint_first_the_formula_then_the_sentence() -> None:
 
 
 def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
-    # r = 5, 9, 3, 2 and γ = 1/2: R_1 = 9 + 3/2 + 2/4.
-    typist, session, _ = quiz("1", "2", "3", "h", "11", names=("return/1/7",))
+    # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2.
+    typist, session, _ = quiz("1", "5", "3", "h", "2", names=("return/1/7",))
     assert "Still wrong, so h now shows the first line" in typist.seen
-    assert "9 + 1/2·3 + (1/2)²·2" in typist.seen
+    assert "−1 + 1/3·8 + (1/3)²·3" in typist.seen
     assert session.parts[0].points == Fraction(1, 4)
 
 
@@ -109,8 +109,8 @@ def test_a_family_that_is_new_begins_with_another_problem_worked_out() -> None:
     assert "New: Return." in typist.seen
     example, _, own = typist.seen.partition("your turn")
     assert "R₁ = " in example
-    assert "r₁ = 5, r₂ = 9" in own
-    assert "r₁ = 5, r₂ = 9" not in example
+    assert "r₁ = 9, r₂ = −1" in own
+    assert "r₁ = 9, r₂ = −1" not in example
 
 
 @pytest.mark.parametrize("lines", [("n", "q"), ("q",)])
