@@ -28,7 +28,7 @@ class Attempt:
         part: the letter of the part, and ``parts`` how many the problem has.
         typed: what was typed.
         outcome: what it is, one of ``OUTCOMES``.
-        misconceptions: the names of the mistakes that give this answer.
+        misconceptions: the names of the mistakes that give this answer, or the kind of cause that was found.
         hints: how many hints were read for the part before.
         retries: how many answers to the part counted before.
         seconds: since the part was asked, or since the attempt before.

@@ -3,6 +3,8 @@
 from fractions import Fraction
 
 import rldrill
+from rldrill.history.attempts import Attempt
+from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 
 EXERCISE = rldrill.read({"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4], "time": 1}})
@@ -75,3 +77,15 @@ def test_a_session_counts_the_problems_that_were_begun() -> None:
     begun, _, second = record()
     begun.answer(second, "3")
     assert Session(2, [begun, Record.of(EXERCISE)]).parts == begun.parts
+
+
+def test_what_the_diagnosis_finds_is_kept_where_no_listed_mistake_gives_the_answer() -> None:
+    kept: list[Attempt] = []
+    recorder = Recorder(kept.append)
+    longer = {"family": "return", "given": {"gamma": "1/2", "rewards": [1, 4, 3], "time": 1}}
+    # R₁ = 4 + 3/2 = 11/2 with its sign turned; 1/2·11/2, with its first reward discounted, is a listed mistake.
+    for typed in ("-11/2", "11/4"):
+        fresh = Record.of(rldrill.read(longer))
+        fresh.answer(fresh.parts[0], typed)
+        recorder.ended(fresh, fresh.parts[0])
+    assert [attempt.misconceptions for attempt in kept] == [("sign",), ("first-reward-discounted",)]
