@@ -157,7 +157,10 @@ def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
 
 
 def _bound_memory() -> None:
+    """Bound what is taken beside what there is already: whoever calls this as a library may hold much memory."""
     with suppress(ImportError, ValueError, OSError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) if sys.platform == "linux" else 0
+        most = pages * resource.getpagesize() + MEMORY
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))

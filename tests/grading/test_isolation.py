@@ -1,5 +1,6 @@
 """Whatever happens while one student's answers are marked costs that student only."""
 
+import mmap
 import os
 import sys
 import time
@@ -92,3 +93,15 @@ def test_a_problem_that_cannot_be_solved_in_time_is_tried_once(tmp_path: Path, m
 def test_numbers_of_a_hundred_thousand_digits_are_an_answer_that_is_not_read(tmp_path: Path) -> None:
     points, refused = graded(tmp_path, "9" * 100_000, "9^9^9^9", RIGHT)
     assert (points, refused) == ({"A": 0, "B": 0, "C": 1}, [])
+
+
+def test_memory_that_the_caller_holds_is_not_counted(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(f"{HEAD}Ann,td-zero/1/7,a,{RIGHT}\n")
+    held = mmap.mmap(-1, 5 * 2**30, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | getattr(mmap, "MAP_NORESERVE", 0))
+    try:
+        report = verify([path], Settings(isolated=True))
+    finally:
+        held.close()
+    assert not report.refused
+    assert report.score.points == 1
