@@ -450,7 +450,7 @@ def test_files_that_answers_name_are_opened_only_with_leave_and_only_beside_them
         assert "not in the folder of the answers" in sentence
         assert code == 3
     (refusal,) = verify_with([write(folder, "a.csv", "problem,part,answer\ntd.toml,a,6.8\n")]).refused
-    assert "not opened without leave" in refusal.says
+    assert "names a problem file; --allow-files opens those that lie beside the answers." in refusal.says
 
 
 def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:

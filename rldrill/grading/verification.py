@@ -239,7 +239,7 @@ class _Run:
         """Why a problem file that answers name is not opened; nothing if it is."""
         if not self._settings.allow_files:
             return (
-                f"{entry.problem!r} is a file of one's own, and files that answers name are not opened without leave."
+                f"{entry.problem[:60]!r} names a problem file; --allow-files opens those that lie beside the answers."
             )
         folder = entry.path.parent.resolve()
         try:
