@@ -18,7 +18,7 @@ from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 
 #: As many problems of a level are held to what they were; one of them is shown.
-DRAWN = 40
+DRAWN = 20
 
 
 def page(family: Family) -> str:
