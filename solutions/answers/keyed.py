@@ -224,6 +224,8 @@ def _tabled(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
         return None
     parting = next((mark for mark in "|;," if lines[0].has(mark)), None)
     rows = [line.split(parting) if parting else _words(line) for line in lines]
+    if not all(rows):  # a line of commas alone
+        return None
     for reading in _readings(rows, pairs=not isinstance(asked.keys[0], str)):
         found = [(_key(names, asked), names, cell) for names, cell in reading]
         placed = {key: cell for key, _, cell in found if key is not None}

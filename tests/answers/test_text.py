@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 import sympy
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from rldrill.solutions.answers.text import (
@@ -726,6 +726,7 @@ PIECES = [
 
 
 @given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join))
+@example("1\n,")
 def test_no_jumble_of_known_pieces_raises_anything_else(text):
     for read in READERS:
         if unreadable := complaint(read, text):
