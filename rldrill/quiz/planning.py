@@ -11,6 +11,7 @@ from rldrill.history.attempts import Attempt
 from rldrill.history.memory import Memory, Skill, remembered
 from rldrill.problems.catalogue import topics
 from rldrill.problems.errors import UsageError
+from rldrill.quiz.mistakes import called
 
 #: A level comes as many topics later as this than the one below.
 _TOPICS_A_LEVEL = 3
@@ -197,7 +198,7 @@ class Plan:
             return "which is new" if above else "because the level below went well"
         if mistakes:
             name, times = mistakes.most_common(1)[0]
-            return f"because of “{name.replace('-', ' ')}”, {_times(times)}"
+            return f"because of “{called(name)}”, {_times(times)}"
         if memory.lapses:
             return "because it went wrong the last time"
         days = (now - memory.last) // _DAY

@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from rldrill.history.progress import Day, Mistake, Progress
+from rldrill.quiz.mistakes import called
 from rldrill.render.terminal import words
 
 #: How wide a picture of it is, in columns.
@@ -107,7 +108,7 @@ def _shade(shades: str, answers: int) -> str:
 def _mistakes(mistakes: tuple[Mistake, ...]) -> Iterator[RenderableType]:
     table = _plain_table(True, False, False)
     for each in mistakes:
-        table.add_row(f"{each.times} ×", words(each.name.replace("-", " ")), words((each.family, "dim")))
+        table.add_row(f"{each.times} ×", words(called(each.name)), words((each.family, "dim")))
     yield table
     families = dict.fromkeys(each.family for each in mistakes[:3])
     yield words(("To drill these: ", "dim"), f"rldrill quiz {' '.join(families)}")

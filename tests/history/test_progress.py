@@ -13,8 +13,11 @@ from rldrill.cli import app
 from rldrill.history.attempts import Attempt
 from rldrill.history.log import append
 from rldrill.history.memory import Skill
+from rldrill.history.place import HistoryError
 from rldrill.history.progress import Mistake, progress
+from rldrill.quiz.mistakes import called
 from rldrill.quiz.progress import shown
+from rldrill.solutions.diagnosis import weights
 
 NOW = datetime(2026, 11, 25, 8, tzinfo=UTC)
 DAY = timedelta(days=1)
@@ -65,6 +68,21 @@ def test_it_fits_the_terminal(width: int) -> None:
     assert max(map(len, text.splitlines())) <= width
     for piece in ("bellman", "1/2 seen", "33 % of the questions right", "1 ×  forgot gamma", "rldrill quiz td-zero"):
         assert piece in text
+
+
+def test_a_database_that_cannot_be_read_is_named(tmp_path: Path) -> None:
+    (tmp_path / "history.db").write_text("a shopping list " * 100)
+    result = CliRunner().invoke(app, ["stats"], env={"RLDRILL_HOME": str(tmp_path)})
+    assert isinstance(result.exception, HistoryError)
+    assert f"{tmp_path / 'history.db'}: file is not a database." in str(result.exception)
+
+
+def test_every_kind_of_cause_has_words_of_its_own() -> None:
+    kinds = {*weights.IDEAS, *weights.VALUES, *weights.INSIDE, *weights.PROCEDURE, *weights.ANSWERS}
+    words = {kind: called(kind) for kind in kinds}
+    assert [kind for kind in words if " " not in words[kind]] == []
+    assert len(set(words.values())) == len(words)
+    assert called("forgot-gamma") == "forgot gamma"  # a listed mistake
 
 
 def stats(folder: Path, *arguments: str) -> str:
