@@ -30,23 +30,19 @@ def command(
 
     Examples: rldrill history export all.jsonl · rldrill history import all.jsonl · rldrill history forget bellman
     """
-    import sqlite3
-
-    from rldrill.history.place import HistoryError, history_file
+    from rldrill.history.place import history_file, told
     from rldrill.problems.errors import UsageError
 
     path = history_file()
     if what is not What.FORGET and len(names or ()) > 1:
         raise UsageError(f"'rldrill history {what.value}' takes one file.")
-    try:
+    with told(path):
         if what is What.EXPORT:
             _export(path, Path(names[0]) if names else None)
         elif what is What.IMPORT:
             _import(path, Path(names[0]) if names else None)
         else:
             _forget(path, names or [], yes=yes)
-    except sqlite3.Error as error:
-        raise HistoryError(f"{path}: {error}.") from None
 
 
 def _export(path: Path, target: Path | None) -> None:

@@ -30,13 +30,16 @@ def command(
 
     from rldrill.commands.output import print_json
     from rldrill.history.log import read
-    from rldrill.history.place import history_file
+    from rldrill.history.place import history_file, told
     from rldrill.history.progress import progress
     from rldrill.problems.errors import UsageError
 
     if output is not None and output.suffix.lower() not in _ENDINGS:
         raise UsageError(f"{output} has none of the endings {', '.join(_ENDINGS)}, which say how it is written.")
-    found = progress(read(history_file()), _groups(names or []), datetime.now().astimezone())
+    path = history_file()
+    with told(path):
+        attempts = read(path)
+    found = progress(attempts, _groups(names or []), datetime.now().astimezone())
     if json:
         print_json(found.to_json())
     elif output is not None:

@@ -1,6 +1,9 @@
 """Where the history lies."""
 
 import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from rldrill.problems.errors import UserError
@@ -13,6 +16,19 @@ class HistoryError(UserError):
     """The history cannot be read or written (exit code 3)."""
 
     exit_code = 3
+
+
+@contextmanager
+def told(path: Path) -> Iterator[None]:
+    """What SQLite says of a database becomes a sentence that names it.
+
+    Raises:
+        HistoryError: the database cannot be read or written.
+    """
+    try:
+        yield
+    except sqlite3.Error as error:
+        raise HistoryError(f"{path}: {error}.") from None
 
 
 def history_file() -> Path:

@@ -112,7 +112,7 @@ def test_forgetting_takes_one_family_or_all_and_leaves_no_trace(tmp_path: Path) 
 def test_no_answer_is_lost_when_the_process_is_killed(tmp_path: Path) -> None:
     path = tmp_path / "history.db"
     told: set[str] = set()
-    rounds = int(os.environ.get("KILLS", "3"))
+    rounds = int(os.environ.get("KILLS", "20"))
     for number in range(rounds):
         process = writer(path, str(number), "endless")
         assert process.stdout is not None
@@ -237,6 +237,30 @@ def test_a_disk_that_is_full_leaves_what_was_there(tmp_path: Path, monkeypatch: 
         full.setattr(sqlite3, "connect", small)
         Keeper(said.append, lambda: path).keep(replace(SECOND, typed="9" * 100_000))
     assert said == ["Your answers are not kept: database or disk is full."]
+    assert log.read(path) == (FIRST,)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no limits")
+def test_a_file_that_may_not_grow_is_told_once_and_keeps_what_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    log.append(path, [FIRST])
+    size = path.stat().st_size
+    code = f"""
+import resource, sys
+from pathlib import Path
+from rldrill.history.attempts import from_lines
+from rldrill.history.keeping import Keeper
+resource.setrlimit(resource.RLIMIT_FSIZE, ({size}, {size}))
+keeper = Keeper(print, lambda: Path(sys.argv[1]))
+for attempt in from_lines(sys.argv[2:], ""):
+    keeper.keep(attempt)
+"""
+    long = [to_line(replace(SECOND, id=name, typed="9" * 30_000)) for name in "xy"]
+    ran = subprocess.run(
+        [sys.executable, "-c", code, str(path), *long], capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert ran.stdout.splitlines() == ["Your answers are not kept: disk I/O error."]
     assert log.read(path) == (FIRST,)
 
 
