@@ -36,7 +36,7 @@ class Sitting:
     Args:
         exam: the exam.
         version: the version that is sat.
-        path: the file of answers; it is written after every answer.
+        path: the file of answers, to be written after every answer.
         begun: when it began.
         manifest: the exam as a file, by which the answers are graded; None where it is nowhere.
         answers: what was typed, by place.
@@ -79,25 +79,12 @@ class Sitting:
         return None if self.end is None else max(timedelta(0), self.end - now)
 
     def answer(self, place: Place, text: str) -> None:
-        """Take in what was typed, and write it down.
-
-        Raises:
-            OSError: the file cannot be written.
-        """
+        """Take in what was typed; an empty text takes the answer back."""
         if text.strip():
-            self.answers[place] = text
+            # What no text holds (half a pair of surrogates, pasted) cannot be in the file, and must not count.
+            self.answers[place] = text.encode("utf-8", "replace").decode("utf-8")
         else:
             self.answers.pop(place, None)
-        self.save()
-
-    def hand_in(self, now: datetime) -> None:
-        """End the sitting.
-
-        Raises:
-            OSError: the file cannot be written.
-        """
-        self.handed_in = now
-        self.save()
 
     def save(self) -> None:
         """Write the file of answers, whole or not at all.
@@ -110,9 +97,9 @@ class Sitting:
         if self.handed_in is not None:
             lines.append(f"{_HANDED_IN}{self.handed_in.isoformat()}")
         for number, exercise in enumerate(self.version.exercises):
-            lines.append(f"\n[{json.dumps(self._name(number), ensure_ascii=False)}]")
+            lines.append(f"\n[{_quoted(self._name(number))}]")
             lines += [
-                f"{part.label} = {json.dumps(text, ensure_ascii=False)}"
+                f"{part.label} = {_quoted(text)}"
                 for index, part in enumerate(exercise.parts)
                 if (text := self.answers.get(Place(number, index))) is not None
             ]
@@ -182,6 +169,11 @@ def by_topic(sitting: Sitting, graded: tuple[Graded, ...]) -> dict[str, tuple[Fr
         points, of = found.get(topic, (Fraction(0), 0))
         found[topic] = points + result.points, of + result.of
     return found
+
+
+def _quoted(text: str) -> str:
+    """A text as TOML has it, which is as JSON has it but for one control character."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _moment(text: str) -> datetime | None:

@@ -46,6 +46,7 @@ class SittingScreen:
         self._console = console
         self._ask = ask
         self._now = now
+        self._kept, self._told = True, False
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -54,16 +55,34 @@ class SittingScreen:
             Whether it was handed in.
 
         Raises:
-            OSError: an answer cannot be written.
+            OSError: it is left, and the answers cannot be written.
         """
         if sitting.handed_in is None:
             self._head(sitting)
+            self._keep(sitting)  # from now on the time is known, whatever happens
             if not self._parts(sitting):
+                sitting.save()
                 self._print(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
                 return False
-            sitting.hand_in(self._now())
+            sitting.handed_in = self._now()
+            self._keep(sitting)
         self._report(sitting)
         return True
+
+    def _keep(self, sitting: Sitting) -> None:
+        """Write the file of answers; where the disk does not let us, say so once and go on."""
+        try:
+            sitting.save()
+            self._kept = True
+        except OSError as error:
+            self._kept = False
+            if not self._told:
+                self._told = True
+                why = (error.strerror or str(error)).lower()
+                self._print(
+                    words((f"Your answers cannot be written to {sitting.path}: {why}. ", "yellow"),
+                          "It is tried again with every answer; hand in here, or make room before you leave.")
+                )  # fmt: skip
 
     def _head(self, sitting: Sitting) -> None:
         head = sitting.exam.head
@@ -81,7 +100,7 @@ class SittingScreen:
         places = sitting.places
         at = next((index for index, place in enumerate(places) if place not in sitting.answers), 0)
         shown: int | None = None
-        while True:
+        while not self._is_over(sitting):
             if at == len(places):
                 at, over = self._at_the_end(sitting)
                 if over is not None:
@@ -100,9 +119,8 @@ class SittingScreen:
             except KeyboardInterrupt:
                 self._print()
                 text = self._interrupted()
-            if sitting.end is not None and self._now() > sitting.end:
-                self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
-                return True
+            if self._is_over(sitting):
+                break
             if text == "leave":
                 return False
             if text == "hand in":
@@ -115,6 +133,7 @@ class SittingScreen:
                 self._help()
             elif text == "clear":
                 sitting.answer(place, "")
+                self._keep(sitting)
             elif text in ("", "next"):
                 at += 1
             elif text == "back":
@@ -123,7 +142,13 @@ class SittingScreen:
                 at = self._found(places, match, at)
             else:
                 sitting.answer(place, text)
+                self._keep(sitting)
                 at += self._is_read(sitting, place, text)
+        self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
+        return True
+
+    def _is_over(self, sitting: Sitting) -> bool:
+        return sitting.end is not None and self._now() > sitting.end
 
     def _at_the_end(self, sitting: Sitting) -> tuple[int, bool | None]:
         """Ask whether to hand in: where to go on if not, and whether it is over."""
@@ -224,6 +249,9 @@ class SittingScreen:
                     self._indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
                     self._indented(renderable(exercise.answer(own)))
+        if not self._kept:
+            self._print(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
+            return
         exam = "" if sitting.manifest is None else f"--for {sitting.manifest} "
         again = f"rldrill verify {exam}{sitting.path}"
         self._print(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))

@@ -128,3 +128,20 @@ def test_plain_is_ascii_without_pictures(tmp_path: Path) -> None:
     running.types("t", "fundamentals", "0 of", "(a) > ")
     assert "\\u" not in running.child.before
     running.child.close(force=True)
+
+
+def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -> None:
+    blueprint = tmp_path / "exam.toml"
+    blueprint.write_text('duration = 60\n[[problems]]\nid = "return/1/7"\n')
+    arguments = ("--exam", str(blueprint), "--answers", str(tmp_path / "mine.toml"))
+    killed = Terminal(tmp_path, 80, *arguments)
+    killed.sees("[60 min left] 1a > ")
+    killed.types("34/9", "1b > ")
+    killed.child.kill(signal.SIGKILL)
+    killed.child.expect(pexpect.EOF)
+    running = Terminal(tmp_path, 80, *arguments)
+    running.sees("min left] 1b > ")
+    running.types("go 1a", "your answer so far: 34/9", "1a > ")
+    running.types("hand in", "1 of 2 parts have no answer. Hand in?")
+    running.types("yes", "of 2 points", "1b 0 of 1 not answered")
+    assert running.ends() == 0

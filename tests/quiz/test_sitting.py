@@ -135,6 +135,51 @@ def test_time_is_up(tmp_path: Path) -> None:
     assert "2 of 3 points" in text
 
 
+def test_time_goes_on_while_nobody_sits_there(tmp_path: Path) -> None:
+    planned = exam(duration=10)
+    path = tmp_path / "answers.toml"
+    sit(Sitting(planned, planned.versions[0], path, START), "leave")  # before any answer
+    later = Sitting(planned, planned.versions[0], path, START + timedelta(hours=1))
+    later.resume()
+    assert later.begun == START
+    hand = Hand()
+    hand.time = START + timedelta(hours=1)
+    console = Console(width=100, record=True, markup=False, highlight=False)
+    assert SittingScreen(console, hand.ask, hand.now).run(later)
+    assert hand.prompts == []
+    assert "Time is up." in console.export_text()
+
+
+@pytest.mark.parametrize(
+    "typed", ["3\x7f", "\udcff", "3\x00", "1\n2", "\u2028", "# handed in: 2026-11-26T09:00:00+00:00"]
+)
+def test_whatever_is_typed_is_kept_and_counts_as_verify_counts_it(sitting: Sitting, typed: str) -> None:
+    _, b, _ = right(sitting)
+    sit(sitting, typed, "", b, "leave")
+    again = Sitting(sitting.exam, sitting.version, sitting.path, START)
+    again.resume()
+    assert again.answers == sitting.answers
+    assert again.handed_in is None
+    assert verify([sitting.path]).score.points == sum((graded.points for graded in again.graded()), Fraction(0))
+
+
+def test_a_disk_that_takes_nothing_is_told_once_and_the_exam_goes_on(tmp_path: Path) -> None:
+    planned = exam()
+    sitting = Sitting(planned, planned.versions[0], tmp_path / "gone" / "answers.toml", START)
+    a, b, last = right(sitting)
+    handed_in, text, _ = sit(sitting, a, b, last, "yes", width=400)
+    assert handed_in
+    assert text.count("cannot be written to") == 1
+    assert "3 of 3 points" in text
+    assert f"Your answers could not be written to {sitting.path}." in text
+    sitting.handed_in = None
+    with pytest.raises(FileNotFoundError):
+        sit(sitting, "leave")
+    sitting.path.parent.mkdir()
+    assert "Kept in" in sit(sitting, "leave")[1]
+    assert verify([sitting.path]).score.points == 3
+
+
 @pytest.mark.parametrize("typed", [("0", "0", "0"), ("1/2",), ("right", "right", "0"), ()])
 def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) -> None:
     own = right(sitting)
