@@ -74,7 +74,7 @@ def command(
             "'rldrill worksheet' to print problems or 'rldrill generate' to get them as data."
         )
     if exam is not None:
-        _sit(exam, version, answers, seed)
+        _sit(exam, version, answers, seed, plain=plain)
         return
     hold_resumes()
     from rldrill.history.keeping import Keeper
@@ -121,7 +121,7 @@ def command(
         raise typer.Exit(130)
 
 
-def _sit(source: Path, version: str | None, answers: Path | None, seed: int | None) -> None:
+def _sit(source: Path, version: str | None, answers: Path | None, seed: int | None, *, plain: bool) -> None:
     """Sit an exam, or go on with it."""
     from rldrill.exam.blueprint import read_blueprint
     from rldrill.exam.manifest import manifest, read_manifest, written
@@ -148,7 +148,7 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():
         sitting.resume()
-    if not SittingScreen(console(), line_editor(), utc_now).run(sitting):
+    if not SittingScreen(console(plain=plain), line_editor(), utc_now, plain=plain).run(sitting):
         raise typer.Exit(130)
 
 

@@ -56,19 +56,22 @@ def _headed(text: str) -> RenderableType:
     return words((text, "bold"))
 
 
-def _plain_table(*right: bool) -> Table:
+def _plain_table(*right: bool, bar: int | None = None) -> Table:
     table = Table.grid(padding=(0, 2))
-    for each in right:
-        table.add_column(justify="right" if each else "left", no_wrap=True)
+    for place, each in enumerate(right):
+        # Where it is narrow, the bars become shorter, and nothing else.
+        table.add_column(
+            justify="right" if each else "left", no_wrap=place != bar, max_width=_BAR if place == bar else None
+        )
     return table
 
 
 def _bar(share: float) -> ProgressBar:
-    return ProgressBar(total=1.0, completed=share, width=_BAR, complete_style="green", finished_style="green")
+    return ProgressBar(total=1.0, completed=share, complete_style="green", finished_style="green")
 
 
 def _shares(progress: Progress) -> Table:
-    table = _plain_table(False, False, True, True, True)
+    table = _plain_table(False, False, True, True, True, bar=1)
     for each in progress.shares:
         time = "" if each.seconds is None else _time(each.seconds)
         of = f"{each.seen}/{each.of} seen"
@@ -77,7 +80,7 @@ def _shares(progress: Progress) -> Table:
 
 
 def _days(days: Iterable[Day]) -> Table:
-    table = _plain_table(False, False, True, True, True)
+    table = _plain_table(False, False, True, True, True, bar=1)
     for day in days:
         share = day.right / day.parts if day.parts else 0.0
         answers = _counted(day.answers, "answer")

@@ -10,10 +10,14 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
+from rldrill.problems.parts import Part
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
+from rldrill.render.compact import Compact
+from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 from rldrill.solutions.answers.rule import RULE
@@ -30,6 +34,8 @@ _HELP = (
     ("hand in", "end the exam, and see how it went"),
     ("leave", "go on another time: the same command takes it up; the clock does not stop"),
 )
+#: The title of a problem with the lines around it, and the prompt.
+_BESIDES = 5
 _GO = re.compile(r"go\s+(\d{1,3})\s*\(?([a-z])?\)?")
 
 
@@ -40,9 +46,11 @@ class SittingScreen:
         console: where it is shown.
         ask: asks for a line.
         now: the time.
+        plain: whether a screen reader reads it.
     """
 
-    def __init__(self, console: Console, ask: Ask, now: Callable[[], datetime]) -> None:
+    def __init__(self, console: Console, ask: Ask, now: Callable[[], datetime], *, plain: bool = False) -> None:
+        self._plain = plain
         self._console = console
         self._ask = ask
         self._now = now
@@ -202,13 +210,16 @@ class SittingScreen:
         self._print()
         self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
         self._print()
-        self._print(render(exercise.question()))
+        if self._plain:
+            self._print(render(linear(exercise.question())))
+            return
+        taken = sum(len(self._console.render_lines(line)) for line in _asked(exercise, exercise.parts[0]))
+        self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
+        self._print()
 
     def _part(self, sitting: Sitting, place: Place) -> None:
-        exercise, part = sitting.exercise(place), sitting.part(place)
-        self._print(asked(part, only=len(exercise.parts) == 1))
-        shape = how_to_type(part.kind, exercise.problem.parameters)
-        self._print(words((f"  {shape}", "dim")))
+        for line in _asked(sitting.exercise(place), sitting.part(place)):
+            self._print(line)
         if place in sitting.answers:
             self._print(words(("  your answer so far: ", "dim"), sitting.answers[place]))
 
@@ -268,6 +279,12 @@ class SittingScreen:
 
     def _print(self, content: RenderableType = "") -> None:
         self._console.print(content)
+
+
+def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:
+    """What is asked in a part, and how the answer is typed."""
+    shape = how_to_type(part.kind, exercise.problem.parameters)
+    return asked(part, only=len(exercise.parts) == 1), words((f"  {shape}", "dim"))
 
 
 def _clock(left: timedelta) -> str:

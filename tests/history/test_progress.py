@@ -70,6 +70,15 @@ def test_it_fits_the_terminal(width: int) -> None:
         assert piece in text
 
 
+def test_where_it_is_narrow_the_bars_are_shorter_and_nothing_else() -> None:
+    screen = Console(width=60, record=True, markup=False, highlight=False)
+    groups = {"function-approximation": GROUPS["bellman"], "temporal-difference": GROUPS["td"]}
+    screen.print(shown(progress(tuple(log()), groups, NOW)))
+    text = screen.export_text()
+    for piece in ("function-approximation  ", "  47 %  1/2 seen  30 s", " 100 %  1/1 seen  50 s"):
+        assert piece in text
+
+
 def test_a_database_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     (tmp_path / "history.db").write_text("a shopping list " * 100)
     result = CliRunner().invoke(app, ["stats"], env={"RLDRILL_HOME": str(tmp_path)})
