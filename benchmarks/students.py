@@ -7,13 +7,14 @@ days; a known one is remembered with the probability exp(−days/stability). Who
 the working of what went wrong has learned it with the kind's probability, a third of that where the level below is not
 remembered. Remembering makes a skill stabler, the more so the nearer it was to being forgotten; a skill that was
 forgotten and is seen again keeps some of its stability. Problems take the minutes of their level, wrong ones a third
-more. The outcome is the expected share of right answers on the day, levels mixed as in a quiz.
+more. The outcome is the expected share of right answers on the day: in an exam that asks every skill alike, and in one
+that mixes the levels as a quiz without a history does, which drilling at random does, too.
 """
 
 import random
 import statistics
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 from math import exp
@@ -81,9 +82,8 @@ class Student:
             self.seen[skill] = now
         return self.rng.random() < (1 - SLIP if remembered else GUESS)
 
-    def score(self, asked: Sequence[Skill], day: datetime) -> float:
-        """The expected share of right answers."""
-        weights = {skill: MIXED.count(skill.level) for skill in asked}
+    def score(self, weights: Mapping[Skill, int], day: datetime) -> float:
+        """The expected share of right answers in an exam that asks skills in these proportions."""
         right = sum(
             weight * (GUESS + (1 - SLIP - GUESS) * self.remembers(skill, day)) for skill, weight in weights.items()
         )
@@ -100,8 +100,8 @@ Next = Callable[[list[Attempt], datetime], Skill]
 Chooser = Callable[[list[Attempt], datetime, random.Random], Next]
 
 
-def drilled(kind: Kind, seed: int, order: Sequence[Skill], budget: float, chooser: Chooser) -> float:
-    """The score of a student who drills so many minutes a day."""
+def drilled(kind: Kind, seed: int, order: Sequence[Skill], budget: float, chooser: Chooser) -> tuple[float, float]:
+    """The scores of a student who drills so many minutes a day: every skill alike, and levels mixed."""
     rng = random.Random(f"{kind.name} {seed}")
     student, log = Student(kind, rng), list[Attempt]()
     for day in range(DAYS):
@@ -119,7 +119,8 @@ def drilled(kind: Kind, seed: int, order: Sequence[Skill], budget: float, choose
                 Attempt(name, now, name, skill.family, skill.level, 0, 1, "a", 1, "", outcome, (), 0, 0, 60.0, 0.0)
             )
         log += today
-    return student.score(order, START + DAYS * DAY)
+    alike, mixed = dict.fromkeys(order, 1), {skill: MIXED.count(skill.level) for skill in order}
+    return student.score(alike, START + DAYS * DAY), student.score(mixed, START + DAYS * DAY)
 
 
 def by_plan(order: Sequence[Skill], budget: float) -> Chooser:
@@ -154,7 +155,7 @@ def at_random(order: Sequence[Skill], _: float) -> Chooser:
 def main() -> None:
     """Print the table."""
     seeds = int(sys.argv[1]) if sys.argv[1:] else 20
-    print(f"{'exam':12} {'student':10} {'min/day':>7}  {'by plan':>14}  {'at random':>14}  better in")
+    print(f"{'exam':12} {'levels':6} {'student':10} {'min/day':>7}  {'by plan':>14}  {'at random':>14}  better in")
     for asked, order in (("everything", EVERYTHING), ("three topics", THREE_TOPICS)):
         for budget in (30, 60):
             for kind in KINDS:
@@ -162,9 +163,12 @@ def main() -> None:
                     [drilled(kind, seed, order, budget, way(order, budget)) for seed in range(seeds)]
                     for way in (by_plan, at_random)
                 ]
-                better = sum(one > other for one, other in zip(*scores, strict=True))
-                told = [f"{statistics.mean(each):6.1%} ± {statistics.stdev(each):4.1%}" for each in scores]
-                print(f"{asked:12} {kind.name:10} {budget:7}  {told[0]:>14}  {told[1]:>14}  {better} of {seeds}")
+                for measure, levels in enumerate(("alike", "mixed")):
+                    plan, chance = ([score[measure] for score in each] for each in scores)
+                    better = sum(one > other for one, other in zip(plan, chance, strict=True))
+                    told = [f"{statistics.mean(each):6.1%} ± {statistics.stdev(each):4.1%}" for each in (plan, chance)]
+                    case = f"{asked:12} {levels:6} {kind.name:10} {budget:7}"
+                    print(f"{case}  {told[0]:>14}  {told[1]:>14}  {better} of {seeds}")
 
 
 if __name__ == "__main__":
