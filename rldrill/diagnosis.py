@@ -11,7 +11,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
 from rldrill.render.differences import differences
 from rldrill.render.mathematics.unicode import unicode
-from rldrill.solutions.answers.judging import Outcome, Verdict, part_of
+from rldrill.solutions.answers.judging import Outcome, Verdict, part_of, read_answer
 from rldrill.solutions.answers.kinds import Cell, answer_kind
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis.causes import Cause
@@ -177,10 +177,8 @@ class Diagnosing:
 
     def _typed(self, label: str, text: str) -> Typed:
         part = part_of(self.solution, label)
-        kind = answer_kind(part.kind)
-        problem = self.solution.problem
-        cells = kind.read(text, problem.parameters, problem.given.terminal_states())
-        return Typed(part, cells, kind.cells(self.solution.answers[label]))
+        key = answer_kind(part.kind).cells(self.solution.answers[label])
+        return Typed(part, read_answer(self.solution, part, text), key)
 
     def wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
         """Wrong answers to a part, the likeliest first, each with what it comes from."""

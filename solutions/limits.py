@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 
 from flint import fmpq
 
+from rldrill.problems.grammar import WHOLE_DIGITS
 from rldrill.solutions.exact import TooLong, length, terms
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
@@ -14,7 +15,7 @@ Written = TypeVar("Written")
 
 #: The most decimal digits of a whole number in a working. Python writes no more than 4300, and what is written of a
 #: step may hold the products of two numbers.
-MOST_DIGITS = 2000
+MOST_DIGITS = WHOLE_DIGITS
 _LONGEST = MOST_DIGITS * log2(10)
 #: The most terms of a polynomial in a parameter that is left open.
 MOST_TERMS = 64

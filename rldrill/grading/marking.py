@@ -16,7 +16,7 @@ from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
 from rldrill.grading.report import MISSING, Judged, Score
 from rldrill.problems.parts import Part, Policy
-from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge
+from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
@@ -290,9 +290,8 @@ class _Problem:
         return pointed if self._readable(part, pointed) else entry.text
 
     def _readable(self, part: Part, text: str) -> bool:
-        problem = self.exercise.problem
         try:
-            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+            read_answer(self.exercise.solution, part, text)
         except Unreadable:
             return False
         return True

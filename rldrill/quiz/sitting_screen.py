@@ -19,8 +19,9 @@ from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
-from rldrill.solutions.answers.kinds import Unreadable, answer_kind
+from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.rule import RULE
+from rldrill.solutions.answers.text import Unreadable
 
 _WORDS = "Enter goes on · back · go 3b · overview · problem · clear · hand in · leave"
 _HELP = (
@@ -195,9 +196,8 @@ class SittingScreen:
 
     def _is_read(self, sitting: Sitting, place: Place, text: str) -> bool:
         """Whether an answer can be read, which is said if not; what it is worth is not."""
-        problem, part = sitting.exercise(place).problem, sitting.part(place)
         try:
-            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+            read_answer(sitting.exercise(place).solution, sitting.part(place), text)
         except Unreadable as error:
             self._print(words(("  ? Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message))
             return False

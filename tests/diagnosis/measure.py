@@ -21,7 +21,7 @@ from error_model import Erroneous, erroneous, numeric, random_wrong
 
 from rldrill.diagnosis import AT_THE_PROMPT
 from rldrill.problems.catalogue import selection
-from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.kinds import Allowed, answer_kind
 from rldrill.solutions.answers.text import Unreadable
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
@@ -95,7 +95,7 @@ class Measured:
         part = next(part for part in problem.parts if part.label == label)
         kind = answer_kind(part.kind)
         try:
-            cells = kind.read(text, problem.parameters, problem.given.terminal_states())
+            cells = kind.read(text, Allowed(problem.parameters, problem.given.terminal_states()))
         except Unreadable:  # longer than anybody types
             return None
         typed = Typed(part, cells, kind.cells(self.solution.answers[label]))
