@@ -1,14 +1,21 @@
 """Features of states and actions and the weights that go with them, as problems give them."""
 
 from collections.abc import Mapping, Sequence
+from typing import Annotated
+
+from pydantic import Field
 
 from rldrill.problems.document import Table
-from rldrill.problems.exact import Exact, Weight, shown
+from rldrill.problems.exact import Exact, Weight, WeightField, shown
 from rldrill.problems.models import Name
 
 FeatureVector = tuple[Exact, ...]
+#: Of so many actions a softmax is written out; every probability of it has a sum over all of them.
+MOST_ACTIONS = 200
+#: A preference for every action of a state.
+ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS)]
 #: The features of every action in some states.
-ActionFeatures = dict[Name, dict[Name, FeatureVector]]
+ActionFeatures = dict[Name, Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS)]]
 
 
 def check_features(features: Mapping[str, Sequence[object]], size: int) -> None:
