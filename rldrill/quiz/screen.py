@@ -26,6 +26,7 @@ from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
+from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
 
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
@@ -38,13 +39,14 @@ _STYLES = {
     Outcome.WRONG: "red",
     Outcome.UNREADABLE: "yellow",
 }
+#: The sign of a verdict, and what is said before its sentence.
 _WORDS = {
-    Outcome.RIGHT: "✓",
-    Outcome.FOLLOW_THROUGH: "✓",
-    Outcome.CLOSE: "≈",
-    Outcome.MISCONCEPTION: "✗ A typical mistake:",
-    Outcome.WRONG: "✗",
-    Outcome.UNREADABLE: "? Not understood, and not counted:",
+    Outcome.RIGHT: ("✓", ""),
+    Outcome.FOLLOW_THROUGH: ("✓", ""),
+    Outcome.CLOSE: ("≈", ""),
+    Outcome.MISCONCEPTION: ("✗", "A typical mistake: "),
+    Outcome.WRONG: ("✗", ""),
+    Outcome.UNREADABLE: ("?", "Not understood, and not counted: "),
 }
 #: How a line of somebody's own working is marked.
 _STANDINGS = {
@@ -347,13 +349,20 @@ class Screen:
         explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
+        sign, before = _WORDS[outcome]
+        style = f"bold {_STYLES[outcome]}"
         read = _read_otherwise(verdict, part)
-        self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
+        kind = part.part.kind
+        drawn = bool(read) and isinstance(kind, Matrix) and kind.rows > 1
+        told = f"  (read as {read})" if read and not drawn else ""
+        self._signed((sign, style), words((before, style), says, (told, "dim")))
+        if drawn:
+            self._signed(("read as", "dim"), renderable(answer_block(part.part, verdict.value)))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
             self._print(compared(diagnosis.wrong, diagnosis.right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
         if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
-            self._print(words((f"  {_OR_ELSE if part.tries == 1 else _FIRST_LINE}", "dim")))
+            self._indented(words((_OR_ELSE if part.tries == 1 else _FIRST_LINE, "dim")))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
         rungs = ladder(record.exercise, part.part.label)
@@ -374,8 +383,7 @@ class Screen:
         self._answer(record, part)
 
     def _answer(self, record: Record, part: PartRecord) -> None:
-        self._print(Text("  The answer:", style="dim"))
-        self._indented(renderable(record.exercise.answer(part.part)))
+        self._signed(("The answer:", "dim"), renderable(record.exercise.answer(part.part)))
 
     def _own_working(self, record: Record) -> None:
         """Ask for the person's own working, and say where it goes wrong."""
@@ -388,18 +396,18 @@ class Screen:
         followed = record.exercise.follow(lines)
         for step in followed.lines:
             mark, style = _STANDINGS[step.standing]
-            self._print(words("  ", (mark, f"bold {style}"), f" {step.text}"))
+            self._signed((mark, f"bold {style}"), words(step.text))
             if step.sentence:
-                self._print(words("    ", (step.sentence, style)))
+                self._signed((" " * len(mark), ""), words((step.sentence, style)))
         if followed.first is None:
-            self._print(words("  ", followed.sentence))
+            self._indented(words(followed.sentence))
 
     def _help(self) -> None:
         grid = Table.grid(padding=(0, 2))
         for key, meaning in HELP:
             grid.add_row(Text(f"  {key}", style="bold"), Text(meaning))
         self._print(grid)
-        self._print(Text(f"  Right is {RULE}. {COUNTS}", style="dim"))
+        self._indented(Text(f"Right is {RULE}. {COUNTS}", style="dim"))
 
     def summary(self, session: Session, seconds: float) -> None:
         """Print what was answered, and how."""
@@ -412,6 +420,14 @@ class Screen:
 
     def _indented(self, content: RenderableType) -> None:
         self._print(Padding(content, (0, 0, 0, 2), expand=False))
+
+    def _signed(self, sign: tuple[str, str], content: RenderableType) -> None:
+        """A sign or word, with its style, and what it is about, whose further lines stand under the first."""
+        grid = Table.grid(padding=(0, 1, 0, 0))
+        grid.add_column(no_wrap=True)
+        grid.add_column(overflow="fold")
+        grid.add_row(words(sign), content)
+        self._indented(grid)
 
     def _print(self, content: RenderableType = "") -> None:
         self._console.print(content)
@@ -428,7 +444,7 @@ def _how(part: PartRecord) -> str:
 def _read_otherwise(verdict: Verdict, part: PartRecord) -> str:
     """How an answer was read, where that is not how it was typed."""
     read = _PLACES.sub("", verdict.read)
-    return f"  (read as {read})" if read and _signs(read) != _signs(part.answers[-1].typed) else ""
+    return read if _signs(read) != _signs(part.answers[-1].typed) else ""
 
 
 def _signs(text: str) -> str:

@@ -73,8 +73,9 @@ class SittingScreen:
                 sitting.save()
                 self._print(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
                 return False
-            sitting.handed_in = self._now()
-            self._keep(sitting)
+            if sitting.handed_in is None:
+                sitting.handed_in = self._now()
+                self._keep(sitting)
         self._report(sitting)
         return True
 
@@ -109,7 +110,7 @@ class SittingScreen:
         places = sitting.places
         at = next((index for index, place in enumerate(places) if place not in sitting.answers), 0)
         shown: int | None = None
-        while not self._is_over(sitting):
+        while sitting.handed_in is None and not self._is_over(sitting):
             if at == len(places):
                 at, over = self._at_the_end(sitting)
                 if over is not None:
@@ -153,7 +154,10 @@ class SittingScreen:
                 sitting.answer(place, text)
                 self._keep(sitting)
                 at += self._is_read(sitting, place, text)
-        self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
+        if sitting.handed_in is not None:
+            self._print(words(("Handed in. ", "bold"), "That was done in another terminal; what it wrote counts."))
+        else:
+            self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
         return True
 
     def _is_over(self, sitting: Sitting) -> bool:
