@@ -167,7 +167,7 @@ class Screen:
         for part in shown.parts:
             self._print(asked(part, only=len(shown.parts) == 1))
             self._indented(render(shown.working(part.label)))
-            self._indented(renderable(shown.answer(part)))
+            self._signed(("The answer:", "dim"), renderable(shown.answer(part)))
             self._print()
         wanted = self._line("Enter: your turn > ").strip().lower()
         self._print()
@@ -191,18 +191,18 @@ class Screen:
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
-        line = Text(f"Problem {number}", style="bold")
+        line = [(f"Problem {number}", "bold")]
         if session.total is not None:
             bar = session.total <= 40 and not self._plain
             done = "━" * number + "─" * (session.total - number) if bar else ""
-            line.append(f" of {session.total}").append(f"  {done}", style="cyan")
+            line += [(f" of {session.total}", ""), (f"  {done}" if done else "", "cyan")]
         elif session.minutes is not None:
-            line.append(f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}")
+            line.append((f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}", ""))
+        line.append((f"  {family.title}{level}", ""))
         named = f"  {exercise.id or 'your own problem'}"
-        line.append(f"  {family.title}{level}")
-        if len(line) + len(named) < self._console.width:
-            line.append(named, style="dim")
-        self._print(line)
+        if sum(len(text) for text, _ in line) + len(named) < self._console.width:
+            line.append((named, "dim"))
+        self._print(words(*line))
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
@@ -223,7 +223,7 @@ class Screen:
 
     def _notes(self, exercise: Exercise) -> None:
         for note in exercise.notes:
-            self._print(Text(f"({note})", style="dim"))
+            self._print(words((f"({note})", "dim")))
 
     def _parts(self, record: Record) -> Then:
         only = len(record.parts) == 1
@@ -245,7 +245,7 @@ class Screen:
         shape = how_to_type(part.part.kind, record.exercise.problem.parameters)
         keys, self._keys = self._keys, ()
         for line in (shape, *keys) if keys else (f"{shape}  ({SHORT_KEYS})",):
-            self._print(words((f"  {line}", "dim")))
+            self._indented(words((line, "dim")))
 
     def _typed(self, prompt: str, kind: Kind) -> str:
         """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
@@ -373,7 +373,7 @@ class Screen:
             part.hints = max(part.hints, next((n for n, rung in enumerate(rungs) if rung.is_working), part.hints))
         rung = rungs[part.hints]
         part.hints += 1
-        self._print(Text(f"  Hint {part.hints} of {len(rungs)}: {rung.says}", style="dim"))
+        self._print(words((f"  Hint {part.hints} of {len(rungs)}: {rung.says}", "dim")))
         self._indented(Group(*map(renderable, rung.blocks)))
         if part.hints == len(rungs):
             self._print(Text("  That is the whole working.", style="dim"))
@@ -405,7 +405,7 @@ class Screen:
     def _help(self) -> None:
         grid = Table.grid(padding=(0, 2))
         for key, meaning in HELP:
-            grid.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+            grid.add_row(Text(f"  {key}", style="bold"), words(meaning))
         self._print(grid)
         self._indented(Text(f"Right is {RULE}. {COUNTS}", style="dim"))
 

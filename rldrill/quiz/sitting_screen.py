@@ -244,7 +244,7 @@ class SittingScreen:
     def _help(self) -> None:
         table = Table.grid(padding=(0, 2))
         for key, meaning in _HELP:
-            table.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+            table.add_row(Text(f"  {key}", style="bold"), words(meaning))
         self._print(table)
 
     def _report(self, sitting: Sitting) -> None:

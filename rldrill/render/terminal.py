@@ -16,7 +16,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
-from rldrill.problems.mathematics import Math, Row
+from rldrill.problems.mathematics import EMPTY, Math, Row
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.differences import differences
@@ -88,7 +88,8 @@ def renderable(block: Block) -> RenderableType:
         case Table():
             return _indented(_Spelled(lambda spelling, width: _table(block, spelling, width)))
         case Equation():
-            return _indented(_Spelled(lambda spelling, width: _equation(block, spelling, width)))
+            equation = _Spelled(lambda spelling, width: _equation(block, spelling, width))
+            return _indented(equation) if _is_named(block) else equation
         case Beside(blocks):
             return _Beside(blocks)
         case Picture():
@@ -232,22 +233,28 @@ def _paragraph(header: list[Text], line: list[Text]) -> Text:
     return Text(", ").join(told)
 
 
+def _is_named(equation: Equation) -> bool:
+    """Whether it says itself what it is worth; else it is the lines of an answer."""
+    return equation.left != EMPTY or any(equation.signs)
+
+
 def _equation(equation: Equation, spelling: Spelling, width: int) -> RenderableType:
-    grid = RichTable.grid(padding=(0, 1, 0, 0))
-    grid.add_column(no_wrap=True)
-    grid.add_column(no_wrap=True)
-    grid.add_column(overflow="fold")
     left = "\n".join(spelling.stacked(equation.left))
     signs = [spelling.plain(sign) for sign in equation.signs]
-    room = width - _wide(left.split("\n")) - _wide(signs) - 2
+    named = _is_named(equation)
+    room = width - (_wide(left.split("\n")) + _wide(signs) + 2 if named else 0)
+    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    if named:
+        grid.add_column(no_wrap=True)
+        grid.add_column(no_wrap=True)
+    grid.add_column(overflow="fold")
     for index, (sign, right) in enumerate(zip(signs, equation.rights, strict=True)):
         for row, part in enumerate(broken(right, lambda math, further: _wide(_line(math, further, spelling)), room)):
             lines = _line(part, row > 0, spelling)
             shift = "\n" * (len(lines) // 2)
             first = index == row == 0
-            grid.add_row(
-                Text(shift + left if first else ""), Text(shift + sign if row == 0 else ""), Text("\n".join(lines))
-            )
+            before = (Text(shift + left if first else ""), Text(shift + sign if row == 0 else ""))
+            grid.add_row(*(before if named else ()), Text("\n".join(lines)))
     return grid
 
 

@@ -14,7 +14,7 @@ def wide(math: Math, further: bool) -> int:
 
 
 def lines(text: str, most: int) -> list[str]:
-    return [unicode(line) for line in broken(mathematics(text), wide, most)]
+    return [unicode(line).strip() for line in broken(mathematics(text), wide, most)]
 
 
 def test_what_fits_stays_in_one_piece() -> None:
@@ -32,6 +32,10 @@ def test_what_fits_stays_in_one_piece() -> None:
 )
 def test_lines_begin_with_the_signs_of_terms(text: str, most: int, expected: list[str]) -> None:
     assert lines(text, most) == expected
+
+
+def test_relations_come_first() -> None:
+    assert lines("x = a + b ≈ 3", 9) == ["x = a + b", "≈ 3"]
 
 
 def test_a_long_term_is_broken_between_its_factors() -> None:

@@ -1,4 +1,4 @@
-"""Long mathematics in lines that fit: broken before its plus and minus signs, else between its factors."""
+"""Long mathematics in lines that fit: broken before its relations, else its plus and minus signs, else its factors."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
@@ -18,13 +18,16 @@ def broken(math: Math, wide: Wide, most: int) -> tuple[Math, ...]:
         wide: how wide something is, and whether it is a further line.
         most: how wide a line may be.
     """
-    if not isinstance(math, Row) or wide(math, False) <= most:
+    if not isinstance(math, Row):
         return (math,)
-    lines: list[Math] = []
-    for line in _packed(_parted(math.items, _is_term), wide, most, further=False):
-        further = bool(lines)
-        fits = wide(line, further) <= most
-        lines += [line] if fits else _packed(_parted(line.items, _is_factor), wide, most, further=further)
+    lines = [math]
+    for begins in (_is_relation, _is_term, _is_factor):
+        shorter: list[Row] = []
+        for line in lines:
+            further = bool(shorter)
+            fits = wide(line, further) <= most
+            shorter += [line] if fits else _packed(_parted(line.items, begins), wide, most, further=further)
+        lines = shorter
     return tuple(lines)
 
 
@@ -46,17 +49,21 @@ def _parted(items: Sequence[Math], begins: Callable[[Math, Math], bool]) -> Iter
     return (items[start:stop] for start, stop in pairwise(starts))
 
 
-def is_sign(item: Math, signs: Iterable[str] = ()) -> bool:
-    """Whether something is an operator or a relation, or one of these."""
-    return isinstance(item, Glyph) and item.style in ("operator", "relation") and (not signs or item.text in signs)
+def is_sign(item: Math) -> bool:
+    """Whether something is an operator or a relation."""
+    return isinstance(item, Glyph) and item.style in ("operator", "relation")
+
+
+def _is_relation(_: Math, item: Math) -> bool:
+    return isinstance(item, Glyph) and item.style == "relation"
 
 
 def _is_term(before: Math, item: Math) -> bool:
-    return is_sign(item, _TERMS) and not is_sign(before)
+    return isinstance(item, Glyph) and item.style == "operator" and item.text in _TERMS and not is_sign(before)
 
 
 def _is_factor(before: Math, item: Math) -> bool:
     """Whether an item is a factor behind another, or the sign of a product."""
-    if is_sign(item):
-        return not is_sign(item, _TERMS) and not is_sign(before)
-    return not (isinstance(item, Glyph) or is_sign(before))
+    if isinstance(item, Glyph):
+        return item.style == "operator" and item.text not in _TERMS
+    return not is_sign(before)
