@@ -14,8 +14,9 @@ FeatureVector = tuple[Exact, ...]
 MOST_ACTIONS = 200
 #: A preference for every action of a state.
 ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS)]
-#: The features of every action in some states.
-ActionFeatures = dict[Name, Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS)]]
+#: The features of every action in one state, and in some states.
+OneStateFeatures = Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS)]
+ActionFeatures = dict[Name, OneStateFeatures]
 
 
 def check_features(features: Mapping[str, Sequence[object]], size: int) -> None:
