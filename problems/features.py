@@ -11,7 +11,7 @@ from rldrill.problems.models import Name
 
 FeatureVector = tuple[Exact, ...]
 #: Of so many actions a softmax is written out; every probability of it has a sum over all of them.
-MOST_ACTIONS = 200
+MOST_ACTIONS = 100
 #: A preference for every action of a state.
 ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS)]
 #: The features of every action in one state, and in some states.

@@ -82,8 +82,8 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
     "actions of a softmax": (
         "linear-policy",
         lambda size: {"features": {"cool": {f"a{number}": [number] for number in range(size)}}, "theta": [1]},
-        200,
-        "given.features.cool: has 201 entries; it may have at most 200",
+        100,
+        "given.features.cool: has 101 entries; it may have at most 100",
     ),
     "arms with preferences": (
         "bandit",
@@ -91,8 +91,8 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
             "pulls": [["a0", 1]], "preferences": {f"a{number}": 0 for number in range(size)}, "alpha": "1/2",
             "pulled": ["a1", 2],
         },
-        200,
-        "given.preferences: has 201 entries; it may have at most 200",
+        100,
+        "given.preferences: has 101 entries; it may have at most 100",
     ),
 }  # fmt: skip
 
