@@ -20,8 +20,8 @@ from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.quiz.shapes import how_to_type
-from rldrill.render.compact import Compact
+from rldrill.quiz.shapes import by_name, how_to_type
+from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
@@ -216,7 +216,8 @@ class Screen:
             Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
             *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
         )
-        taken = sum(len(self._console.render_lines(other)) for other in others)
+        options = self._console.options.update(width=min(self._console.width, WIDEST))
+        taken = sum(len(self._console.render_lines(other, options)) for other in others)
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
         self._notes(exercise)
@@ -349,6 +350,7 @@ class Screen:
         explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
+        says = by_name(says, part.part.kind)
         sign, before = _WORDS[outcome]
         style = f"bold {_STYLES[outcome]}"
         read = _read_otherwise(verdict, part)
@@ -430,7 +432,7 @@ class Screen:
         self._indented(grid)
 
     def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content)
+        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _how(part: PartRecord) -> str:

@@ -12,7 +12,7 @@ from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
 
 #: The widths of the terminals; the last is for those to whom the screen is read out.
-WIDTHS = {"60": 60, "80": 80, "120": 120, "plain": 80}
+WIDTHS = {"60": 60, "80": 80, "140": 140, "plain": 80}
 
 
 def exercises() -> list[Exercise]:
