@@ -28,26 +28,18 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    if isinstance(value, fmpq):
-        if value.height_bits() > _LONGEST:
-            raise _too_many_digits()
-        return value
-    for number in _numbers(value):
-        if length(number) > _LONGEST:
-            raise _too_many_digits()
+    for number in (value,) if isinstance(value, fmpq) else _numbers(value):
+        if (number.height_bits() if isinstance(number, fmpq) else length(number)) > _LONGEST:
+            raise TooLong(
+                f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
+                "give shorter numbers, or fewer steps, sweeps or rewards"
+            )
         if terms(number) > MOST_TERMS:
             raise TooLong(
                 f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
                 "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
             )
     return value
-
-
-def _too_many_digits() -> TooLong:
-    return TooLong(
-        f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
-        "give shorter numbers, or fewer steps, sweeps or rewards"
-    )
 
 
 def _numbers(value: Any) -> Iterator[Any]:

@@ -118,7 +118,7 @@ class Solution:
         made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
         return tuple((misconception, answers) for misconception, answers in made if answers is not None)
 
-    @property
+    @cached_property
     def applicable(self) -> tuple[Misconception, ...]:
         """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
         every = solver(self.problem.family).misconceptions
@@ -132,6 +132,18 @@ class Solution:
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None
     ) -> Mapping[str, Any] | None:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
+        if carried:
+            return self._made(misconception, carried)
+        if misconception not in self._mistaken:
+            self._mistaken[misconception] = self._made(misconception, {})
+        return self._mistaken[misconception]
+
+    @cached_property
+    def _mistaken(self) -> dict[Misconception, Mapping[str, Any] | None]:
+        """What the mistakes give that somebody has asked for."""
+        return {}
+
+    def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
         try:
             return run(self.problem, misconception, carried).answers
         except (NoSolution, NotGiven):
@@ -171,10 +183,14 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
     return work
 
 
-def solve(problem: Problem) -> Solution:
+def solve(problem: Problem, attempts: int = 1) -> Solution:
     """Solve a problem exactly.
+
+    Args:
+        problem: the problem.
+        attempts: how many draws it took to find it.
 
     Raises:
         NoSolution: the problem has no answer (a value that does not exist, a singular matrix).
     """
-    return Solution(problem, run(problem))
+    return Solution(problem, run(problem), attempts)

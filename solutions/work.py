@@ -1,10 +1,11 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -30,23 +31,29 @@ from rldrill.solutions.vector import Vector
 class Step:
     """One application of a formula: what was put in, and the exact value that came out.
 
-    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's; ``label``
-    which of many steps it is, ``$t = 2$``.
+    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
+    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
+    ``$t = 2$``: an update that knows its t says it unasked.
     """
 
     formula: Formula
     right: Expr
     known: Mapping[str, Any]
     value: Any
-    into: Expr
     sign: str
+    into: Callable[..., Expr] | None = None
     own: bool = False
-    label: str = ""
+    label: str | None = None
+
+    @cached_property
+    def named(self) -> Expr:
+        """The quantity that comes out, in letters: ``V_2(s)``."""
+        return self.formula.left if self.into is None else self.into(*self.formula.left.args)
 
     @cached_property
     def left(self) -> Expr:
         """The name of the quantity, its indices put in: ``V(cool)``."""
-        return indexed(self.into, self.known)
+        return indexed(self.named, self.known)
 
     @cached_property
     def put_in(self) -> Expr:
@@ -59,7 +66,7 @@ class Step:
         plain = formula.equation(formula.right)
         if formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
             return plain
-        left = self.into if self.into.is_Symbol else self.into.func(*formula.left.args)
+        left = self.named if self.named.is_Symbol else self.named.func(*formula.left.args)
         return replace(plain, left=typeset(left))
 
     def equation(self) -> Equation:
@@ -82,9 +89,14 @@ class Step:
             rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
-        if self.label:
-            left = row(mathematics(self.label), punctuation(":"), left)
+        if label := self._label():
+            left = row(mathematics(label), punctuation(":"), left)
         return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)))
+
+    def _label(self) -> str:
+        if self.label is not None:
+            return self.label
+        return f"t = {self.known['t']}" if self.sign == "←" and "t" in self.known else ""
 
 
 @dataclass(frozen=True)
@@ -221,7 +233,7 @@ class Work:
             sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
-            label: which of many steps this is, in mathematics (``i = 2``); an update that knows its t says it.
+            label: which of many steps this is, in mathematics (``i = 2``).
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
         own = right is not None
@@ -230,11 +242,9 @@ class Work:
             value = bounded(tidy(value_of(right, known)))
         except DivisionError as error:
             raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
-        left = formula.left if into is None else into(*formula.left.args)
-        sign = sign or (formula.sign if into is None else "=")
-        if label is None:
-            label = f"t = {known['t']}" if sign == "←" and "t" in known else ""
-        self.lines.append(Step(formula, right, known, value, left, sign, own, label))
+        if self.misconception is None:  # nobody reads the working of a mistake
+            sign = sign or (formula.sign if into is None else "=")
+            self.lines.append(Step(formula, right, known, value, sign, into, own, label))
         return value
 
     def value(self, formula: Formula, **known: Any) -> Any:
@@ -270,11 +280,11 @@ class Work:
         equations = {}
         for key, case in keys:
             equations[key] = value_of(right, {**bound, **case})
-            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
+            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, "="))
         if instead is not None:
             right, (last, _) = self.reading(instead), keys[-1]
             equations[last] = lookup[last] + value_of(instead.left, {}) + value_of(right, bound) * (ZERO - 1)
-            self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, instead.left, "=")
+            self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, "=")
         solution = bounded(solve_linear(equations))
         lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
         if len(keys) <= MOST_UNKNOWNS:
@@ -344,6 +354,8 @@ class Work:
 
 def _simplest(value: Any) -> Any:
     """Numbers, alone or in a vector or table, as plain rationals where no parameter is left in them."""
+    if isinstance(value, fmpq):
+        return value
     if isinstance(value, dict):
         return {key: simplest(number) for key, number in value.items()}
     if isinstance(value, tuple):
