@@ -3,10 +3,11 @@
 import hashlib
 import random
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 from typing import TypeVar
+
+from rldrill.problems.fractions import Fraction
 
 Item = TypeVar("Item")
 

@@ -1,15 +1,17 @@
 """Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
 from collections.abc import Iterable
-from fractions import Fraction
 from functools import singledispatch
 from math import isfinite
+from numbers import Rational
 from typing import Any, TypeGuard
 
 import sympy
 from flint import arb, ctx, fmpq
+from sympy.core.sympify import converter
 
 from rldrill.problems.exact import Logarithm, Parameter, Root, Weight
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import surds
 from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
@@ -19,6 +21,9 @@ from rldrill.solutions.value import NotGiven as NotGiven
 from rldrill.solutions.value import NotReal as NotReal
 from rldrill.solutions.value import TooLong as TooLong
 from rldrill.solutions.value import Value as Value
+
+# What sympy does not know of it would read as a decimal.
+converter[Fraction] = lambda number: sympy.Rational(number.numerator, number.denominator)
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
@@ -50,7 +55,7 @@ def simplest(value: Any) -> Any:
 
 simplest.register(bool, lambda value: value)
 simplest.register(int, fmpq)
-simplest.register(Fraction, lambda value: fmpq(*value.as_integer_ratio()))
+simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
 simplest.register(sympy.Rational, fraction)
 
 

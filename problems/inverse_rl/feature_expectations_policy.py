@@ -1,7 +1,6 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -12,6 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import DistributionField, Name, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
