@@ -2,8 +2,10 @@
 
 from collections.abc import Iterable
 from functools import lru_cache
+from itertools import starmap
 from math import isqrt, sqrt
 from numbers import Rational
+from operator import mul
 from typing import Annotated, Any
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
@@ -15,6 +17,7 @@ from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worke
 from rldrill.problems.readings import meant, note_of
 from rldrill.problems.spelling import Unreadable
 
+_ZERO = Fraction(0)
 _LONGEST = 200
 _BITS = 4000  # of a power
 
@@ -193,7 +196,7 @@ def write(value: Weight) -> str:
 
 def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
     """The sum of the products of two rows of numbers."""
-    return sum((a * b for a, b in zip(first, second, strict=True)), Fraction(0))
+    return sum(starmap(mul, zip(first, second, strict=True)), _ZERO)
 
 
 def shown(value: Weight | int) -> str:
