@@ -1,7 +1,7 @@
 """Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
 from collections.abc import Iterable
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from math import isfinite
 from numbers import Rational
 from typing import Any, TypeGuard
@@ -47,16 +47,20 @@ def exact(number: Weight | int) -> Value:
     return simplest(number)
 
 
-@singledispatch
 def simplest(value: Any) -> Any:
     """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
+    return value if isinstance(value, fmpq) else _simplest(value)
+
+
+@singledispatch
+def _simplest(value: Any) -> Any:
     return value
 
 
-simplest.register(bool, lambda value: value)
-simplest.register(int, fmpq)
-simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
-simplest.register(sympy.Rational, fraction)
+_simplest.register(bool, lambda value: value)
+_simplest.register(int, fmpq)
+_simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
+_simplest.register(sympy.Rational, fraction)
 
 
 def tidy(value: Any) -> Any:
@@ -130,10 +134,13 @@ length.register(RationalFunction, lambda value: max(map(length, value.coefficien
 
 
 @length.register(sympy.Expr)
+@lru_cache(maxsize=4096)  # what is added to a value is looked at, and then the sum
 def _(value: sympy.Expr) -> int:
-    exponents = (abs(each.args[0]) for each in value.atoms(sympy.exp) if each.args[0].is_Rational)
-    far = (int(exponent) for exponent in exponents if exponent > _FARTHEST)
-    return max((*far, *(length(fraction(number)) for number in value.atoms(sympy.Rational))), default=0)
+    if value.is_Rational:
+        return fraction(value).height_bits()
+    if isinstance(value, sympy.exp) and value.args[0].is_Rational and abs(value.args[0]) > _FARTHEST:
+        return int(abs(value.args[0]))
+    return max(map(length, value.args), default=0)
 
 
 def terms(value: Any) -> int:
@@ -260,6 +267,9 @@ def magnitude(value: Value) -> int:
     Raises:
         NotReal: it has no real value, or one too close to zero to tell.
     """
+    if isinstance(value, fmpq) and value:
+        above = len(str(abs(value.p))) - len(str(value.q))  # flint's text, which has no limit
+        return above if abs(value) >= fmpq(10) ** above else above - 1
     for precision in _PRECISIONS:
         with ctx.workprec(precision):
             size = abs(enclosure(value))
@@ -274,13 +284,14 @@ def magnitude(value: Value) -> int:
     raise NotReal(f"{value} cannot be told from zero, or is no real number")
 
 
-@singledispatch
 def sign(value: Value) -> int:
     """−1, 0 or 1: the exact sign of a real value.
 
     Raises:
         NotReal: the value is not a real number, or cannot be told from zero.
     """
+    if isinstance(value, fmpq):
+        return (value > 0) - (value < 0)
     for precision in _PRECISIONS:
         if found := clear_sign(value, None, precision):
             return found
@@ -288,9 +299,6 @@ def sign(value: Value) -> int:
     if vanishes(expression) or expression.equals(0):
         return 0
     raise NotReal(f"{expression} is not a real number that can be told from zero")
-
-
-sign.register(fmpq, lambda value: (value > 0) - (value < 0))
 
 
 def clear_sign(value: Value, at: fmpq | None, precision: int) -> int | None:

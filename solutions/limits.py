@@ -1,6 +1,5 @@
 """How long the numbers of a working may be: what is longer nobody writes, and it would take too long."""
 
-from collections.abc import Iterator
 from math import log2
 from typing import Any, TypeVar
 
@@ -28,30 +27,34 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    for number in (value,) if isinstance(value, fmpq) else _numbers(value):
-        if (number.height_bits() if isinstance(number, fmpq) else length(number)) > _LONGEST:
-            raise TooLong(
-                f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
-                "give shorter numbers, or fewer steps, sweeps or rewards"
-            )
-        if terms(number) > MOST_TERMS:
-            raise TooLong(
-                f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
-                "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
-            )
+    _check(value)
     return value
 
 
-def _numbers(value: Any) -> Iterator[Any]:
-    if type(value) is fmpq:
-        yield value
+def _check(value: Any) -> None:
+    if isinstance(value, fmpq):
+        if value.height_bits() > _LONGEST:
+            raise _too_many_digits()
     elif isinstance(value, dict):
         for item in value.values():
-            yield from _numbers(item)
+            _check(item)
     elif isinstance(value, tuple | list | Vector):
         for item in value:
-            yield from _numbers(item)
+            _check(item)
     elif is_matrix(value):
-        yield from value.entries()
-    else:
-        yield value
+        for item in value.entries():
+            _check(item)
+    elif length(value) > _LONGEST:
+        raise _too_many_digits()
+    elif terms(value) > MOST_TERMS:
+        raise TooLong(
+            f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
+            "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
+        )
+
+
+def _too_many_digits() -> TooLong:
+    return TooLong(
+        f"its working has numbers of more than {MOST_DIGITS} digits, the most that are written; "
+        "give shorter numbers, or fewer steps, sweeps or rewards"
+    )

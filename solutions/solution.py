@@ -145,7 +145,8 @@ class Solution:
 
     def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
         try:
-            return run(self.problem, misconception, carried).answers
+            same = () if carried or misconception.is_slip else self.work.values
+            return run(self.problem, misconception, carried, same).answers
         except (NoSolution, NotGiven):
             return None
 
@@ -157,15 +158,26 @@ class Solution:
             return {}  # nothing follows from what was typed
 
 
-def run(problem: Problem, misconception: Misconception | None = None, carried: Mapping[str, Any] | None = None) -> Work:
+def run(
+    problem: Problem,
+    misconception: Misconception | None = None,
+    carried: Mapping[str, Any] | None = None,
+    same: Sequence[Any] = (),
+) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
+
+    Args:
+        problem: the problem.
+        misconception: the mistake.
+        carried: the earlier answers.
+        same: what comes out on the right way, up to the formula that is misread.
 
     Raises:
         NoSolution: the problem has no answer.
         NotGiven: the mistake asks for something that the problem does not give.
         BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
-    work = Work(misconception, carried or {})
+    work = Work(misconception, carried or {}, same)
     slipping = None if misconception is None else misconception.solve
     try:
         (slipping or solver(problem.family).solve)(problem.given, work)
