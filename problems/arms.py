@@ -1,7 +1,6 @@
 """Planar arms as problems give them."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Beside, Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.pictures import Arm
 
 _RIGHT = tuple(map(read_angle, ("0", "pi/2", "pi", "-pi/2")))

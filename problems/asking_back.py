@@ -1,7 +1,6 @@
 """Runs whose updates stay readable, and questions that ask back: for the step size or the discount, from a value."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from fractions import Fraction
 from itertools import accumulate
 from typing import Annotated, Any, NamedTuple, Self
 
@@ -9,6 +8,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, Trajectory, after, draw_action_run

@@ -3,10 +3,10 @@
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from math import isqrt
 from typing import NamedTuple
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.notation import FUNCTIONS, Name, Node, Numeral, Operation
 from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from fractions import Fraction
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple, Self, TypeVar
 
@@ -30,6 +29,7 @@ from rldrill.problems.exact import (
     shown,
 )
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.model_forms import ALONE, SCHEMAS, read_form
 from rldrill.problems.names import read_name

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
 from typing import Annotated, NamedTuple, Self
 
@@ -12,6 +11,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_ends, check_keys
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note

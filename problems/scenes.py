@@ -1,10 +1,10 @@
 """Where robots believe, move and sense: states in a line, two actions along it, and two readings."""
 
 from dataclasses import dataclass
-from fractions import Fraction
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.fractions import Fraction
 
 
 @dataclass(frozen=True, slots=True)

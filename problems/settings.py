@@ -2,11 +2,11 @@
 
 import tomllib
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
 from rldrill.problems.draws import Draws
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Transition
 
 

@@ -1,7 +1,6 @@
 """Softmax policies that are linear in features, and runs of agents that follow them."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import prod
 from typing import Any, Self
 
@@ -20,6 +19,7 @@ from rldrill.problems.features import (
     weight_names,
     weights,
 )
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import in_open

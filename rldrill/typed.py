@@ -4,10 +4,10 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from fractions import Fraction
 from numbers import Integral
 
 from rldrill.problems.errors import UsageError
+from rldrill.problems.fractions import Fraction
 
 _PARTING = re.compile(r"[,;\n]")
 

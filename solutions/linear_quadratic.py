@@ -1,9 +1,9 @@
 """Linear systems of problems as formulas need them."""
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from typing import Any
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices

@@ -1,6 +1,5 @@
 """The values of actions in one state under a policy, from given values of the states."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter, transitions_table, values_table
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open, unknown

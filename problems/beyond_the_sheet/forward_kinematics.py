@@ -1,6 +1,5 @@
 """The end point and the orientation of a planar arm."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"

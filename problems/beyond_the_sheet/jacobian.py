@@ -1,6 +1,5 @@
 """The Jacobian of a planar arm, the velocity of its end, and whether the configuration is singular."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"

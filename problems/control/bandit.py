@@ -1,7 +1,6 @@
 """A bandit: sample averages and the greedy arm, upper confidence bounds and their weight, or a gradient step."""
 
 from dataclasses import dataclass
-from fractions import Fraction
 from math import log, sqrt
 from typing import Annotated, NamedTuple, Self
 
@@ -13,6 +12,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionPreferences
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Number, Part, Policy, Values
 

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -12,6 +11,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open

@@ -1,6 +1,5 @@
 """The probabilities with which an ε-greedy policy takes its actions, also where best actions are tied."""
 
-from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import exploration, in_open

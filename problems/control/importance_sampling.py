@@ -1,6 +1,5 @@
 """The importance sampling ratios of some episodes, and the ordinary and the weighted estimate of a state's value."""
 
-from fractions import Fraction
 from math import prod
 from typing import Annotated, Self
 
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     DistributionField,
     Name,

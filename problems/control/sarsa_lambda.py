@@ -1,6 +1,5 @@
 """The eligibility traces and the action values after updates of Sarsa(λ), or of Watkins's Q(λ), along a run."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open

@@ -1,6 +1,5 @@
 """How far value iteration can still be from V* after some sweeps, and how many sweeps an accuracy takes."""
 
-from fractions import Fraction
 from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount

@@ -1,6 +1,5 @@
 """The optimal policy for given optimal action values, some of which may have to be found first."""
 
-from fractions import Fraction
 from functools import cached_property
 from typing import Self
 
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import MOST_STATES, Dynamics, Name, Transition, transitions_table
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount, terminal_note, unknown

@@ -1,6 +1,5 @@
 """The worth of one step of another policy, and whether the policy improvement theorem applies to it."""
 
-from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, Transition, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount

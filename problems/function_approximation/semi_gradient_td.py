@@ -1,7 +1,6 @@
 """Semi-gradient TD(0) or Sarsa: the weights of a linear value after one or more transitions."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, StepSize, dot
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open, step_size

@@ -1,7 +1,6 @@
 """The stationary value matrix, gain and closed loop of LQR over an infinite horizon."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
 from itertools import product
 from math import isqrt
@@ -13,6 +12,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Scalar, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import Conventional, check_cross, quadratic
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (

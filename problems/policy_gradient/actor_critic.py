@@ -1,6 +1,5 @@
 """One-step actor-critic: the TD error, the critic's values and the actor's weights after one or more transitions."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, StepSize, Weight, shown
 from rldrill.problems.family import Question
 from rldrill.problems.features import ActionFeatures, weight_names
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note

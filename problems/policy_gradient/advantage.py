@@ -1,6 +1,5 @@
 """The advantage of every action in a state; or generalised advantage estimates along a run."""
 
-from fractions import Fraction
 from itertools import combinations
 from typing import Annotated, Self
 
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     Dynamics,
     Name,

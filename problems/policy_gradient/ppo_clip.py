@@ -1,7 +1,6 @@
 """PPO: the probability ratios, the two terms and the clipped objective of one or more samples."""
 
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from itertools import product
 from typing import Self
 
@@ -12,6 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionPreferences
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part, YesNo
 from rldrill.problems.settings import Setting, draw_setting

@@ -1,6 +1,5 @@
 """The action probabilities of a softmax policy that is linear in features; or the weight for which they are so."""
 
-from fractions import Fraction
 from math import exp, log, prod
 from typing import NamedTuple, Self
 
@@ -11,6 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, Weight, WeightField, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, OneStateFeatures, check_features, features_table, weights
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import check_one_open, in_open

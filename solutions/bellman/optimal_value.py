@@ -1,11 +1,11 @@
 """The values of the best policy, held against the optimality equation; then best actions and Q*."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.bellman.optimal_value import Given
 from rldrill.problems.document import joined
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
+
+from rldrill.problems.fractions import Fraction
 
 #: At most so many values of a table are tried one by one.
 _MOST = 24

@@ -1,10 +1,10 @@
 """A geometric series for the rewards that repeat, then the first rewards before it."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.exact import Scalar
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.numerics import np

@@ -1,11 +1,11 @@
 """The scalar Riccati equation by its quadratic; a larger system by its modes, if it has any, else in decimals."""
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import NamedTuple
 
 from flint import fmpq
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational, to_sympy, told

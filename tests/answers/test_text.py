@@ -1,7 +1,6 @@
 """What is read from typed answers, what is refused and how, and that neither takes long."""
 
 import time
-from fractions import Fraction
 
 import pytest
 import sympy
@@ -9,6 +8,7 @@ from flint import fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -751,7 +751,7 @@ def written(number: Fraction) -> list[str]:
 
 
 @given(
-    st.fractions(max_denominator=10**6).filter(lambda number: abs(number) < 10**9)
+    st.fractions(max_denominator=10**6).filter(lambda number: abs(number) < 10**9).map(Fraction)
     | st.decimals(min_value=-1000, max_value=1000, places=4).map(Fraction)
 )
 def test_every_rational_is_read_however_it_is_written(number):
@@ -769,7 +769,7 @@ def combined(parts: st.SearchStrategy) -> st.SearchStrategy:
     )
 
 
-TREES = st.recursive(st.fractions(0, 20, max_denominator=12), combined, max_leaves=10)
+TREES = st.recursive(st.fractions(0, 20, max_denominator=12).map(Fraction), combined, max_leaves=10)
 
 
 def computed(tree) -> Fraction:

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from rldrill.grading.marking import Rules
 from rldrill.grading.report import Report, StudentReport
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import UsageError
+from rldrill.problems.fractions import Fraction
 
 HEAD = "student,number,problem,part,answer\n"
 

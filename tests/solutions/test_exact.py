@@ -2,7 +2,6 @@
 
 import operator
 from collections.abc import Callable
-from fractions import Fraction
 
 import pytest
 import sympy
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 from sympy import E, Rational, exp, log, pi, sqrt
 
 from rldrill.problems.exact import Logarithm, Parameter
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import surds
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.answers.rule import equivalent
