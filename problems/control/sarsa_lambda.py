@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, action_values_table, draw_action_ru
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
