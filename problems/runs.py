@@ -540,11 +540,11 @@ def run_situation(
     """A run, and the values before it; ``more`` is said after the step size, if ``steps`` has it, and the discount."""
     before = "the first transition" if isinstance(given, ValueMoves | ActionMoves) else "the first update"
     rates = " ".join([*([step_size(given.alpha)] if steps else []), discount(given.gamma)])
-    told = f"These are the values before {before}. {rates} {more}"
+    told = f"These are the values before {before}. {rates} {more}".strip()
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
     if isinstance(given, ValueRun):
         told = unknown(given, f"{told} The value $x$ is left open." if "x" in given.letters else told)
-    return (*happened, Paragraph(told.strip()), *values)
+    return (*happened, Paragraph(told), *values)
 
 
 def sought_parts(given: ValueRun) -> tuple[Part, ...]:

@@ -209,7 +209,10 @@ def _inner(term: Expr) -> Expr:
     if isinstance(term, Node):
         return term._inner(_worked_out)
     if term.is_Mul:
-        return Mul(*_without_ones([_inner(factor) for factor in term.args]), evaluate=False)
+        factors = _without_ones([_inner(factor) for factor in term.args])
+        if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
+            return factors[1]
+        return Mul(*factors, evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
