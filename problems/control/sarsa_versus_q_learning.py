@@ -52,7 +52,7 @@ class Given(ActionRun):
 
 def draw(level: int, rng: Draws) -> Given:
     """One transition; then some that come back to a state; then some with γ left open."""
-    visits = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba."), 3: ("ab", "abc", "abc.", "abcd")}[level]
+    visits = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba."), 3: ("abc", "abc.", "abcd")}[level]
     found = draw_forward(rng, rng.choice(visits), 2 if level == 1 else 3, lambda row, _: max(row.values()))
     if len({tuple(row.values()) for row in found["values"].values()}) < len(found["values"]):
         return draw(level, rng)
