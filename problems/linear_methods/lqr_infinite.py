@@ -111,9 +111,7 @@ def draw(level: int, rng: Draws) -> Given:
         return _scalar(a, b, q, r, N=((added,),))
     if rng.chance(Fraction(2, 5)):
         (total, b, together, r), (difference, _, apart, _) = (map(Fraction, mode) for mode in rng.choice(_pairs()))
-        return Given(
-            A=_circulant(total, difference), B=diagonal(b, b), Q=_circulant(together, apart), R=diagonal(r, r)
-        )
+        return Given(A=_circulant(total, difference), B=diagonal(b, b), Q=_circulant(together, apart), R=diagonal(r, r))
     return _price(rng)
 
 
