@@ -67,8 +67,8 @@ def action_features_table(features: ActionFeatures) -> Table:
 
 
 def weights(theta: Sequence[Weight]) -> str:
-    """All weights by their numbers, as mathematics."""
-    return ", ".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(theta, 1))
+    """All weights by their numbers, as mathematics: each a formula of its own, between which a line may break."""
+    return "$, $".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(theta, 1))
 
 
 def weight_names(theta: Sequence[object]) -> tuple[str, ...]:
