@@ -4,13 +4,13 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rldrill.commands.arguments import Json, tell
-from rldrill.problems.fractions import Fraction
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -1,10 +1,10 @@
 """An exam as a thing: versions of one length and difficulty that share no problem."""
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 from rldrill.exercise import Exercise
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.effort import minutes, whole
 
 DEFAULT_TITLE = "Reinforcement Learning: worksheet"

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.exam import Exam, Person, Version
@@ -13,7 +14,6 @@ from rldrill.exam.worth import error, worth
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Choice, Part
 from rldrill.solutions.effort import minutes
 

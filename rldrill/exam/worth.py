@@ -1,11 +1,11 @@
 """Points: what every part of an exam earns, by the minutes, as its blueprint sets them, or scaled to a total."""
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 from rldrill.exam.slots import Slot
 from rldrill.exercise import Exercise
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.effort import minutes_of, points
 
 

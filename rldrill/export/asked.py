@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 from rldrill.exercise import Exercise
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo

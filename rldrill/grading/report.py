@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from rldrill.diagnosis import Diagnosis
 from rldrill.grading.answers_file import Refusal
 from rldrill.problems.errors import FileError, NothingToGrade
-from rldrill.problems.fractions import Fraction
 
 #: The version of the JSON that ``Report.to_json`` gives.
 FORMAT = 2

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 
@@ -13,7 +14,6 @@ from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import MarkedPart, Report, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.identity import looks_like_id, split_id
 
 #: How long the grading of one student may take, and that of a run, in seconds.

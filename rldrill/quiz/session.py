@@ -3,12 +3,12 @@
 import secrets
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from itertools import takewhile
 
 from rldrill.diagnosis import AT_THE_PROMPT, Diagnosis
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
 from rldrill.solutions.answers.judging import Outcome

@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,6 @@ from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.graded import Graded
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part
 from rldrill.writing import write_bytes_atomically
 

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
+from fractions import Fraction
 
 from rich.console import Console, RenderableType
 from rich.padding import Padding
@@ -11,7 +12,6 @@ from rich.text import Text
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Kind, Part
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import by_name, how_to_type

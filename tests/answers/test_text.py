@@ -1,6 +1,7 @@
 """What is read from typed answers, what is refused and how, and that neither takes long."""
 
 import time
+from fractions import Fraction
 
 import pytest
 import sympy
@@ -8,7 +9,6 @@ from flint import fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,

@@ -1,5 +1,7 @@
 """An exam as it is planned: versions share nothing, take as long as each other, and have the points that are wanted."""
 
+from fractions import Fraction
+
 import pytest
 
 from rldrill.exam.blueprint import Blueprint, Entry
@@ -9,7 +11,6 @@ from rldrill.exam.planning import plan, version_code
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed, sequence
 from rldrill.exam.worth import shared
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 
 
 def blueprint(*names: str, count: int = 3, level: int | None = None, **more: object) -> Blueprint:

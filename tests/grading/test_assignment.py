@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,6 @@ from rldrill.grading.marking import Rules
 from rldrill.grading.report import Report, StudentReport
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 
 HEAD = "student,number,problem,part,answer\n"
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,6 @@ from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.quiz.sitting import Place, Sitting, by_topic, version_of
 from rldrill.quiz.sitting_screen import SittingScreen
 
