@@ -104,6 +104,7 @@ class Exam:
         versions: all versions.
         partial: what wrong entries of a table or matrix cost: all of the part's points, or their share of them.
         layout: how it is printed.
+        sealed: whether a secret was mixed into its draws.
     """
 
     head: Head
@@ -111,6 +112,7 @@ class Exam:
     versions: tuple[Version, ...]
     partial: Literal["all", "entries"] = "all"
     layout: Layout = Layout()
+    sealed: bool = False
 
 
 def points_of(exercise: Exercise) -> int:

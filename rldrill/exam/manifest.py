@@ -36,6 +36,7 @@ def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
         "typst": printed_with,
         **asdict(exam.head),
         "seed": exam.seed,
+        **({"sealed": True} if exam.sealed else {}),
         "points": exam.versions[0].points,
         "partial": exam.partial,
         "layout": asdict(exam.layout),
@@ -133,6 +134,7 @@ class _Manifest(_Table):
     language: Literal["en", "de"] = "en"
     decimal_mark: Literal[".", ","] = "."
     seed: int
+    sealed: bool = False
     partial: Literal["all", "entries"] = "all"
     paper: Literal["a4", "letter"] = "a4"  # where format 1 has it
     layout: _Layout | None = None
@@ -161,7 +163,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     head = Head(**{name: getattr(data, name) for name in Head.__dataclass_fields__})
     layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
-    return Exam(head, data.seed, (), data.partial, layout), makes
+    return Exam(head, data.seed, (), data.partial, layout, data.sealed), makes
 
 
 def codes(path: str | Path) -> tuple[str, ...]:
