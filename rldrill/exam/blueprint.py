@@ -76,6 +76,7 @@ class Blueprint(_Table):
     order: Literal["fixed", "shuffled"] = "fixed"
     minutes: Annotated[int, Field(ge=1, le=600)] | None = None
     points: Annotated[int, Field(ge=1, le=10_000)] | None = None
+    scale: Annotated[int, Field(ge=1, le=10_000)] | None = None
     partial: Literal["all", "entries"] = "all"
     exclude: _Names = ()
     paper: Literal["a4", "letter"] = "a4"

@@ -105,6 +105,7 @@ class Exam:
         partial: what wrong entries of a table or matrix cost: all of the part's points, or their share of them.
         layout: how it is printed.
         sealed: whether a secret was mixed into its draws.
+        scale: as how many points reports tell the whole exam; None for its own.
     """
 
     head: Head
@@ -113,6 +114,7 @@ class Exam:
     partial: Literal["all", "entries"] = "all"
     layout: Layout = Layout()
     sealed: bool = False
+    scale: int | None = None
 
 
 def points_of(exercise: Exercise) -> int:

@@ -38,6 +38,7 @@ def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
         "seed": exam.seed,
         **({"sealed": True} if exam.sealed else {}),
         "points": exam.versions[0].points,
+        **({} if exam.scale is None else {"scale": exam.scale}),
         "partial": exam.partial,
         "layout": asdict(exam.layout),
         "fairness": fairness(exam).data(),
@@ -135,6 +136,7 @@ class _Manifest(_Table):
     decimal_mark: Literal[".", ","] = "."
     seed: int
     sealed: bool = False
+    scale: Annotated[int, Field(ge=1)] | None = None
     partial: Literal["all", "entries"] = "all"
     paper: Literal["a4", "letter"] = "a4"  # where format 1 has it
     layout: _Layout | None = None
@@ -163,7 +165,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     head = Head(**{name: getattr(data, name) for name in Head.__dataclass_fields__})
     layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
-    return Exam(head, data.seed, (), data.partial, layout, data.sealed), makes
+    return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
 
 def codes(path: str | Path) -> tuple[str, ...]:
@@ -179,13 +181,15 @@ def codes(path: str | Path) -> tuple[str, ...]:
 class Printed:
     """What a manifest says of a version without solving it: whose it is, and its problems in their order.
 
-    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0.
+    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0; ``worth`` has
+    for every problem the points of its parts.
     """
 
     code: str
     person: Person | None
     ids: tuple[str | None, ...]
     slots: tuple[int, ...]
+    worth: tuple[Mapping[str, int], ...]
 
 
 def printed(path: str | Path) -> tuple[Printed, ...]:
@@ -200,6 +204,7 @@ def printed(path: str | Path) -> tuple[Printed, ...]:
             None if version.person is None else Person(version.person.name, version.person.number),
             tuple(problem.id for problem in version.problems),
             _slots(version),
+            tuple({part.part: part.points for part in problem.parts} for problem in version.problems),
         )
         for version in _checked(path).versions
     )

@@ -68,7 +68,9 @@ def plan(
         person = roster[index] if roster else None
         versions.append(Version(codes[index], tuple(worthy[slot] for slot in order), order, person))
         advance()
-    return Exam(blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, sealed=secret is not None)
+    return Exam(
+        blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, secret is not None, blueprint.scale
+    )
 
 
 def version_codes(count: int, seed: int, secret: Secret | None = None) -> tuple[str, ...]:

@@ -7,12 +7,13 @@ from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 
+from rldrill.exam.manifest import Printed
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
 from rldrill.grading.assignment import Assignment, Sitting, folded
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
-from rldrill.grading.report import MarkedPart, Report, StudentReport
+from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id, split_id
 
@@ -38,6 +39,7 @@ class Settings:
         needed: the share of the points that every student must reach.
         rules: how single answers are marked.
         student: how many seconds the grading of one student may take.
+        absent: whether people on the roster who handed in nothing are reported, too.
     """
 
     assignment: Assignment | None = None
@@ -48,6 +50,7 @@ class Settings:
     needed: Fraction | None = None
     rules: Rules = field(default_factory=Rules)
     student: float = STUDENT
+    absent: bool = True
 
 
 def verify(
@@ -82,10 +85,11 @@ def verify(
                 reports.append(report)
             if advance is not None:
                 advance(count, len(students))
-    title = "" if settings.assignment is None else settings.assignment.title
     if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
         reports = []
-    return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed)
+    exam = settings.assignment
+    title, scale = ("", None) if exam is None else (exam.title, exam.scale)
+    return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed, scale)
 
 
 @dataclass(slots=True)
@@ -114,7 +118,7 @@ class _Run:
         return rules if self._assignment is None else replace(rules, partial=self._assignment.partial)
 
     def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
-        """Who answered, in the order of the files."""
+        """Who answered, in the order of the files; then who is on the roster and did not."""
         found: dict[tuple[str, ...], _Student] = {}
         unknown: set[str] = set()
         for each in handed:
@@ -132,10 +136,13 @@ class _Run:
                 student = found.setdefault(key, _Student(sitting))
                 student.hand_ins.setdefault(entry.path, []).append(entry)
         yield from found.values()
+        if self._assignment is not None and self._settings.absent:
+            people = ((folded(each.number or each.student), each) for each in self._assignment.people)
+            yield from (_Student(each) for who, each in people if (who,) not in found)
 
     def report(self, student: _Student, desk: Marker) -> StudentReport | None:
         """One student's report; None where nothing of it could be graded."""
-        chosen = list(student.hand_ins.values())
+        chosen = list(student.hand_ins.values()) or [[]]
         if self._hand_ins == "last":
             chosen = chosen[-1:]
         elif self._hand_ins == "first":
@@ -154,7 +161,7 @@ class _Run:
         parts: list[MarkedPart] = []
         for slot, task in tasks:
             begun = perf_counter()
-            parts += self._parts(slot, task, desk, seconds)
+            parts += self._parts(slot, task, desk, seconds, sitting.version)
             seconds = max(0.0, seconds - (perf_counter() - begun))
         if not parts and not extra:
             return None
@@ -162,7 +169,9 @@ class _Run:
         paths = dict.fromkeys(shown(entry.path) for entry in entries)
         return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
 
-    def _parts(self, slot: int, task: Task, desk: Marker, seconds: float) -> Iterator[MarkedPart]:
+    def _parts(
+        self, slot: int, task: Task, desk: Marker, seconds: float, version: Printed | None
+    ) -> Iterator[MarkedPart]:
         try:
             if perf_counter() - self._begun > RUN:
                 raise FileError(f"the run took more than {RUN:g} seconds; grade the rest in another one.")
@@ -170,6 +179,10 @@ class _Run:
         except UserError as error:
             whose = [refusal(entry, str(error), task.name) for entry in task.entries[:1]]
             self._refused += whose or [Refusal("", None, "", str(error), problem=task.name)]
+            if version is not None and not isinstance(task.ref, str):  # what an exam asks counts, whatever happens
+                for label, of in version.worth[task.ref[1]].items():
+                    judged = Judged("", NOT_GRADED, False, str(error), Score(Fraction(0), of), "")
+                    yield MarkedPart(task.name, label, "", judged, slot=slot)
             return
         self._refused += marked.refused
         if marked.notes:

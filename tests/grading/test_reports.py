@@ -126,7 +126,7 @@ def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: 
     assert any("line=8," in line and "neither a problem ID" in line for line in lines)
     table = github.summary(report, "reason")
     assert "<script" not in table
-    assert table.count("\n| ") == 1 + len(report.parts)
+    assert table.count("\n| ") == 1 + len(report.students) + 1 + len(report.parts)
 
 
 def test_no_cell_of_a_table_is_a_formula(report: Report) -> None:

@@ -4,8 +4,8 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
-from rldrill.grading.report import FEEDBACK, Report
-from rldrill.grading.reports.said import one_line
+from rldrill.grading.report import FEEDBACK, Report, StudentReport
+from rldrill.grading.reports.said import NOTHING, one_line
 
 #: What a spreadsheet takes for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
@@ -35,11 +35,18 @@ def totals(report: Report) -> str:
     rows = (
         [
             student.student, student.number, student.version, f"{float(student.score.points):.6g}",
-            str(student.score.of), f"{float(100 * student.score.share):.4g}", "yes" if report.passed(student) else "no",
+            str(student.score.of), f"{float(100 * student.score.share):.4g}", *_scaled(report, student),
+            "yes" if report.passed(student) else "no", "" if student.paths else NOTHING,
         ]
         for student in report.students
     )  # fmt: skip
-    return _csv([["student", "number", "version", "points", "of", "percent", "passed"], *rows])
+    scaled = [] if report.scale is None else ["scaled", "scaled of"]
+    return _csv([["student", "number", "version", "points", "of", "percent", *scaled, "passed", "remark"], *rows])
+
+
+def _scaled(report: Report, student: StudentReport) -> Sequence[str]:
+    scaled = report.scaled(student)
+    return () if scaled is None else (f"{float(scaled.points):.6g}", str(scaled.of))
 
 
 def _csv(rows: Iterable[Sequence[str]]) -> str:
