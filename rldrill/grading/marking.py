@@ -144,7 +144,7 @@ class Desk:
             taken[label] = entry
         elif not self._rules.repeated:
             whose = f" by {entry.student}" if entry.student else ""
-            lines = "" if entry.line is None else f" (first in line {before.line})"
+            lines = "" if before.line is None else f" (first in line {before.line})"
             return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
         return ""
 
@@ -174,7 +174,7 @@ class _Problem:
             text = "" if entry is None else self._text(part, entry)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
-            elif entry.column is not None and _DATE.fullmatch(text.strip()):
+            elif entry.is_cell and _DATE.fullmatch(text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
                 verdict, judged = self._answer(part, text, given if own else {})

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from rldrill.diagnosis import Diagnosis
-from rldrill.grading.answers_file import Refusal
+from rldrill.grading.answers_file import Refusal, placed
 from rldrill.problems.errors import FileError, NothingToGrade
 
 #: The version of the JSON that ``Report.to_json`` gives.
@@ -74,8 +74,8 @@ class MarkedPart:
         typed: what was typed.
         judged: what was found out about it.
         path: the file of answers; empty for what was not answered.
-        line: the line of the file, where its format has one for every answer.
-        column: the field of the line, in a spreadsheet.
+        line: the line of the file.
+        column: the field of the line in a spreadsheet, else the sign where the answer begins.
         slot: the problem's place in the blueprint, which versions have in common, from 1; 0 without an exam.
     """
 
@@ -92,6 +92,11 @@ class MarkedPart:
     def score(self) -> Score:
         """What it earns, of how much."""
         return self.judged.score
+
+    @property
+    def place(self) -> str:
+        """Where the answer stands; empty for what was not answered."""
+        return placed(self.path, self.line, self.column) if self.path else ""
 
     @property
     def name(self) -> str:

@@ -81,7 +81,7 @@ def test_the_action_annotates_and_writes_its_summary(course: Path) -> None:
     assert set(environment) == set(step["env"])
     done = run(step["run"], course, **environment, GITHUB_STEP_SUMMARY=str(course / "summary.md"))
     assert done.returncode == 1, done.stderr
-    assert done.stdout.startswith("::error file=ann.answers.toml,title=problem 2")
+    assert done.stdout.startswith("::error file=ann.answers.toml,line=3,title=problem 2")
     assert (course / "summary.md").read_text().count("\n| ") == 4
 
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from rldrill.grading.report import Report
-from rldrill.grading.reports.said import one_line, sentence
+from rldrill.grading.reports.said import located, one_line
 
 
 def written(report: Report, feedback: str) -> str:
@@ -20,7 +20,7 @@ def written(report: Report, feedback: str) -> str:
             "number": str(number),
             "score": round(float(part.score.points * factor), 2),
             "max_score": round(float(part.score.of * factor), 2),
-            "output": one_line(sentence(part, feedback)),
+            "output": one_line(located(part, feedback)),
             "output_format": "text",
             "visibility": "visible",
         }

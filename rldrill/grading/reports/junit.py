@@ -57,8 +57,7 @@ def _case(student: str, part: MarkedPart, feedback: str) -> Element:
         kind = "error" if part.judged.verdict == NOT_GRADED else "failure"
         failure = SubElement(case, kind, message=one_line(sentence(part, feedback)), type=part.judged.verdict)
         earned = f"{float(part.score.points):g} of {part.score.of}"
-        where = part.path if part.line is None else f"{part.path}, line {part.line}"
-        failure.text = one_line(f"{earned} points; {where or 'no answer'}")
+        failure.text = one_line(f"{earned} points; {part.place or 'no answer'}")
     return case
 
 

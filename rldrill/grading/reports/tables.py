@@ -13,7 +13,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 def written(report: Report, feedback: str) -> str:
     """A row for every student and part."""
-    head = ["student", "number", "version", "problem", "part", "points", "of"]
+    head = ["student", "number", "version", "problem", "part", "file", "line", "column", "points", "of"]
     amount = FEEDBACK.index(feedback)
     head += ["typed", "verdict"] if amount >= 1 else []
     head += ["reason"] if amount >= 2 else []
@@ -21,6 +21,7 @@ def written(report: Report, feedback: str) -> str:
     rows = (
         [
             student.student, student.number, student.version, part.problem, part.part,
+            part.path, str(part.line or ""), str(part.column or ""),
             f"{float(part.score.points):.6g}", str(part.score.of), part.typed, part.judged.verdict, part.judged.reason,
             part.judged.key,
         ][: len(head)]

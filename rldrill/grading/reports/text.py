@@ -1,7 +1,7 @@
 """The report as plain text, a line for every part."""
 
 from rldrill.grading.report import Report, Score, StudentReport
-from rldrill.grading.reports.said import NOTHING, one_line, sentence
+from rldrill.grading.reports.said import NOTHING, located, one_line
 
 
 def written(report: Report, feedback: str) -> str:
@@ -11,7 +11,7 @@ def written(report: Report, feedback: str) -> str:
         lines += [f"{named(student)}: {earned(report, student)}"]
         for part in student.parts if student.paths else ():
             got = f"{part.score.points} of {part.score.of}"
-            lines.append(f"  {part.problem} ({part.part})  {got}  {one_line(sentence(part, feedback))}".rstrip())
+            lines.append(f"  {part.problem} ({part.part})  {got}  {one_line(located(part, feedback))}".rstrip())
         lines += [f"  {one_line(said)}" for said in student.extra]
     lines += [f"Not graded: {one_line(refusal.says)}" for refusal in report.refused]
     return "\n".join([*lines, f"All together: {points(report.score)}"]) + "\n"
