@@ -67,6 +67,14 @@ def test_the_pipelines_fit_the_schemas_of_their_services(schema: str, files: lis
     assert done.exit_code == 0, done.output
 
 
+def test_the_workflows_are_safe() -> None:
+    files = [ROOT / "action.yml", ROOT / ".github" / "workflows", CI / "github" / "rldrill.yml"]
+    settings = ["--offline", "--no-progress", "--config", str(ROOT / ".github" / "zizmor.yml")]
+    command = [str(Path(sys.executable).with_name("zizmor")), *settings, *map(str, files)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 0, done.stdout
+
+
 def test_the_action_annotates_and_writes_its_summary(course: Path) -> None:
     action = YAML(typ="safe").load(ROOT / "action.yml")
     (step,) = [step for step in action["runs"]["steps"] if step.get("name") == "Verify"]
