@@ -33,17 +33,21 @@ _ALSO = {
 _FIRST = ("first name", "firstname", "given name", "vorname")
 _LAST = ("last name", "lastname", "surname", "family name", "nachname")
 _AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
+#: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
+csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
 _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
 #: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
 JOINERS = "\u200c\u200d"
 #: No name has more characters.
 _LONGEST = 200
+#: A table from problems to answers is one student's; it has no more characters.
+_LARGEST = 10**6
 #: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
 _MOST_BROKEN = 20
 #: A problem's number in an exam.
 PLACE = re.compile(r"[1-9][0-9]{0,2}")
-_BARE_ID = re.compile(r"^\s*\[?\s*(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
+_BARE_ID = re.compile(r"^[ \t]*+\[?[ \t]*+(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +138,8 @@ def read_answers(path: str | Path) -> HandedIn:
     path = Path(path)
     text = read_text(path, SUFFIXES)
     suffix = path.suffix.lower()
+    if suffix in DATA_SUFFIXES and len(text) > _LARGEST:
+        raise FileError(f"{shown(path)}: it is larger than {_LARGEST // 10**6} MB, and is one student's; shorten it.")
     if not text.strip():
         rows: tuple[Row, ...] = ()
     elif suffix == ".csv":
@@ -189,9 +195,10 @@ def _word(value: object, name: str, place: str) -> str:
         return ""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise FileError(f"{place}: '{name}' must be a text; write it in quotes.")
-    word = " ".join(unicodedata.normalize("NFC", str(value)).split())
+    word = " ".join(str(value)[: 10 * _LONGEST].split())  # normal forms of long texts take long
+    word = unicodedata.normalize("NFC", word)
     if len(word) > _LONGEST:
-        raise FileError(f"{place}: '{name}' has {len(word)} characters; shorten it.")
+        raise FileError(f"{place}: '{name}' has more than {_LONGEST} characters; shorten it.")
     if not all(sign.isprintable() or sign in JOINERS for sign in word):
         raise FileError(f"{place}: '{name}' holds a character that cannot be printed; retype it.")
     return word
@@ -348,7 +355,8 @@ def _separator(text: str, wanted: Sequence[str]) -> tuple[str, int, str]:
 
 def _names(fields: Sequence[str]) -> list[str]:
     names = [" ".join(field.replace("_", " ").replace('"', " ").lower().split()) for field in fields]
-    return [_ALSO[name] if _ALSO.get(name) not in (None, *names) else name for name in names]
+    there = {None, *names}
+    return [_ALSO[name] if _ALSO.get(name) not in there else name for name in names]
 
 
 def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:

@@ -69,26 +69,32 @@ class _Tokens:
     """What a TOML file is made of, one after the other, without blanks and comments."""
 
     def __init__(self, text: str) -> None:
-        self._found = [each for each in _TOKEN.finditer(text) if each.lastgroup != "blank"]
-        self._next = 0
+        self._found = (each for each in _TOKEN.finditer(text) if each.lastgroup != "blank")
+        self._next = next(self._found, None)
 
     @property
     def sign(self) -> str:
         """The next one, if it is a sign or a line's end; a blank for anything else, nothing at the end."""
-        if self._next >= len(self._found):
+        if self._next is None:
             return ""
-        token = self._found[self._next]
-        return token[0] if token.lastgroup in ("sign", "end") else " "
+        return self._next[0] if self._next.lastgroup in ("sign", "end") else " "
 
     @property
     def at(self) -> int:
         """Where the next one begins."""
-        return self._found[self._next].start()
+        return self._token.start()
 
     def take(self) -> str:
         """The next one, and on to that after it."""
-        self._next += 1
-        return self._found[self._next - 1][0]
+        token = self._token
+        self._next = next(self._found, None)
+        return token[0]
+
+    @property
+    def _token(self) -> re.Match[str]:
+        if self._next is None:
+            raise ValueError("the text ends too early")
+        return self._next
 
     def key(self) -> Keys:
         """A key, with dots or without."""

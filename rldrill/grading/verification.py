@@ -100,6 +100,19 @@ class _Student:
     hand_ins: dict[Path, list[Entry]] = field(default_factory=dict)
 
 
+class _Clock:
+    """The time that one student has; solving the problems of an exam, which everybody has, is not counted."""
+
+    def __init__(self, seconds: float, desk: Marker | None) -> None:
+        self._seconds, self._desk, self._begun = seconds, desk, perf_counter()
+        self._loaded = 0.0 if desk is None else desk.loading
+
+    def left(self) -> float:
+        """How many seconds are left."""
+        loading = 0.0 if self._desk is None else self._desk.loading - self._loaded
+        return self._seconds - (perf_counter() - self._begun - loading)
+
+
 class _Run:
     """One run of grading; what cannot be graded is added to ``refused``."""
 
@@ -147,22 +160,18 @@ class _Run:
             chosen = chosen[-1:]
         elif self._hand_ins == "first":
             chosen = chosen[:1]
-        left = self._settings.student
-        reports = []
-        for entries in chosen:
-            begun = perf_counter()
-            reports.append(self._graded(student.sitting, entries, desk, left))
-            left -= perf_counter() - begun
+        clock = _Clock(self._settings.student, desk if self._assignment is not None else None)
+        reports = [self._graded(student.sitting, entries, desk, clock) for entries in chosen]
         found = [report for report in reports if report is not None]
         return max(found, key=lambda report: report.score.points, default=None)  # the first of the best
 
-    def _graded(self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, seconds: float) -> StudentReport | None:
+    def _graded(
+        self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, clock: "_Clock"
+    ) -> StudentReport | None:
         tasks, extra = self._tasks(sitting, entries)
         parts: list[MarkedPart] = []
         for slot, task in tasks:
-            begun = perf_counter()
-            parts += self._parts(slot, task, desk, seconds, sitting.version)
-            seconds = max(0.0, seconds - (perf_counter() - begun))
+            parts += self._parts(slot, task, desk, clock, sitting.version)
         if not parts and not extra:
             return None
         version = "" if sitting.version is None else sitting.version.code
@@ -170,12 +179,15 @@ class _Run:
         return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
 
     def _parts(
-        self, slot: int, task: Task, desk: Marker, seconds: float, version: Printed | None
+        self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: Printed | None
     ) -> Iterator[MarkedPart]:
         try:
             if perf_counter() - self._begun > RUN:
                 raise FileError(f"the run took more than {RUN:g} seconds; grade the rest in another one.")
-            marked = desk.mark(task, seconds)
+            if (left := clock.left()) <= 0:
+                limit = self._settings.student
+                raise FileError(f"grading this student took more than {limit:g} seconds; {task.name} is not graded.")
+            marked = desk.mark(task, left)
         except UserError as error:
             whose = [refusal(entry, str(error), task.name) for entry in task.entries[:1]]
             self._refused += whose or [Refusal("", None, "", str(error), problem=task.name)]

@@ -150,3 +150,32 @@ def test_any_manifest_is_read_or_refused(tmp_path: Path, content: object) -> Non
     with contextlib.suppress(UserError):
         printed(path)
         Assignment(path, "A")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.toml", '"td-zero/1/7".' + "a." * 100_000 + "b = 1"),  # the library takes 5 GB for it
+        ("a.toml", '["td-zero/1/7" .' + " '' . " * 100_000 + "b]"),
+        ("a.toml", "x = {" + '"\\"" . ' * 50_000 + "b = 1}"),
+        ("a.toml", "\n" * 900_000 + "="),
+        ("a.toml", '"td-zero/1/7" = "' + '\\"' * 400_000 + '"'),
+        ("a.toml", '"td-zero/1/7" = [' + "1," * 2_000_000 + "]"),
+        ("a.json", '{"td-zero/1/7": [' + "1," * 2_000_000 + "1]}"),
+        ("a.csv", "problem,answer" + ",x" * 100_000 + "\ntd-zero/1/7,1" + "," * 100_000 + "\n"),
+        ("a.csv", HEAD + "A" + "\u0301\u0316" * 500_000 + ",td-zero/1/7,a,1\n"),
+        ("a.csv", HEAD + 'A,td-zero/1/7,a,"\n' * 10_000),
+    ],
+)
+def test_no_small_file_takes_long(tmp_path: Path, name: str, content: str) -> None:
+    path = written(tmp_path, name, content)
+    begun = time.process_time()
+    verify([path])
+    assert time.process_time() - begun < 3
+
+
+def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
+    long = "".join(f"{name},td-zero/1/7,a,{'9' * 200_000}\n" for name in "ABCDEFGHIJKLMNOPQRSTUVWXY")
+    found = verdicts(written(tmp_path, "a.csv", f"{HEAD}{long}Zoe,td-zero/1/7,a,5.25\n"))
+    assert found.pop("Zoe") == "right"
+    assert set(found.values()) == {"unreadable"}
