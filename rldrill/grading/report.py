@@ -14,6 +14,8 @@ FORMAT = 2
 #: The verdicts on a part that was not answered, and on one that could not be graded; all others are of ``Outcome``.
 MISSING = "missing"
 NOT_GRADED = "not graded"
+#: What is said of somebody on the roster without any answers.
+NOTHING = "handed in nothing"
 #: How much of the judgement a report tells, the least first.
 FEEDBACK = ("none", "verdict", "reason", "key")
 
@@ -127,7 +129,9 @@ class StudentReport:
         version: the version of the exam; empty without one.
         paths: the files that hold the answers, as they are shown; none for somebody who handed in nothing.
         parts: every part of every problem.
-        extra: problems that were answered and are not in this student's exam, with why they earn nothing.
+        extra: problems that were answered and are not in this student's exam, with why they earn nothing; and what else
+            somebody should look at.
+        others: their other hand-ins, which do not count.
     """
 
     student: str
@@ -136,6 +140,14 @@ class StudentReport:
     version: str = ""
     paths: tuple[str, ...] = ()
     extra: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
+
+    @property
+    def remark(self) -> str:
+        """What a list of students says beside the points: that somebody handed in nothing, or more than once."""
+        if not self.paths:
+            return NOTHING
+        return f"1 of {len(self.others) + 1} hand-ins" if self.others else ""
 
     @property
     def score(self) -> Score:
@@ -149,6 +161,7 @@ class StudentReport:
             "number": self.number or None,
             "version": self.version or None,
             "files": list(self.paths),
+            "other_files": list(self.others),
             "handed_in": bool(self.paths),
             "points": self.score.to_json(),
             "answers": [part.to_json(feedback) for part in self.parts],

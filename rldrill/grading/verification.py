@@ -98,6 +98,7 @@ class _Student:
 
     sitting: Sitting
     hand_ins: dict[Path, list[Entry]] = field(default_factory=dict)
+    said: dict[str, None] = field(default_factory=dict)
 
 
 class _Clock:
@@ -148,6 +149,9 @@ class _Run:
                 key = (who,) if self._hand_ins and who else (who, str(entry.path))
                 student = found.setdefault(key, _Student(sitting))
                 student.hand_ins.setdefault(entry.path, []).append(entry)
+                if entry.number and sitting.number and folded(entry.student) not in ("", folded(sitting.student)):
+                    whose = f"number {sitting.number} is {sitting.student}'s, and beside it stands {entry.student!r}"
+                    student.said[f"{shown(entry.path)}: {whose}; it is marked as {sitting.student}'s."] = None
         yield from found.values()
         if self._assignment is not None and self._settings.absent:
             people = ((folded(each.number or each.student), each) for each in self._assignment.people)
@@ -163,7 +167,11 @@ class _Run:
         clock = _Clock(self._settings.student, desk if self._assignment is not None else None)
         reports = [self._graded(student.sitting, entries, desk, clock) for entries in chosen]
         found = [report for report in reports if report is not None]
-        return max(found, key=lambda report: report.score.points, default=None)  # the first of the best
+        best = max(found, key=lambda report: report.score.points, default=None)  # the first of the best
+        if best is None:
+            return None
+        others = tuple(path for path in map(shown, student.hand_ins) if path not in best.paths)
+        return replace(best, extra=(*best.extra, *student.said), others=others)
 
     def _graded(
         self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, clock: "_Clock"

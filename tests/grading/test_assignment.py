@@ -276,3 +276,36 @@ def test_every_report_tells_the_points_on_the_exams_scale(tmp_path: Path) -> Non
     results = json.loads(gradescope.written(report, "reason"))
     assert results["score"] == 40
     assert [(test["score"], test["max_score"]) for test in results["tests"]] == [(40, 40), (0, 0), (0, 60)]
+
+
+def test_what_is_handed_in_in_somebody_elses_name_is_seen(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=(Person("Ann Lee", "8"), Person("Ben Ali", "9")))
+    right = {version.person.name: keys(version)["1", "a"] for version in made.versions}
+    for name, row in {
+        "ann": ("Ann Lee", "8", "1", "a", right["Ann Lee"]),
+        "ben": ("Ben Ali", "9", "1", "a", right["Ben Ali"]),
+        "mallory": ("Mallory", "9", "1", "a", "1000"),
+    }.items():
+        (tmp_path / f"{name}.csv").write_text(HEAD + ",".join(f'"{cell}"' for cell in row) + "\n")
+    report = verify([tmp_path / f"{name}.csv" for name in ("ann", "ben", "mallory")], Settings(Assignment(path)))
+    ann, ben = report.students
+    assert (ann.extra, ann.others, ann.remark) == ((), (), "")
+    assert ben.others == (str(tmp_path / "ben.csv"),)
+    assert ben.remark == "1 of 2 hand-ins"
+    (said,) = ben.extra
+    assert "number 9 is Ben Ali's, and beside it stands 'Mallory'" in said
+    assert "1 of 2 hand-ins" in tables.totals(report)
+    assert "1 of 2 hand-ins" in page.written(report, "reason")
+
+
+def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    right = keys(made.versions[0])["2", "a"]
+    tricks = [
+        "V(s)", "R_1", "x", "0/0", "1/0", "NaN", f"1 or {right}", f"{right} or 1", f"{right}; 1", f"[0, {right}]",
+        f"{right} ± 9", f"0..{right}", f"a: 1, a: {right}", f"{{1, {right}}}", "key", "?", f"{right}\u200b", "9^9^9",
+    ]  # fmt: skip
+    for trick in tricks:
+        (ann,) = graded(tmp_path, [("Ann", "", "2", "a", trick)], Assignment(path)).students
+        assert ann.score.points == 0, trick
+        assert ann.parts[1].judged.verdict in ("unreadable", "missing"), trick

@@ -40,8 +40,9 @@ def schema() -> dict[str, Any]:
     student = _table(
         {
             "student": _TEXT, "number": _TEXT_OR_NOTHING, "version": _TEXT_OR_NOTHING, "files": _list(_TEXT),
-            "handed_in": {"type": "boolean"}, "points": points, "scaled": {"anyOf": [points, {"type": "null"}]},
-            "answers": _list(answer), "not_marked": _list(_TEXT), "passed": {"type": "boolean"},
+            "other_files": _list(_TEXT), "handed_in": {"type": "boolean"}, "points": points,
+            "scaled": {"anyOf": [points, {"type": "null"}]}, "answers": _list(answer),
+            "not_marked": _list(_TEXT), "passed": {"type": "boolean"},
         }
     )  # fmt: skip
     refused = _table(

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from rldrill.grading.report import MarkedPart, Report, StudentReport
-from rldrill.grading.reports.said import NOTHING, one_line, sentence
+from rldrill.grading.reports.said import one_line, sentence
 
 #: GitHub shows no more annotations of a step.
 MOST = 10
@@ -53,7 +53,7 @@ def summary(report: Report, feedback: str) -> str:
 def _totals(report: Report, student: StudentReport) -> str:
     score = report.scaled(student) or student.score
     name = _cell(student.student or ", ".join(student.paths))
-    return f"| {name} | {float(score.points):.6g} | {score.of} | {'' if student.paths else NOTHING} |"
+    return f"| {name} | {float(score.points):.6g} | {score.of} | {student.remark} |"
 
 
 def _refused(report: Report) -> Iterator[str]:
@@ -66,7 +66,7 @@ def _wrong(report: Report, feedback: str) -> Iterator[str]:
         return
     for student in report.students:
         if not student.paths:
-            yield _annotation("error", "", None, NOTHING, student.student)
+            yield _annotation("error", "", None, student.remark, student.student)
             continue
         for part in student.parts:
             if not part.judged.accepted:

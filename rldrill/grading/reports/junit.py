@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from rldrill.grading.report import NOT_GRADED, MarkedPart, Report, StudentReport
-from rldrill.grading.reports.said import NOTHING, one_line, sentence
+from rldrill.grading.reports.said import one_line, sentence
 
 
 def written(report: Report, feedback: str) -> str:
@@ -44,8 +44,8 @@ def _properties(report: Report, student: StudentReport) -> Iterator[tuple[str, s
     if (scaled := report.scaled(student)) is not None:
         yield "scaled", f"{float(scaled.points):g}"
         yield "scaled of", str(scaled.of)
-    if not student.paths:
-        yield "remark", NOTHING
+    if student.remark:
+        yield "remark", student.remark
     if student.version:
         yield "version", student.version
 

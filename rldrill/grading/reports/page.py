@@ -4,8 +4,8 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from rldrill.grading.report import MISSING, NOT_GRADED, MarkedPart, Report
-from rldrill.grading.reports.said import NOTHING, one_line
+from rldrill.grading.report import MISSING, NOT_GRADED, NOTHING, MarkedPart, Report
+from rldrill.grading.reports.said import one_line
 
 _BARS = 10
 _STYLE = """
@@ -110,8 +110,8 @@ def _totals(report: Report) -> Iterable[tuple[str, ...]]:
         points = f"{float(score.points):g} of {score.of}"
         scaled = report.scaled(student)
         more = () if scaled is None else (f"{float(scaled.points):.6g} of {scaled.of}",)
-        share, remark = f"{float(100 * score.share):.3g}", "" if student.paths else NOTHING
-        yield (student.student, student.number, student.version, points, share, *more, remark)
+        share = f"{float(100 * score.share):.3g}"
+        yield (student.student, student.number, student.version, points, share, *more, student.remark)
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

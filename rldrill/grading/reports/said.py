@@ -3,9 +3,6 @@
 from rldrill.grading.answers_file import JOINERS
 from rldrill.grading.report import FEEDBACK, MarkedPart
 
-#: What is said of somebody on the roster without any answers.
-NOTHING = "handed in nothing"
-
 
 def sentence(part: MarkedPart, feedback: str) -> str:
     """The verdict, the reason and the key, or what of them is told."""

@@ -5,7 +5,7 @@ import io
 from collections.abc import Iterable, Sequence
 
 from rldrill.grading.report import FEEDBACK, Report, StudentReport
-from rldrill.grading.reports.said import NOTHING, one_line
+from rldrill.grading.reports.said import one_line
 
 #: What a spreadsheet takes for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
@@ -37,7 +37,7 @@ def totals(report: Report) -> str:
         [
             student.student, student.number, student.version, f"{float(student.score.points):.6g}",
             str(student.score.of), f"{float(100 * student.score.share):.4g}", *_scaled(report, student),
-            "yes" if report.passed(student) else "no", "" if student.paths else NOTHING,
+            "yes" if report.passed(student) else "no", student.remark,
         ]
         for student in report.students
     )  # fmt: skip

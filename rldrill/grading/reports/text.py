@@ -1,7 +1,7 @@
 """The report as plain text, a line for every part."""
 
 from rldrill.grading.report import Report, Score, StudentReport
-from rldrill.grading.reports.said import NOTHING, located, one_line
+from rldrill.grading.reports.said import located, one_line
 
 
 def written(report: Report, feedback: str) -> str:
@@ -33,7 +33,7 @@ def earned(report: Report, student: StudentReport) -> str:
     """A student's points, on the exam's scale too, if it has one."""
     scaled = report.scaled(student)
     more = "" if scaled is None else f", {float(scaled.points):.6g} of {scaled.of}"
-    return f"{points(student.score)}{more}" + ("" if student.paths else f", {NOTHING}")
+    return ", ".join(filter(None, (f"{points(student.score)}{more}", student.remark)))
 
 
 def points(score: Score) -> str:
