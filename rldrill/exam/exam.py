@@ -1,5 +1,6 @@
 """An exam as a thing: versions of one length and difficulty that share no problem."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -71,12 +72,14 @@ class Version:
         exercises: the problems in the order in which they are printed.
         slots: for each of them its place in the blueprint, from 0, which versions have in common.
         person: whose it is, where there is a roster.
+        partial: for every problem the rules for wrong entries of its parts, where they are others than the exam's.
     """
 
     code: str
     exercises: tuple[Exercise, ...]
     slots: tuple[int, ...]
     person: Person | None = None
+    partial: tuple[Mapping[str, str], ...] = ()
 
     @property
     def points(self) -> int:

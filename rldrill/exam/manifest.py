@@ -53,17 +53,19 @@ def written(data: Mapping[str, Any]) -> bytes:
 
 def _version(version: Version) -> dict[str, Any]:
     whose = {} if version.person is None else {"person": asdict(version.person)}
-    numbered = enumerate(zip(version.slots, version.exercises, strict=True), 1)
-    problems = [_problem(number, slot, exercise) for number, (slot, exercise) in numbered]
+    rules = version.partial or ({},) * len(version.exercises)
+    numbered = enumerate(zip(version.slots, version.exercises, rules, strict=True), 1)
+    problems = [_problem(number, *each) for number, each in numbered]
     return {"code": version.code, **whose, "points": version.points, "minutes": version.minutes, "problems": problems}
 
 
-def _problem(number: int, slot: int, exercise: Exercise) -> dict[str, Any]:
+def _problem(number: int, slot: int, exercise: Exercise, rules: Mapping[str, str]) -> dict[str, Any]:
     parts = [
         {
             "part": part.label,
             "kind": part.kind.name,
             "points": part.points,
+            **({"partial": rules[part.label]} if part.label in rules else {}),
             "minutes": round(float(part_minutes(exercise.solution, part.label)), 1),
         }
         for part in exercise.parts
@@ -97,6 +99,7 @@ class _Table(BaseModel):
 class _Part(_Table):
     part: str
     points: Annotated[int, Field(ge=0)]
+    partial: Literal["all", "entries"] | None = None
 
 
 class _Problem(_Table):
@@ -253,7 +256,10 @@ def _made(version: _Version, where: str) -> Version:
     )
     slots = _slots(version)
     person = None if version.person is None else Person(version.person.name, version.person.number)
-    return Version(version.code, exercises, slots, person)
+    rules = tuple(
+        {part.part: part.partial for part in problem.parts if part.partial is not None} for problem in version.problems
+    )
+    return Version(version.code, exercises, slots, person, rules)
 
 
 def _slots(version: _Version) -> tuple[int, ...]:

@@ -11,7 +11,7 @@ from rldrill.exam.fairness import chosen, content, told
 from rldrill.exam.sealing import Secret
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
 from rldrill.exam.slots import Slot, slots
-from rldrill.exam.worth import error, worth
+from rldrill.exam.worth import error, partial, worth
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
@@ -58,15 +58,18 @@ def plan(
     codes = version_codes(count, seed, secret)
     versions: list[Version] = []
     points: list[dict[str, int]] = []
+    rules: list[dict[str, str]] = []
     for index in range(count):
         exercises = planner.version(index)
         points = points or worth(places, exercises, blueprint.points, blueprint.place_of_total)
+        rules = rules or partial(places, exercises)
         worthy = [replace(exercise, worth=each) for exercise, each in zip(exercises, points, strict=True)]
         order = tuple(range(len(places)))
         if blueprint.order == "shuffled":
             order = draws(f"order {seed} version {index}").shuffled(order)
         person = roster[index] if roster else None
-        versions.append(Version(codes[index], tuple(worthy[slot] for slot in order), order, person))
+        given = tuple(rules[slot] for slot in order)
+        versions.append(Version(codes[index], tuple(worthy[slot] for slot in order), order, person, given))
         advance()
     return Exam(
         blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, secret is not None, blueprint.scale
@@ -131,11 +134,12 @@ class _Planner:
         if best is None:
             place = self.slots[slot]
             name, level = place.family, place.level
-            if isinstance(place.points, tuple) and not self.first:
+            if place.by_part and not self.first:
+                what, each = place.by_part[0]
                 raise error(
                     place.where,
-                    f"points are given for {len(place.points)} parts, and no problem of {name} at level {level} has so "
-                    "many; give another number of them, or one number for the problem.",
+                    f"{what} are given for {len(each)} parts, and no problem of {name} at level {level} has so "
+                    "many; give another number of them, or one for the problem.",
                 )
             raise UsageError(
                 f"{name} has too few different problems at level {level} for this worksheet; "
@@ -178,8 +182,8 @@ def _minutes(exercise: Exercise) -> Fraction:
 
 
 def _fits(exercise: Exercise, place: Slot, like: Sequence[Part] | None) -> bool:
-    """Whether a problem has as many parts as there are points, and such parts as the first version has."""
+    """Whether a problem has as many parts as there are points and rules, and such parts as the first version has."""
     parts = exercise.problem.parts
-    if isinstance(place.points, tuple) and len(place.points) != len(parts):
+    if any(len(each) != len(parts) for _, each in place.by_part):
         return False
     return like is None or [part.kind.name for part in parts] == [part.kind.name for part in like]

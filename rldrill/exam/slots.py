@@ -30,6 +30,7 @@ class Slot:
         level: at which level; None for a fixed problem.
         fixed: the problem, where it is the same in every version.
         points: of the problem or of its parts, where they are set.
+        partial: the rule for wrong entries, of the problem or of its parts, where it is another than the exam's.
         where: where the blueprint says so; what complaints begin with.
     """
 
@@ -37,7 +38,14 @@ class Slot:
     level: int | None
     fixed: Exercise | None = None
     points: int | tuple[int, ...] | None = None
+    partial: str | tuple[str, ...] | None = None
     where: str = ""
+
+    @property
+    def by_part(self) -> list[tuple[str, tuple[int, ...] | tuple[str, ...]]]:
+        """What is set for every part: a problem has to have as many."""
+        found = (("points", self.points), ("rules for partial points", self.partial))
+        return [(what, each) for what, each in found if isinstance(each, tuple)]
 
     @property
     def minutes(self) -> int:
@@ -68,7 +76,7 @@ def slots(blueprint: Blueprint, seed: int, draws: Callable[[str], Draws] = Draws
         rest -= sum(slot.minutes for slot in found)
         named[index] = found
     return tuple(
-        replace(slot, points=entry.points, where=blueprint.place(index))
+        replace(slot, points=entry.points, partial=entry.partial, where=blueprint.place(index))
         for index, entry in enumerate(blueprint.problems)
         for slot in named[index] or ()
     )

@@ -309,3 +309,20 @@ def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
         (ann,) = graded(tmp_path, [("Ann", "", "2", "a", trick)], Assignment(path)).students
         assert ann.score.points == 0, trick
         assert ann.parts[1].judged.verdict in ("unreadable", "missing"), trick
+
+
+def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
+    # linearise-affine/1/7 (b) is [0 −9; 0 1], see above; its last row is the same in every draw.
+    asked = (
+        Asked(id="linearise-affine/1/7", partial="entries"),
+        Asked(id="linearise-affine/1/7", partial=("entries", "all", "entries")),
+        Asked(id="linearise-affine/1/7"),
+    )
+    path = tmp_path / "exam.json"
+    path.write_bytes(written(manifest(plan(Blueprint(problems=asked, seed=7)))))
+    rows = [("Ann", "", number, "b", "0, 2; 0, 1") for number in "123"]
+    (ann,) = graded(tmp_path, rows, Assignment(path)).students
+    shares = [part.score.share for part in ann.parts if part.part == "b"]
+    assert shares == [Fraction(1, 2), 0, 0]
+    with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
+        plan(Blueprint(problems=(Asked(id="linearise-affine/1/7", partial=("all",)),), seed=7))
