@@ -115,7 +115,7 @@ class _Person(_Table):
 
 
 class _Version(_Table):
-    code: Annotated[str, Field(min_length=1, max_length=8)]
+    code: Annotated[str, Field(pattern=r"^[A-Z0-9]{1,8}$")]  # it is in the names of files
     person: _Person | None = None
     problems: Annotated[tuple[_Problem, ...], Field(min_length=1)]
 

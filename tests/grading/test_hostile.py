@@ -16,7 +16,7 @@ from rldrill.exam.manifest import printed
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables, text
 from rldrill.grading.verification import Settings, verify
-from rldrill.problems.errors import UserError
+from rldrill.problems.errors import FileError, UserError
 
 HEAD = "student,problem,part,answer\n"
 
@@ -108,6 +108,14 @@ def test_paths_in_a_manifest_open_nothing(tmp_path: Path) -> None:
     report = verify([written(tmp_path, "a.csv", HEAD + "Ann,1,a,1\n")], Settings(assignment=Assignment(path)))
     assert report.exit_code == 3
     assert "passwd.csv: there is no such file" not in str(report.refused)
+
+
+@pytest.mark.parametrize("code", ["../x", "/etc/x", "A\n", "a b", "", "\x1b[31m", "A" * 9])
+def test_the_code_of_a_version_leads_nowhere(tmp_path: Path, code: str) -> None:
+    problem = {"id": "td-zero/1/7@3", "parts": [{"part": "a", "points": 1}], "problem": {}}
+    data = {"format": 2, "rldrill": "0", "title": "t", "seed": 1, "versions": [{"code": code, "problems": [problem]}]}
+    with pytest.raises(FileError, match=r"the manifest is damaged at versions\.1\.code"):
+        printed(written(tmp_path, "exam.json", json.dumps(data)))
 
 
 def test_a_closed_output_is_no_reason_to_fail(tmp_path: Path) -> None:
