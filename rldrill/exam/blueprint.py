@@ -37,6 +37,7 @@ def _written_date(value: object) -> object:
 
 
 _Points = Annotated[int, Field(ge=1, le=1000)]
+_Partial = Literal["all", "entries"]
 _Names = Annotated[tuple[str, ...], BeforeValidator(_listed), Field(strict=False)]
 
 
@@ -54,6 +55,7 @@ class Entry(_Table):
     level: Annotated[int, Field(ge=1, le=3)] | None = None
     count: Annotated[int, Field(ge=1, le=MOST_PROBLEMS)] | None = None
     points: _Points | Annotated[tuple[_Points, ...], Field(strict=False, min_length=1)] | None = None
+    partial: _Partial | Annotated[tuple[_Partial, ...], Field(strict=False, min_length=1)] | None = None
 
     @property
     def is_fixed(self) -> bool:
@@ -76,7 +78,8 @@ class Blueprint(_Table):
     order: Literal["fixed", "shuffled"] = "fixed"
     minutes: Annotated[int, Field(ge=1, le=600)] | None = None
     points: Annotated[int, Field(ge=1, le=10_000)] | None = None
-    partial: Literal["all", "entries"] = "all"
+    scale: Annotated[int, Field(ge=1, le=10_000)] | None = None
+    partial: _Partial = "all"
     exclude: _Names = ()
     paper: Literal["a4", "letter"] = "a4"
     space: Literal["none", "tight", "normal", "wide"] = "normal"

@@ -8,12 +8,14 @@ from fractions import Fraction
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.exam import Exam, Person, Version
 from rldrill.exam.fairness import chosen, content, told
+from rldrill.exam.sealing import Secret
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
 from rldrill.exam.slots import Slot, slots
-from rldrill.exam.worth import error, worth
+from rldrill.exam.worth import error, partial, worth
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
+from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Part
 from rldrill.solutions.effort import minutes
 
@@ -25,12 +27,19 @@ _FRESH, _BALANCED = 100, 6
 _TOLERANCE = Fraction(4, 100)
 
 
-def plan(blueprint: Blueprint, *, roster: Sequence[Person] = (), advance: Callable[[], None] = lambda: None) -> Exam:
+def plan(
+    blueprint: Blueprint,
+    *,
+    roster: Sequence[Person] = (),
+    secret: Secret | None = None,
+    advance: Callable[[], None] = lambda: None,
+) -> Exam:
     """Choose and draw the problems; the same blueprint with a seed gives the same exam.
 
     Args:
         blueprint: what the exam shall be.
         roster: the people; each gets a version, whatever the blueprint says.
+        secret: what is mixed into every draw; the versions have codes then that say nothing.
         advance: called after each version.
 
     Raises:
@@ -38,23 +47,38 @@ def plan(blueprint: Blueprint, *, roster: Sequence[Person] = (), advance: Callab
         UsageError: the same on a command line; or there are too few different problems.
     """
     seed = fresh_seed() if blueprint.seed is None else blueprint.seed
-    places = slots(blueprint, seed)
+    if secret is not None and blueprint.ids:
+        raise error(blueprint.place(), "IDs and seed are printed, and the exam is sealed; leave one of them out.")
+    draws = Draws if secret is None else secret.draws
+    places = slots(blueprint, seed, draws)
     steered = blueprint.minutes is not None
-    planner = _Planner(places, seed, times=tuple(Fraction(slot.minutes) for slot in places) if steered else ())
+    times = tuple(Fraction(slot.minutes) for slot in places) if steered else ()
+    planner = _Planner(places, seed, draws, MAX_DRAWN if secret is None else MAX_SEED, times=times)
     count = len(roster) or blueprint.versions
+    codes = version_codes(count, seed, secret)
     versions: list[Version] = []
     points: list[dict[str, int]] = []
+    rules: list[dict[str, str]] = []
     for index in range(count):
         exercises = planner.version(index)
         points = points or worth(places, exercises, blueprint.points, blueprint.place_of_total)
+        rules = rules or partial(places, exercises)
         worthy = [replace(exercise, worth=each) for exercise, each in zip(exercises, points, strict=True)]
         order = tuple(range(len(places)))
         if blueprint.order == "shuffled":
-            order = Draws(f"order {seed} version {index}").shuffled(order)
+            order = draws(f"order {seed} version {index}").shuffled(order)
         person = roster[index] if roster else None
-        versions.append(Version(version_code(index), tuple(worthy[slot] for slot in order), order, person))
+        given = tuple(rules[slot] for slot in order)
+        versions.append(Version(codes[index], tuple(worthy[slot] for slot in order), order, person, given))
         advance()
-    return Exam(blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout)
+    return Exam(
+        blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, secret is not None, blueprint.scale
+    )
+
+
+def version_codes(count: int, seed: int, secret: Secret | None = None) -> tuple[str, ...]:
+    """What the versions of an exam are called."""
+    return tuple(map(version_code, range(count))) if secret is None else secret.codes(seed, count)
 
 
 def version_code(index: int) -> str:
@@ -69,6 +93,8 @@ class _Planner:
 
     slots: tuple[Slot, ...]
     seed: int
+    draws: Callable[[str], Draws] = Draws
+    most: int = MAX_DRAWN  # the seeds of problems stay below it
     used: set[str] = field(default_factory=set)
     answers: Counter[tuple[int, str, str]] = field(default_factory=Counter)
     patience: dict[int, int] = field(default_factory=dict)
@@ -108,11 +134,12 @@ class _Planner:
         if best is None:
             place = self.slots[slot]
             name, level = place.family, place.level
-            if isinstance(place.points, tuple) and not self.first:
+            if place.by_part and not self.first:
+                what, each = place.by_part[0]
                 raise error(
                     place.where,
-                    f"points are given for {len(place.points)} parts, and no problem of {name} at level {level} has so "
-                    "many; give another number of them, or one number for the problem.",
+                    f"{what} are given for {len(each)} parts, and no problem of {name} at level {level} has so "
+                    "many; give another number of them, or one for the problem.",
                 )
             raise UsageError(
                 f"{name} has too few different problems at level {level} for this worksheet; "
@@ -123,9 +150,9 @@ class _Planner:
     def _possible(self, slot: int, index: int) -> Iterator[Exercise]:
         """Problems that nobody has yet, with the parts that the first version has here."""
         place = self.slots[slot]
-        seeds = Draws(f"problems {self.seed} version {index} place {slot}")
+        seeds = self.draws(f"problems {self.seed} version {index} place {slot}")
         for _ in range(_ATTEMPTS):
-            exercise = draw(place.family, place.level or 1, seeds.below(MAX_DRAWN))
+            exercise = draw(place.family, place.level or 1, seeds.below(self.most))
             wanted = self.first[slot].problem.parts if self.first else None
             if content(exercise) not in self.used and _fits(exercise, place, wanted):
                 yield exercise
@@ -155,8 +182,8 @@ def _minutes(exercise: Exercise) -> Fraction:
 
 
 def _fits(exercise: Exercise, place: Slot, like: Sequence[Part] | None) -> bool:
-    """Whether a problem has as many parts as there are points, and such parts as the first version has."""
+    """Whether a problem has as many parts as there are points and rules, and such parts as the first version has."""
     parts = exercise.problem.parts
-    if isinstance(place.points, tuple) and len(place.points) != len(parts):
+    if any(len(each) != len(parts) for _, each in place.by_part):
         return False
     return like is None or [part.kind.name for part in parts] == [part.kind.name for part in like]

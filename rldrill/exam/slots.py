@@ -1,6 +1,6 @@
 """The places of an exam: which family and level, or which fixed problem, stands where."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import chain, islice, zip_longest
@@ -30,6 +30,7 @@ class Slot:
         level: at which level; None for a fixed problem.
         fixed: the problem, where it is the same in every version.
         points: of the problem or of its parts, where they are set.
+        partial: the rule for wrong entries, of the problem or of its parts, where it is another than the exam's.
         where: where the blueprint says so; what complaints begin with.
     """
 
@@ -37,7 +38,14 @@ class Slot:
     level: int | None
     fixed: Exercise | None = None
     points: int | tuple[int, ...] | None = None
+    partial: str | tuple[str, ...] | None = None
     where: str = ""
+
+    @property
+    def by_part(self) -> list[tuple[str, tuple[int, ...] | tuple[str, ...]]]:
+        """What is set for every part: a problem has to have as many."""
+        found = (("points", self.points), ("rules for partial points", self.partial))
+        return [(what, each) for what, each in found if isinstance(each, tuple)]
 
     @property
     def minutes(self) -> int:
@@ -46,14 +54,15 @@ class Slot:
         return levels[min(self.level or 2, len(levels)) - 1]
 
 
-def slots(blueprint: Blueprint, seed: int) -> tuple[Slot, ...]:
-    """The places of a blueprint's exam; the same seed makes the same choice.
+def slots(blueprint: Blueprint, seed: int, draws: Callable[[str], Draws] = Draws) -> tuple[Slot, ...]:
+    """The places of a blueprint's exam; the same seed makes the same choice, if the same is drawn by the same key.
 
     Raises:
         FileError: a name in a file does not exist, or a family has no such level; with the line.
         UsageError: the same on a command line.
     """
-    named = {index: _named(blueprint, index, seed) for index in range(len(blueprint.problems))}
+    keys = [f"order {seed} {index}" for index in range(len(blueprint.problems))]
+    named = {index: _named(blueprint, index, draws(key)) for index, key in enumerate(keys)}
     rest = (blueprint.minutes or 0) - sum(slot.minutes for found in named.values() for slot in found or ())
     topics = [index for index, found in named.items() if found is None]
     if blueprint.minutes and topics and rest < 1:
@@ -63,11 +72,11 @@ def slots(blueprint: Blueprint, seed: int) -> tuple[Slot, ...]:
     for index in topics:
         weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
         time = None if blueprint.minutes is None else max(1, rest * weights[0] // sum(weights))
-        found = _of_topics(blueprint, index, Draws(f"order {seed} {index}"), time)
+        found = _of_topics(blueprint, index, draws(keys[index]), time)
         rest -= sum(slot.minutes for slot in found)
         named[index] = found
     return tuple(
-        replace(slot, points=entry.points, where=blueprint.place(index))
+        replace(slot, points=entry.points, partial=entry.partial, where=blueprint.place(index))
         for index, entry in enumerate(blueprint.problems)
         for slot in named[index] or ()
     )
@@ -87,7 +96,7 @@ def _told(where: str) -> Iterator[None]:
         raise
 
 
-def _named(blueprint: Blueprint, index: int, seed: int) -> list[Slot] | None:
+def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
     """The places of an entry that names its problem or family; None for one that names topics."""
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
@@ -99,7 +108,6 @@ def _named(blueprint: Blueprint, index: int, seed: int) -> list[Slot] | None:
         (header,) = headers([family_of(entry.family).name])
         if entry.level is not None and entry.level not in header.levels:
             raise UsageError(f"{header.name} has no level {entry.level}; it has {', '.join(map(str, header.levels))}.")
-        draws = Draws(f"order {seed} {index}")
         return [Slot(header.name, _level(header, entry.level, draws)) for _ in range(entry.count or 1)]
 
 

@@ -98,6 +98,7 @@ class Desk:
             UserError: it does not exist or is broken.
         """
         if ref not in self._problems:
+            rules: Mapping[str, str] = {}
             if isinstance(ref, str):
                 exercise = load(ref)
             else:
@@ -105,7 +106,8 @@ class Desk:
                 if code not in self._versions:
                     self._versions[code] = self._makes[code]()
                 exercise = self._versions[code].exercises[number]
-            self._problems[ref] = _Problem(exercise, self._rules)
+                rules = self._versions[code].partial[number]
+            self._problems[ref] = _Problem(exercise, self._rules, rules)
         return self._problems[ref]
 
     @cached_property
@@ -144,7 +146,7 @@ class Desk:
             taken[label] = entry
         elif not self._rules.repeated:
             whose = f" by {entry.student}" if entry.student else ""
-            lines = "" if entry.line is None else f" (first in line {before.line})"
+            lines = "" if before.line is None else f" (first in line {before.line})"
             return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
         return ""
 
@@ -157,8 +159,8 @@ def refusal(entry: Entry, says: str, problem: str) -> Refusal:
 class _Problem:
     """A problem and the answers to it that were judged."""
 
-    def __init__(self, exercise: Exercise, rules: Rules) -> None:
-        self.exercise, self._rules = exercise, rules
+    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str]) -> None:
+        self.exercise, self._rules, self._partial = exercise, rules, partial
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
@@ -174,7 +176,7 @@ class _Problem:
             text = "" if entry is None else self._text(part, entry)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
-            elif entry.column is not None and _DATE.fullmatch(text.strip()):
+            elif entry.is_cell and _DATE.fullmatch(text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
                 verdict, judged = self._answer(part, text, given if own else {})
@@ -229,7 +231,7 @@ class _Problem:
         """The share of the points; an entry that is the same in every draw earns nothing."""
         if verdict.accepted or not verdict.credit:
             return verdict.credit
-        if self._rules.partial == "all":
+        if self._partial.get(part.label, self._rules.partial) == "all":
             return Fraction(0)
         same = self._same_everywhere(part)
         if not same:
