@@ -1,21 +1,17 @@
 """What an answer comes from: the causes that give it, weighed against each other and against chance."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
-from math import exp, inf, log
+from math import exp, inf, isnan, log
 from typing import Any
 
-from rldrill.solutions.answers.judging import wrong_cells
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.diagnosis import weights
-from rldrill.solutions.diagnosis.causes import Candidate, Cause
+from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
-from rldrill.solutions.diagnosis.replay import Change
-from rldrill.solutions.diagnosis.search import Search
+from rldrill.solutions.diagnosis.outcomes import Outcome, Outcomes
 from rldrill.solutions.diagnosis.typed import Typed, approximate
 from rldrill.solutions.diagnosis.weights import ALIKE
-from rldrill.solutions.diagnosis.written_down import written_down
 from rldrill.solutions.exact import is_rational
 
 #: How much must speak for a cause, before it is told: the logarithm of a ratio of chances, see ``_evidence``. Chosen so
@@ -62,23 +58,25 @@ class Explained:
     every: tuple[Cause, ...] = ()
 
 
-def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
+def explained(outcomes: Outcomes, typed: Typed, clock: Clock) -> Explained:
     """What a wrong answer comes from; nothing, where that could be anything."""
     room = _room(typed, exact=True)
     if room < _FEW:
         return Explained((), 0.0)
-    found = [*_single(search, typed, clock)]
-    if not found and room >= ROOM_FOR_TWO:
-        found = [*_apart(search, typed, clock)] or [
-            each for each in search.in_turn(typed, clock) if search.fits(typed, each.answers)
-        ]
+    finished = outcomes.grow(clock)
+    found = outcomes.giving(typed)
+    if not found and room >= ROOM_FOR_TWO and finished:
+        found = [*outcomes.giving_apart(typed)]
+        if not found:
+            finished = outcomes.grow_pairs(clock)
+            found = outcomes.giving_in_turn(typed)
     if not found:
         return Explained((), 0.0)
-    interrupted = clock.over
+    interrupted = not finished
     found = [_weighed(typed, candidate) for candidate in found]
     found.sort(key=lambda candidate: -candidate.cause.weight)
     best = found[0]
-    evidence = _evidence(search, typed, best)
+    evidence = _evidence(outcomes, typed, best)
     every = tuple(_distinct([each.cause for each in found]))
     if best.cause.weight < FAINT or evidence < ENOUGH or (interrupted and best.cause.weight < SURE_ENOUGH):
         return Explained((), 0.0, evidence, every)
@@ -86,9 +84,9 @@ def explained(search: Search, typed: Typed, clock: Clock) -> Explained:
     return Explained(near, 1 / (1 + exp(-evidence)), evidence, every)
 
 
-def _weighed(typed: Typed, candidate: Candidate) -> Candidate:
+def _weighed(typed: Typed, candidate: Outcome) -> Outcome:
     """A candidate, less likely where it agrees with what was typed in three digits only, and more were typed."""
-    cells = typed.cells_of(candidate.answers) or {}
+    cells = candidate.cells or {}
     wrong = ((typed.cells[name], cells[name]) for name in typed.wrong)
     if all(_to_the_last_digit(cell, value) for cell, value in wrong if isinstance(cell, Reading)):
         return candidate
@@ -104,48 +102,7 @@ def _to_the_last_digit(cell: Reading, value: Any) -> bool:
     return abs(approximate(cell.value) - approximate(value)) <= 0.51 * 10.0**-places
 
 
-def _single(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
-    yield from (each for each in search.whole(clock) if search.fits(typed, each.answers))
-    yield from (each for each in written_down(typed, search.applications) if search.fits(typed, each.answers))
-    wrong = set(typed.wrong)
-    for each in search.local(typed, clock, lambda changed: changed >= wrong):
-        if search.fits(typed, each.answers):
-            yield each
-
-
-def _apart(search: Search, typed: Typed, clock: Clock) -> Iterator[Candidate]:
-    """Two causes, each of other cells."""
-    wrong = set(typed.wrong)
-    if len(wrong) < 2:
-        return
-    partly: dict[frozenset[str], Candidate] = {}
-    for each in search.local(typed, clock, lambda changed: bool(changed & wrong) and not changed >= wrong):
-        cells = frozenset(_explains(typed, each))
-        if cells and (cells not in partly or partly[cells].cause.weight < each.cause.weight):
-            partly[cells] = each
-    for (one, first), (two, second) in combinations(partly.items(), 2):
-        if one | two != wrong or one & two or first.cause.application is None or second.cause.application is None:
-            continue
-        values = {each.cause.application.number: each.cause.became for each in (first, second)}  # type: ignore[union-attr]
-        answers = search.replay(Change(values=values))
-        if answers is not None and search.fits(typed, answers):
-            yield Candidate(_together(first.cause, second.cause), answers)
-
-
-def _explains(typed: Typed, each: Candidate) -> set[str]:
-    """The wrong cells that come out as typed, if no right one is spoilt."""
-    cells = typed.cells_of(each.answers)
-    still = set(wrong_cells(typed.cells, cells)) if cells is not None else set(typed.key)
-    return set(typed.wrong) - still if still <= set(typed.wrong) else set()
-
-
-def _together(first: Cause, second: Cause) -> Cause:
-    weight = first.weight * second.weight / 100
-    one, two = sorted((first, second), key=lambda cause: cause.application.number if cause.application else -1)
-    return replace(one, weight=weight, then=two)
-
-
-def _evidence(search: Search, typed: Typed, best: Candidate) -> float:
+def _evidence(outcomes: Outcomes, typed: Typed, best: Outcome) -> float:
     """How much speaks for causes, and against chance, as a logarithm.
 
     Of all answers of the typed form and size each is as likely, if it comes from nowhere, and some of them are those
@@ -156,12 +113,12 @@ def _evidence(search: Search, typed: Typed, best: Candidate) -> float:
     room = _room(typed, exact=exact)
     if best.cause.then is not None:
         return ENOUGH + log(room / ROOM_FOR_TWO)
-    causes = _of_the_form(search, typed, best.cause.weight, exact=exact)
+    causes = _of_the_form(outcomes, typed, best.cause.weight, exact=exact)
     right_cells = 1 - len(typed.wrong) / len(typed.key)
     return log(room / causes) + RIGHT_CELLS * right_cells
 
 
-def _of_the_form(search: Search, typed: Typed, weight: float, *, exact: bool) -> float:
+def _of_the_form(outcomes: Outcomes, typed: Typed, weight: float, *, exact: bool) -> float:
     """How many answers of the form and size that was typed causes lead to, if they spoil the same cells.
 
     Those that are less likely than this weight count little.
@@ -169,8 +126,10 @@ def _of_the_form(search: Search, typed: Typed, weight: float, *, exact: bool) ->
     steps = [_step(typed, name, exact=exact) for name in typed.wrong]
     found: dict[tuple[int | None, ...], float] = {}
     others = 0
-    for heaviness, sizes in search.rivals(typed):
-        if sizes is None:
+    places = [place for place, name in enumerate(outcomes.names) if name in typed.wrong]
+    for rival in outcomes.single.spoiling.get(frozenset(typed.wrong), ()):
+        heaviness, sizes = rival.cause.weight, [rival.sizes[place] for place in places]
+        if any(map(isnan, sizes)):
             others += 1
             continue
         point = tuple(_on_grid(size, *step, exact=exact) for size, step in zip(sizes, steps, strict=True))
@@ -219,9 +178,9 @@ def _room(typed: Typed, *, exact: bool) -> float:
     return min(room, 1e15)
 
 
-def _exactly(typed: Typed, candidate: Candidate) -> bool:
+def _exactly(typed: Typed, candidate: Outcome) -> bool:
     """Whether what was typed is the candidate's answer to the last digit."""
-    cells = typed.cells_of(candidate.answers) or {}
+    cells = candidate.cells or {}
     return all(
         bool(cell.value == cells[name]) for name in typed.wrong if isinstance(cell := typed.cells[name], Reading)
     )

@@ -26,6 +26,7 @@ from rldrill.solutions.answers.text import Unreadable
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.explaining import MOST, explained
+from rldrill.solutions.diagnosis.outcomes import Outcomes
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.drawing import draw
@@ -87,6 +88,7 @@ class Measured:
         self.solution = solution
         self.seconds = seconds
         self.search = Search(solution)
+        self.outcomes: dict[str, Outcomes] = {}
         self.steps = [each.number for each in self.search.applications if not each.equation]
 
     def causes(self, label: str, text: str) -> tuple[tuple[Cause, ...], float] | None:
@@ -102,7 +104,9 @@ class Measured:
         if not typed.wrong:
             return None
         begun = time.process_time()
-        found = explained(self.search, typed, Clock(self.seconds)).causes
+        if label not in self.outcomes:
+            self.outcomes[label] = Outcomes(self.search, part, typed.key)
+        found = explained(self.outcomes[label], typed, Clock(self.seconds)).causes
         return found, 1000 * (time.process_time() - begun)
 
     def verdict(self, error: Erroneous, causes: Sequence[Cause]) -> str:
