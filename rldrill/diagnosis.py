@@ -173,8 +173,8 @@ class Diagnosing:
             return verdict
         self.finish()
         found = explained(self.outcomes(label, {}), self._typed(label, text), Clock())  # a verdict depends on no clock
-        likely = sum(cause.weight for cause in found.causes if cause.weight >= SURE_ENOUGH)
-        if found.confidence * likely < _SURE * sum(cause.weight for cause in found.causes) or not likely:
+        pairs = zip(found.causes, found.shares, strict=True)
+        if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
             return verdict
         said = _told(found, self.search({}).applications).sentence
         return replace(verdict, outcome=Outcome.WRONG, says=said)
@@ -266,9 +266,8 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
 
 def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     causes = found.causes
-    whole = sum(cause.weight for cause in causes)
     first, *others = (
-        _diagnosis(cause, applications, round(found.confidence * cause.weight / whole, 2)) for cause in causes
+        _diagnosis(cause, applications, round(share, 2)) for cause, share in zip(causes, found.shares, strict=True)
     )
     said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
     said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says

@@ -19,7 +19,7 @@ from rldrill.solutions.diagnosis.typed import Typed, approximate, cells_of, equa
 from rldrill.solutions.diagnosis.written_down import scaled, written_down
 
 #: Where an answer is no straight line in a value, so many other values of one application are gone on from.
-_REPLAYS = 30
+_REPLAYS = 150
 #: Two slips in turn: the first is one of so many, and so many pairs of places are tried.
 _FIRST, _TRIES = 12, 150
 #: So exactly a straight line is one, and a cell is that of the key.

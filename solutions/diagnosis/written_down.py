@@ -36,7 +36,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
         for application in applications:
             if plain(application.value):
                 weight = weights.ANSWERS["another-quantity"]
-                yield Cause("another-quantity", weight, application), {name: application.value}
+                yield Cause("another-quantity", weight, application, on_paper=True), {name: application.value}
     shape = part.kind
     if isinstance(shape, Matrix) and shape.rows == shape.columns > 1:
         yield (
@@ -50,7 +50,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
 
 
 def _cause(kind: str, what: str = "") -> Cause:
-    return Cause(kind, weights.ANSWERS[kind], what=what)
+    return Cause(kind, weights.ANSWERS[kind], what=what, on_paper=True)
 
 
 def scaled(typed: Typed) -> WrittenDown:
@@ -63,4 +63,4 @@ def scaled(typed: Typed) -> WrittenDown:
     ratios = {cell.value / key[name] for name, cell in typed.cells.items() if isinstance(cell, Reading)}
     if len(ratios) == 1 and is_rational(factor := next(iter(ratios))) and factor != 0:
         cells = {name: value * factor for name, value in key.items()}
-        yield Cause("answer-scaled", weights.ANSWERS["answer-scaled"], was=factor), cells
+        yield Cause("answer-scaled", weights.ANSWERS["answer-scaled"], was=factor, on_paper=True), cells

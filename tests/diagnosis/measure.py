@@ -34,14 +34,14 @@ from rldrill.solutions.solution import Solution
 
 #: What may be said of an error, by the names of the program's causes.
 ACCEPTED_NAMES = {
-    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept range summand-left-out "
-    "term-left-out twin",
+    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept lost-term range "
+    "summand-left-out term-left-out twin",
     "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse only-factor-left-out power "
     "sign tenfold term-left-out",
-    "sign_turned": "all-signs difference minus-lost sign summand-sign twice",
-    "bracket_lost": "bracket",
-    "bracket_widened": "bracket",
-    "minus_lost": "difference minus-lost sign summand-sign twice",
+    "sign_turned": "all-signs difference minus-lost sign summand-sign term-sign twice",
+    "bracket_lost": "bracket factor-for-one",
+    "bracket_widened": "bracket factor-for-all",
+    "minus_lost": "difference minus-lost sign summand-sign term-sign twice",
     "power_off": "factor-left-out index power squared squared-value",
     "power_as_product": "power-as-product",
     "square_forgotten": "factor-left-out index power squared squared-value",
@@ -57,7 +57,7 @@ ACCEPTED_NAMES = {
     "transposition_forgotten": "answer-transposed order-of-factors transposed",
     "matrices_exchanged": "order-of-factors transposed",
     "added_for_multiplied": "added",
-    "point_shifted": "tenfold",
+    "point_shifted": "tenfold term-tenfold",
     "fractions_added_crosswise": "crosswise",
     "numbers_exchanged": "all-signs difference exchanged sign summand-sign",
     "value_sign": "all-signs difference minus-lost sign",
@@ -91,22 +91,32 @@ class Measured:
         self.outcomes: dict[str, Outcomes] = {}
         self.steps = [each.number for each in self.search.applications if not each.equation]
 
-    def causes(self, label: str, text: str) -> tuple[tuple[Cause, ...], float] | None:
-        """What is said of a wrong answer, and the milliseconds that it took; None where it is not wrong."""
+    def typed(self, label: str, text: str) -> Typed | None:
+        """What was typed for a part; None where it is not wrong, or longer than anybody types."""
         problem = self.solution.problem
         part = next(part for part in problem.parts if part.label == label)
         kind = answer_kind(part.kind)
         try:
             cells = kind.read(text, problem.parameters, problem.given.terminal_states())
-        except Unreadable:  # longer than anybody types
+        except Unreadable:
             return None
         typed = Typed(part, cells, kind.cells(self.solution.answers[label]))
-        if not typed.wrong:
+        return typed if typed.wrong else None
+
+    def outcomes_of(self, typed: Typed) -> Outcomes:
+        """What causes make of the part that was answered."""
+        label = typed.part.label
+        if label not in self.outcomes:
+            self.outcomes[label] = Outcomes(self.search, typed.part, typed.key)
+        return self.outcomes[label]
+
+    def causes(self, label: str, text: str) -> tuple[tuple[Cause, ...], float] | None:
+        """What is said of a wrong answer, and the milliseconds that it took; None where it is not wrong."""
+        typed = self.typed(label, text)
+        if typed is None:
             return None
         begun = time.process_time()
-        if label not in self.outcomes:
-            self.outcomes[label] = Outcomes(self.search, part, typed.key)
-        found = explained(self.outcomes[label], typed, Clock(self.seconds)).causes
+        found = explained(self.outcomes_of(typed), typed, Clock(self.seconds)).causes
         return found, 1000 * (time.process_time() - begun)
 
     def verdict(self, error: Erroneous, causes: Sequence[Cause]) -> str:
