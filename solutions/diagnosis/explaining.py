@@ -16,7 +16,7 @@ ENOUGH = 0.55
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.
-NEAR, MOST = 0.2, 2
+NEAR, MOST = 0.15, 2
 #: As many answers there must be that could have been typed, before two causes together are believed.
 ROOM_FOR_TWO = 20_000
 #: Of so few answers one proves nothing: yes or no, a choice, an action or two.

@@ -180,12 +180,13 @@ class Outcomes:
                 line = _Line.through(application, answered, self.sizes, self.names)
             if line is None and answered and all(self._unspoilt(cells) for _, cells in answered):
                 continue
+            if line is not None and line.flat:
+                continue
             self._bearing.append(application)
+            for _ in self.search.working_out(application):
+                yield False
             if line is None:
                 yield from self._replayed(application)
-                continue
-            if line.flat:
-                self._bearing.pop()
                 continue
             for cause in self.search.alternatives(application):
                 sizes = line.at(cause.became)

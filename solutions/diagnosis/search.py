@@ -51,7 +51,7 @@ class Search:
         self.problem = solution.problem
         self.carried = dict(carried or {})
         self._whole: list[Candidate] = []
-        self._unfinished: Iterator[Candidate] | None = None
+        self._unfinished: Iterator[Candidate | None] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
         self._responses: dict[int, list[tuple[list[Any] | None, Mapping[str, Any] | None]]] = {}
 
@@ -75,13 +75,16 @@ class Search:
         if self._unfinished is None:
             self._unfinished = self._all()
         while not clock.over:
-            candidate = next(self._unfinished, None)
-            if candidate is None:
+            try:
+                candidate = next(self._unfinished)
+            except StopIteration:
                 break
-            self._whole.append(candidate)
+            if candidate is not None:
+                self._whole.append(candidate)
         return self._whole
 
-    def _all(self) -> Iterator[Candidate]:
+    def _all(self) -> Iterator[Candidate | None]:
+        """Every candidate; None where something else took time."""
         mistakes = self.solution.mistaken(self.carried) if self.carried else self.solution.mistakes
         for mistake, answers in mistakes:
             yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers)
@@ -95,7 +98,7 @@ class Search:
         if answers is not None:
             yield Candidate(cause, answers)
 
-    def _ideas(self) -> Iterator[Candidate]:
+    def _ideas(self) -> Iterator[Candidate | None]:
         """Every edit of every formula, wherever it is read; an edit that several formulas have, in all of them."""
         uses: dict[Expr, list[Application]] = defaultdict(list)
         for application in self.applications:
@@ -109,6 +112,7 @@ class Search:
                 key = edit.kind, edit.part, edit.instead
                 alike[key, seen[key]].append((right, edit))
                 seen[key] += 1
+            yield None
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
         for group in groups:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
@@ -214,17 +218,26 @@ class Search:
     # One application --------------------------------------------------------------------------------
     def alternatives(self, application: Application) -> list[Cause]:
         """What may come out of one application instead of its value, the likeliest first."""
-        number = application.number
-        if number not in self._alternatives:
-            found: dict[Any, list[Cause]] = defaultdict(list)
-            for cause in sorted(at_one(application), key=lambda cause: -cause.weight):
-                alike = found[hashable(cause.became)]
-                if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
-                    alike.append(cause)
-            found.pop(hashable(application.value), None)
-            every = (cause for alike in found.values() for cause in alike)
-            self._alternatives[number] = sorted(every, key=lambda cause: -cause.weight)
-        return self._alternatives[number]
+        for _ in self.working_out(application):
+            pass
+        return self._alternatives[application.number]
+
+    def working_out(self, application: Application) -> Iterator[None]:
+        """Work that out piece by piece, for who has little time."""
+        if application.number in self._alternatives:
+            return
+        every = []
+        for cause in at_one(application):
+            every.append(cause)
+            yield
+        found: dict[Any, list[Cause]] = defaultdict(list)
+        for cause in sorted(every, key=lambda cause: -cause.weight):
+            alike = found[hashable(cause.became)]
+            if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
+                alike.append(cause)
+        found.pop(hashable(application.value), None)
+        apart = (cause for alike in found.values() for cause in alike)
+        self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
 
     # How answers depend on one value ----------------------------------------------------------------
     def responses(self, application: Application) -> list[tuple[list[Any] | None, Mapping[str, Any] | None]]:

@@ -32,6 +32,13 @@ _FINE, _FINEST, _PRECISE = 1e6, 10_000, 1e-6
 _ROUNDED = 900
 #: The logarithm of so many answers that could have been typed is many.
 _MANY = log(400)
+#: What counts otherwise where the answer is one number alone.
+_OTHERWISE = frozenset(
+    (
+        "chance", "room", "room of many", "causes", "steps", "small", "fits the key", "way from the key",
+        "far from the key", "other sign",
+    )
+)  # fmt: skip
 #: Slips of arithmetic, which are the same in the last step as in the answer.
 _ARITHMETIC = frozenset(weights.VALUES) - {"sign", "inverse"}
 #: No number is further from the key than this, as a logarithm.
@@ -72,7 +79,7 @@ class Weighing:
         rational = [(value, right) for value, right in numbers if is_rational(value) and is_rational(right)]
         ways = [_way(approximate(value), approximate(right)) for value, right in numbers]
         turned = [approximate(value) * approximate(right) < 0 for value, right in numbers]
-        return {
+        seen = {
             "chance": 1.0,
             "room": room_,
             "room of many": max(0.0, room_ - _MANY),
@@ -90,6 +97,8 @@ class Weighing:
             "far from the key": sum(max(0.0, way - 1) for way in ways) / wrong,
             "other sign": sum(turned) / wrong,
         }
+        alone = {f"alone: {name}": value for name, value in seen.items() if name in _OTHERWISE}
+        return seen | alone if every == 1 else seen
 
     def _of(self, outcome: Outcome) -> Features:
         cause = outcome.cause
