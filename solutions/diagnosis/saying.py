@@ -54,6 +54,8 @@ _EDITS = {
     "function": "{instead} stands where {part} belongs",
     "summand-left-out": "a term of the sum is missing",
     "summand-sign": "a term of the sum has the wrong sign",
+    "factor-for-one": "what stands before the sum is applied to one of its terms only",
+    "factor-for-all": "the factor of one term of the sum multiplies all of it",
     "smallest": "the smallest is taken instead of the greatest",
     "other-taken": "the value of another action than the best is taken",
     "mean-for-max": "the mean is taken instead of the maximum",
@@ -78,6 +80,7 @@ _INSIDE = {
     "elsewhere": "{became} is put in for {part}, which is {was}",
     "digits": "the digits of {part} = {was} are exchanged: {became}",
     "inverse": "{part} = {was} is upside down",
+    "complement": "{became}, 1 minus it, is put in for {part}, which is {was}",
     "crosswise": "the fractions of {part} are added top to top and bottom to bottom",
     "": "{became} is put in for {part}, which is {was}",
 }
