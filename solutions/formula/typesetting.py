@@ -1,6 +1,7 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from math import lcm
 from typing import Any
 
@@ -46,8 +47,10 @@ class _Typesetter(Printer):
     printmethod = "_typeset"
 
     def __call__(self, expression: Expr) -> Math:
-        """An expression as mathematics."""
-        return self._print(expression)
+        """An expression as mathematics; the same letters and numbers stand in it again and again."""
+        if isinstance(expression, Node):
+            return expression._typeset(self)
+        return self._print(expression) if expression.args else _atom(expression)
 
     def _print_Symbol(self, expression: Any) -> Math:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
@@ -119,6 +122,11 @@ def _cut_off(above: int, below: int) -> Math:
 
 
 _TYPESETTER = _Typesetter()
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _atom(expression: Expr) -> Math:
+    return _TYPESETTER._print(expression)
 
 
 def typeset(expression: Expr) -> Math:
