@@ -256,7 +256,7 @@ def _first(term: Expr) -> Math:
 
 def _product(factors: Sequence[Expr]) -> Math:
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
-    if flat[0] == -1 and len(flat) > 1:
+    if flat[0] is sympy.S.NegativeOne and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
     scalars = [factor for factor in flat if factor.is_commutative is not False]
     if len(scalars) < len(flat) and any(map(_reciprocal, scalars)):
@@ -280,7 +280,7 @@ def _product(factors: Sequence[Expr]) -> Math:
 
 
 def _reciprocal(factor: Expr) -> bool:
-    return bool(factor.is_Pow and factor.args[1] == -1 and factor.is_commutative is not False)
+    return bool(factor.is_Pow and factor.args[1] is sympy.S.NegativeOne and factor.is_commutative is not False)
 
 
 def _base(factor: Expr) -> Look:
