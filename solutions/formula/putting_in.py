@@ -236,6 +236,8 @@ def _inner(term: Expr) -> Expr:
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
         return Mul(*factors, evaluate=False)
+    if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
+        return Pow(_inner(term.args[0]), -1, evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
