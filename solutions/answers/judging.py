@@ -18,7 +18,8 @@ from rldrill.solutions.solution import Solution
 
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 #: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
-_NAMED_LINE = re.compile(r"\s*([^\W\d_]+)[^=:≈\n]*[=:≈]")
+_LONGEST = 2000  # what is longer is refused anyway
+_NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
 
 
 class Outcome(Enum):
@@ -81,7 +82,7 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
     kind = answer_kind(part.kind)
     try:
         if isinstance(part.kind, Number):
-            _refuse_other_quantity(text, part.ask)
+            _refuse_other_quantity(text[:_LONGEST], part.ask)
         cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
