@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import dataclass
-from fractions import Fraction
 from math import pi
 from typing import Annotated, Any
 
@@ -10,6 +9,7 @@ from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
 from rldrill.problems import mathematics as maths
 from rldrill.problems.exact import read_fraction
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math, operator, row, variable
 
 _PI = re.compile(r"([+-]?)\s*(\d{0,6})\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d{1,6}))?")

@@ -1,9 +1,9 @@
 """Beliefs as bars."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 
 from rldrill.problems.exact import shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.pictures import Bars
 
 

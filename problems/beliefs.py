@@ -1,7 +1,6 @@
 """Beliefs over states or hypotheses, how robots move and sense, and how questions show these."""
 
 from collections.abc import Iterable, Mapping
-from fractions import Fraction
 from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo
@@ -10,6 +9,7 @@ from rldrill.problems.bars import belief_bars
 from rldrill.problems.document import Block, Table
 from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.readings import distribution, note_of, told
 

@@ -1,7 +1,6 @@
 """A state in space and the centres of basis functions, as problems give them."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Weight, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.features import weights
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.pictures import Bumps
 

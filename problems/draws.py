@@ -3,10 +3,11 @@
 import hashlib
 import random
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 from typing import TypeVar
+
+from rldrill.problems.fractions import Fraction
 
 Item = TypeVar("Item")
 
@@ -62,21 +63,28 @@ class Draws:
 
     def shuffled(self, items: Sequence[Item]) -> tuple[Item, ...]:
         """The items in another order."""
-        rest = list(items)
-        return tuple(rest.pop(self.below(len(rest))) for _ in items)
+        return tuple(self._shuffled(items, len(items)))
+
+    def _shuffled(self, items: Sequence[Item], count: int) -> list[Item]:
+        """The first of the items in another order; what the others take of the stream is taken, too."""
+        random, rest, every = self._random, list(items), len(items)
+        left = max(every - count, 0)
+        first = [rest.pop(int(random() * size)) for size in range(every, left, -1)]
+        for _ in range(left):
+            random()
+        return first
 
     def sample(self, items: Sequence[Item], count: int) -> tuple[Item, ...]:
         """``count`` different items, in the order in which they stand."""
-        kept = sorted(self.shuffled(range(len(items)))[:count])
-        return tuple(items[index] for index in kept)
+        kept = sorted(self._shuffled(range(len(items)), count))
+        return tuple([items[index] for index in kept])
 
     def distinct(self, count: int, low: int, high: int) -> tuple[Fraction, ...]:
         """``count`` different whole numbers from ``low`` to ``high``."""
-        return tuple(_whole(number) for number in self.shuffled(range(low, high + 1))[:count])
+        return tuple(map(_whole, self._shuffled(range(low, high + 1), count)))
 
     def split(self, parts: int, denominators: Sequence[int]) -> tuple[Fraction, ...]:
         """Positive probabilities that sum to 1, over one of the denominators that is large enough."""
         whole = self.choice([number for number in denominators if number >= parts])
-        cuts = sorted(1 + index for index in self.shuffled(range(whole - 1))[: parts - 1])
-        edges = (0, *cuts, whole)
-        return tuple(Fraction(right - left, whole) for left, right in pairwise(edges))
+        edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
+        return tuple([Fraction(right - left, whole) for left, right in pairwise(edges)])

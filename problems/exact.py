@@ -1,19 +1,23 @@
 """Exact numbers as people write them in problem files: ``9/10``, ``0.9``, ``-2``, or a parameter's name."""
 
 from collections.abc import Iterable
-from fractions import Fraction
 from functools import lru_cache
+from itertools import starmap
 from math import isqrt, sqrt
+from numbers import Rational
+from operator import mul
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
+from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import DIGITS, read
 from rldrill.problems.latex import typed
 from rldrill.problems.notation import Name, Node, Operation, nodes, whole, worked_out
 from rldrill.problems.readings import meant, note_of
 from rldrill.problems.spelling import Unreadable
 
+_ZERO = Fraction(0)
 _LONGEST = 200
 _BITS = 4000  # of a power
 
@@ -93,7 +97,9 @@ def read_fraction(value: object) -> Fraction:
     Raises:
         ValueError: it is not a number, is not finite, or has more than forty digits.
     """
-    if isinstance(value, Fraction | int) and not isinstance(value, bool):
+    if type(value) is Fraction:
+        return value
+    if isinstance(value, Rational) and not isinstance(value, bool):
         return Fraction(value)
     if isinstance(value, str | float):
         # A float's shortest decimal is what its writer typed; its binary value is not.
@@ -190,7 +196,7 @@ def write(value: Weight) -> str:
 
 def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
     """The sum of the products of two rows of numbers."""
-    return sum((a * b for a, b in zip(first, second, strict=True)), Fraction(0))
+    return sum(starmap(mul, zip(first, second, strict=True)), _ZERO)
 
 
 def shown(value: Weight | int) -> str:
@@ -240,7 +246,7 @@ def _field(read: Any, *checks: Any) -> Any:
             result = check(result)
         return result
 
-    return BeforeValidator(validate)
+    return PlainValidator(validate)
 
 
 _OR_OPEN = " or a parameter left open"
@@ -262,7 +268,7 @@ Discount = Annotated[OpenProbability, Field(description="The discount.", example
 #: A discount for the whole run, or a list with one for each of its steps.
 Discounts = Annotated[
     Fraction | Parameter | tuple[Fraction | Parameter, ...],
-    BeforeValidator(_discounts),
+    PlainValidator(_discounts),
     PlainSerializer(lambda value: [*map(write, value)] if isinstance(value, tuple) else write(value)),
     WithJsonSchema(
         {"type": ["string", "number", "array"], "title": f"a number from 0 to 1{_OR_OPEN}, or a list of these"}

@@ -2,7 +2,6 @@
 
 import unicodedata
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from functools import lru_cache
 from typing import Annotated, Any
 
@@ -10,6 +9,7 @@ from pydantic import AfterValidator, WithJsonSchema
 
 from rldrill.problems import mathematics as maths
 from rldrill.problems import notation
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
 from rldrill.problems.mathematics import Fence, Math, Root, Script, mathematics, operator, row, word

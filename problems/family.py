@@ -1,10 +1,10 @@
 """A family of problems, a problem drawn from it, and the base of all givens."""
 
 import importlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from types import ModuleType
+from types import ModuleType, NoneType
 from typing import Any, get_args
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
@@ -17,6 +17,7 @@ from rldrill.problems.document import Document
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, FileError
 from rldrill.problems.exact import Logarithm, Parameter
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
 from rldrill.problems.readings import Note
@@ -46,20 +47,27 @@ def _ends(givens: BaseModel) -> Iterator[str]:
                 yield from _ends(inner)
 
 
+#: What no parameter is in.
+_CLOSED = frozenset({Fraction, str, int, bool, NoneType})
+
+
 def _parameters(value: object) -> Iterator[str]:
     if isinstance(value, Parameter):
         yield value.symbol
     elif isinstance(value, Logarithm):
         yield from _parameters(value.of)
-    elif isinstance(value, BaseModel):
-        for field in type(value).model_fields:
-            yield from _parameters(getattr(value, field))
-    elif isinstance(value, dict):
-        for item in value.values():
-            yield from _parameters(item)
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _parameters(item)
+    else:
+        for item in _inside(value):
+            if type(item) not in _CLOSED:
+                yield from _parameters(item)
+
+
+def _inside(value: object) -> Iterable[object]:
+    if isinstance(value, BaseModel):
+        return [getattr(value, field) for field in type(value).model_fields]
+    if isinstance(value, dict):
+        return value.values()
+    return value if isinstance(value, tuple) else ()
 
 
 @dataclass(frozen=True, slots=True)

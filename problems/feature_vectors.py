@@ -1,10 +1,10 @@
 """Features of states: what inverse reinforcement learning is given instead of rewards."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from fractions import Fraction
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 
 #: The features of every state, as many for each.

@@ -3,14 +3,15 @@
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from math import isqrt
 from typing import NamedTuple
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.notation import FUNCTIONS, Name, Node, Numeral, Operation
 from rldrill.problems.spelling import VULGAR, Source, Unreadable, quoted
 
-DIGITS = 40  # longer numbers are slips of the keyboard, or mischief
+DIGITS = 40  # longer numbers are slips of the keyboard, or mischief;
+WHOLE_DIGITS = 2000  # but whole ones may come from a program
 _DEPTH = 40
 _OPERATIONS = 300
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
@@ -357,8 +358,9 @@ class _Parser:
 
     def _value(self, token: _Token, digits: str) -> Fraction:
         mantissa, _, exponent = digits.lower().partition("e")
-        if max(len(part) for part in mantissa.replace(".", "").split("/")) > DIGITS or abs(int(exponent or 0)) > DIGITS:
-            raise self._error(f"{quoted(token.text)} is too long for a number; {DIGITS} digits are the most.", token)
+        most = WHOLE_DIGITS if digits.isdigit() else DIGITS
+        if max(len(part) for part in mantissa.replace(".", "").split("/")) > most or abs(int(exponent or 0)) > DIGITS:
+            raise self._error(f"{quoted(token.text)} is too long for a number; {most} digits are the most.", token)
         try:
             return Fraction(digits)
         except ZeroDivisionError:

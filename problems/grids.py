@@ -1,13 +1,13 @@
 """Grid worlds drawn as text, as models: one character for every cell."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill.problems.complaints import nearest
 from rldrill.problems.exact import Exact, Probability
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.readings import Note
 
 WALL, FREE = "#", "."

@@ -1,7 +1,6 @@
 """Linear systems with quadratic rewards, as problems give them."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, Scalar, dot, shown
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatricesField,

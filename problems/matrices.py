@@ -1,12 +1,12 @@
 """Matrices as problems give them: lists of rows, a plain number where they are 1×1."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from rldrill.problems.exact import Exact, Open, Scalar, shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math, Tabular, mathematics, number
 
 Rows = tuple[tuple[Scalar, ...], ...]

@@ -1,6 +1,7 @@
 """What may be the name of a state, an action or a hypothesis."""
 
 import re
+from functools import lru_cache
 
 _LONGEST = 40
 _ARROWS = "←↑→↓↔↕↖↗↘↙"
@@ -22,6 +23,12 @@ def read_name(value: object) -> object:
         return str(value)
     if not isinstance(value, str):
         return value
+    return _checked(value)
+
+
+@lru_cache(maxsize=1024)
+def _checked(value: str) -> str:
+    """The names of states are the same again and again."""
     brief = repr(value if len(value) <= _LONGEST else f"{value[: _LONGEST - 1]}…")
     if len(value) > _LONGEST:
         raise ValueError(f"the name {brief} has {len(value)} characters, {_LONGEST} are the most; shorten it")

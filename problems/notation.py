@@ -6,8 +6,9 @@ What its names stand for, and which functions may stand where, is up to those wh
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any, ClassVar, TypeAlias, TypeVar
+
+from rldrill.problems.fractions import Fraction
 
 Worth = TypeVar("Worth")
 

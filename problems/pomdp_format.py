@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Iterator
-from fractions import Fraction
 from itertools import product
 from typing import Any
 
 from rldrill.problems.exact import read_fraction
+from rldrill.problems.fractions import Fraction
 
 _STATEMENT = re.compile(r"\s*(discount|values|states|actions|observations|start|[TOR])\b\s*(?:include|exclude)?\s*:")
 _LARGEST = 10**6  # transitions that are written out

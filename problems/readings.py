@@ -3,11 +3,12 @@
 import re
 from collections.abc import Callable, Mapping
 from decimal import Decimal
-from fractions import Fraction
 from math import isqrt
 from typing import TypeVar, cast
 
 from pydantic import ValidationInfo
+
+from rldrill.problems.fractions import Fraction
 
 Key = TypeVar("Key")
 Number = TypeVar("Number")

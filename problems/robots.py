@@ -3,7 +3,6 @@
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -18,6 +17,7 @@ from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
 from rldrill.problems.expressions import Expression, letter, letters, written, written_letter
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Math, mathematics, row, variable
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.pictures import Arm, Pendulum, Picture

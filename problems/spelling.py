@@ -75,13 +75,15 @@ class Source:
 
     def replaced(self, pattern: re.Pattern[str], by: Callable[[re.Match[str]], str]) -> "Source":
         """The same with something else for what a pattern finds, all of it in the column where that was typed."""
+        if pattern.search(self.text) is None:
+            return self
         text, columns, end = "", [], 0
         for match in pattern.finditer(self.text):
             kept, new = self.text[end : match.start()], by(match)
             columns += [*map(self.column, range(end, match.start())), *[self.column(match.start())] * len(new)]
             text, end = text + kept + new, match.end()
         columns += map(self.column, range(end, len(self.text) + 1))
-        return Source(text + self.text[end:], self.start, tuple(columns)) if end else self
+        return Source(text + self.text[end:], self.start, tuple(columns))
 
     def unreadable(self, message: str, index: int = 0) -> Unreadable:
         """A complaint about a character of it."""
@@ -98,6 +100,8 @@ class Source:
 
     def split(self, marks: str | Callable[[int, str], bool]) -> list["Source"]:
         """Its pieces between the marks that stand in no bracket."""
+        if not callable(marks) and not self._holds(marks):
+            return [self.part(0, len(self.text))]
         is_mark = marks if callable(marks) else lambda _, character: character in marks
         pieces, start = [], 0
         for index, character in self.outside():
@@ -108,7 +112,10 @@ class Source:
 
     def has(self, marks: str) -> bool:
         """Whether one of the marks stands in no bracket."""
-        return any(character in marks for _, character in self.outside())
+        return self._holds(marks) and any(character in marks for _, character in self.outside())
+
+    def _holds(self, marks: str) -> bool:
+        return not set(marks).isdisjoint(self.text)
 
     def unwrapped(self, brackets: str = "([{⟨") -> "Source | None":
         """What stands in the one pair of brackets around it all, if there is one."""

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import chain
 from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Scalar, dot
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     PARTLY_LISTED,
     Dynamics,

@@ -7,9 +7,8 @@ from fractions import Fraction
 from functools import cached_property
 from numbers import Integral
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rldrill.diagnosis import Diagnosing, Diagnosis, Followed, followed
 from rldrill.files import DATA_SUFFIXES
 from rldrill.graded import Graded, grade
 from rldrill.model_file import MODEL_SUFFIXES
@@ -37,6 +36,9 @@ from rldrill.solutions.solution import Solution
 from rldrill.solutions.solution import solve as solve_problem
 from rldrill.solutions.work import Drawn, Elimination, Equality, Line, Note, Recalled, Result, Step
 from rldrill.typed import typed
+
+if TYPE_CHECKING:
+    from rldrill.diagnosis import Diagnosing, Diagnosis, Followed
 
 
 @dataclass(frozen=True, repr=False)
@@ -129,8 +131,10 @@ class Exercise:
         )
 
     @cached_property
-    def diagnosing(self) -> Diagnosing:
+    def diagnosing(self) -> "Diagnosing":
         """What diagnoses the wrong answers; it keeps what it finds out."""
+        from rldrill.diagnosis import Diagnosing
+
         return Diagnosing(self.solution)
 
     def diagnose(
@@ -139,7 +143,7 @@ class Exercise:
         part: str = "a",
         earlier: Mapping[str, object] | None = None,
         seconds: float | None = None,
-    ) -> Diagnosis:
+    ) -> "Diagnosis":
         """What a wrong answer comes from: a typical mistake, or one thing changed in the working.
 
         Args:
@@ -164,7 +168,7 @@ class Exercise:
         verdict: Verdict,
         verdicts: Mapping[str, Verdict | None],
         seconds: float | None = None,
-    ) -> Diagnosis:
+    ) -> "Diagnosis":
         """What a wrong answer comes from that was judged already, as the earlier ones were."""
         before = {
             other: judged.value
@@ -173,12 +177,14 @@ class Exercise:
         }
         return self.diagnosing.diagnose(label, text, verdict, before, seconds)
 
-    def follow(self, lines: Iterable[str] | str) -> Followed:
+    def follow(self, lines: Iterable[str] | str) -> "Followed":
         """Somebody's own working held against the right one: where it departs, and what follows from there.
 
         Args:
             lines: as a person writes them, such as ``V1 = 8 + 1/2*4 = 10`` or a bare number; steps may be left out.
         """
+        from rldrill.diagnosis import followed
+
         texts = lines.splitlines() if isinstance(lines, str) else [str(line) for line in lines]
         return followed(self.diagnosing.search({}), texts)
 

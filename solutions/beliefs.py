@@ -1,12 +1,12 @@
 """Beliefs of workings: pictures before and after a step, and probabilities that are found."""
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 
 from flint import fmpq
 
 from rldrill.problems.bars import belief_bars
 from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.pictures import Bars
 from rldrill.solutions.exact import Value, is_rational
 

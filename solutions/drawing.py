@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 from pydantic import ValidationError
@@ -42,13 +41,13 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
     for attempt in range(ATTEMPTS):
         given = _drawn(family, level, Draws(f"{identity}#{attempt}"))
         try:
-            solution = solve(Problem(family, given, identity))
+            solution = solve(Problem(family, given, identity), attempt + 1)
         except NoSolution as error:
             why[str(error)] += 1
             continue
         flaw = next(flaws(solution), None)
         if flaw is None:
-            return replace(solution, attempts=attempt + 1)
+            return solution
         why[flaw] += 1
     reasons = "; ".join(f"{count} × {reason}" for reason, count in why.most_common(3))
     raise BrokenFamily(

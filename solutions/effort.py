@@ -1,11 +1,11 @@
 """How long a problem takes by hand, estimated from its own steps, operations and digits; and the points that follow."""
 
 from collections.abc import Iterable
-from fractions import Fraction
 
 import sympy
 from sympy import Expr
 
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.solution import Solution

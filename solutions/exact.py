@@ -1,15 +1,17 @@
 """Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
 from collections.abc import Iterable
-from fractions import Fraction
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from math import isfinite
+from numbers import Rational
 from typing import Any, TypeGuard
 
 import sympy
 from flint import arb, ctx, fmpq
+from sympy.core.sympify import converter
 
 from rldrill.problems.exact import Logarithm, Parameter, Root, Weight
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import surds
 from rldrill.solutions.closed_forms import ball, fraction, rational
 from rldrill.solutions.exponentials import lowest_terms, vanishes
@@ -19,6 +21,9 @@ from rldrill.solutions.value import NotGiven as NotGiven
 from rldrill.solutions.value import NotReal as NotReal
 from rldrill.solutions.value import TooLong as TooLong
 from rldrill.solutions.value import Value as Value
+
+# What sympy does not know of it would read as a decimal.
+converter[Fraction] = lambda number: sympy.Rational(number.numerator, number.denominator)
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
@@ -42,16 +47,20 @@ def exact(number: Weight | int) -> Value:
     return simplest(number)
 
 
-@singledispatch
 def simplest(value: Any) -> Any:
     """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
+    return value if isinstance(value, fmpq) else _simplest(value)
+
+
+@singledispatch
+def _simplest(value: Any) -> Any:
     return value
 
 
-simplest.register(bool, lambda value: value)
-simplest.register(int, fmpq)
-simplest.register(Fraction, lambda value: fmpq(*value.as_integer_ratio()))
-simplest.register(sympy.Rational, fraction)
+_simplest.register(bool, lambda value: value)
+_simplest.register(int, fmpq)
+_simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
+_simplest.register(sympy.Rational, fraction)
 
 
 def tidy(value: Any) -> Any:
@@ -125,10 +134,13 @@ length.register(RationalFunction, lambda value: max(map(length, value.coefficien
 
 
 @length.register(sympy.Expr)
+@lru_cache(maxsize=4096)  # what is added to a value is looked at, and then the sum
 def _(value: sympy.Expr) -> int:
-    exponents = (abs(each.args[0]) for each in value.atoms(sympy.exp) if each.args[0].is_Rational)
-    far = (int(exponent) for exponent in exponents if exponent > _FARTHEST)
-    return max((*far, *(length(fraction(number)) for number in value.atoms(sympy.Rational))), default=0)
+    if value.is_Rational:
+        return fraction(value).height_bits()
+    if isinstance(value, sympy.exp) and value.args[0].is_Rational and abs(value.args[0]) > _FARTHEST:
+        return int(abs(value.args[0]))
+    return max(map(length, value.args), default=0)
 
 
 def terms(value: Any) -> int:
@@ -255,6 +267,9 @@ def magnitude(value: Value) -> int:
     Raises:
         NotReal: it has no real value, or one too close to zero to tell.
     """
+    if isinstance(value, fmpq) and value:
+        above = len(str(abs(value.p))) - len(str(value.q))  # flint's text, which has no limit
+        return above if abs(value) >= fmpq(10) ** above else above - 1
     for precision in _PRECISIONS:
         with ctx.workprec(precision):
             size = abs(enclosure(value))
@@ -269,13 +284,14 @@ def magnitude(value: Value) -> int:
     raise NotReal(f"{value} cannot be told from zero, or is no real number")
 
 
-@singledispatch
 def sign(value: Value) -> int:
     """−1, 0 or 1: the exact sign of a real value.
 
     Raises:
         NotReal: the value is not a real number, or cannot be told from zero.
     """
+    if isinstance(value, fmpq):
+        return (value > 0) - (value < 0)
     for precision in _PRECISIONS:
         if found := clear_sign(value, None, precision):
             return found
@@ -283,9 +299,6 @@ def sign(value: Value) -> int:
     if vanishes(expression) or expression.equals(0):
         return 0
     raise NotReal(f"{expression} is not a real number that can be told from zero")
-
-
-sign.register(fmpq, lambda value: (value > 0) - (value < 0))
 
 
 def clear_sign(value: Value, at: fmpq | None, precision: int) -> int | None:

@@ -1,13 +1,13 @@
 """Linearising the dynamics of a problem: derivatives in letters, then exact values at the operating point."""
 
 from collections.abc import Callable, Iterator, Mapping
-from fractions import Fraction
 from typing import Any
 
 from sympy import Expr
 
 from rldrill.problems.angles import Angle
 from rldrill.problems.expressions import letters
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.robots import Entries, System
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero

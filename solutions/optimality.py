@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from itertools import chain
 from typing import NoReturn
 
 from flint import fmpq, fmpq_mat
 
 from rldrill.problems.document import joined
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.problems.recurrence import Ways, end_components, loop_through, predecessors, ranks
 from rldrill.solutions.endless import Loop, no_value

@@ -6,10 +6,10 @@ tries everything. Open parameters are replaced by ``OPEN``; exact answers are ev
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
 from typing import Any, TypeAlias
 
 from rldrill.problems.exact import Logarithm, Parameter, Weight
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Model, ModelAndPolicy, Policy
 from rldrill.solutions.numerics import Array, np
 

@@ -1,10 +1,10 @@
 """The value of a letter from what comes out: exactly from an equation, independently from two trials."""
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from typing import Any, TypeVar
 
 from rldrill.problems.exact import Parameter, Scalar, shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
 from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy

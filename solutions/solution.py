@@ -118,7 +118,7 @@ class Solution:
         made = ((misconception, self.answers_with(misconception, carried)) for misconception in self.applicable)
         return tuple((misconception, answers) for misconception, answers in made if answers is not None)
 
-    @property
+    @cached_property
     def applicable(self) -> tuple[Misconception, ...]:
         """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
         every = solver(self.problem.family).misconceptions
@@ -132,8 +132,21 @@ class Solution:
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None
     ) -> Mapping[str, Any] | None:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
+        if carried:
+            return self._made(misconception, carried)
+        if misconception not in self._mistaken:
+            self._mistaken[misconception] = self._made(misconception, {})
+        return self._mistaken[misconception]
+
+    @cached_property
+    def _mistaken(self) -> dict[Misconception, Mapping[str, Any] | None]:
+        """What the mistakes give that somebody has asked for."""
+        return {}
+
+    def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
         try:
-            return run(self.problem, misconception, carried).answers
+            same = () if carried or misconception.is_slip else self.work.values
+            return run(self.problem, misconception, carried, same).answers
         except (NoSolution, NotGiven):
             return None
 
@@ -145,15 +158,26 @@ class Solution:
             return {}  # nothing follows from what was typed
 
 
-def run(problem: Problem, misconception: Misconception | None = None, carried: Mapping[str, Any] | None = None) -> Work:
+def run(
+    problem: Problem,
+    misconception: Misconception | None = None,
+    carried: Mapping[str, Any] | None = None,
+    same: Sequence[Any] = (),
+) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
+
+    Args:
+        problem: the problem.
+        misconception: the mistake.
+        carried: the earlier answers.
+        same: what comes out on the right way, up to the formula that is misread.
 
     Raises:
         NoSolution: the problem has no answer.
         NotGiven: the mistake asks for something that the problem does not give.
         BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
-    work = Work(misconception, carried or {})
+    work = Work(misconception, carried or {}, same)
     slipping = None if misconception is None else misconception.solve
     try:
         (slipping or solver(problem.family).solve)(problem.given, work)
@@ -171,10 +195,14 @@ def run(problem: Problem, misconception: Misconception | None = None, carried: M
     return work
 
 
-def solve(problem: Problem) -> Solution:
+def solve(problem: Problem, attempts: int = 1) -> Solution:
     """Solve a problem exactly.
+
+    Args:
+        problem: the problem.
+        attempts: how many draws it took to find it.
 
     Raises:
         NoSolution: the problem has no answer (a value that does not exist, a singular matrix).
     """
-    return Solution(problem, run(problem))
+    return Solution(problem, run(problem), attempts)

@@ -1,10 +1,11 @@
 """The working of a problem: the solver's notebook, in which every step is data."""
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import Equation
@@ -30,23 +31,29 @@ from rldrill.solutions.vector import Vector
 class Step:
     """One application of a formula: what was put in, and the exact value that came out.
 
-    ``own`` says that the right side is the problem's own (a derivative of its dynamics), not the formula's; ``label``
-    which of many steps it is, ``$t = 2$``.
+    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
+    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
+    ``$t = 2$``: an update that knows its t says it unasked.
     """
 
     formula: Formula
     right: Expr
     known: Mapping[str, Any]
     value: Any
-    into: Expr
     sign: str
+    into: Callable[..., Expr] | None = None
     own: bool = False
-    label: str = ""
+    label: str | None = None
+
+    @cached_property
+    def named(self) -> Expr:
+        """The quantity that comes out, in letters: ``V_2(s)``."""
+        return self.formula.left if self.into is None else self.into(*self.formula.left.args)
 
     @cached_property
     def left(self) -> Expr:
         """The name of the quantity, its indices put in: ``V(cool)``."""
-        return indexed(self.into, self.known)
+        return indexed(self.named, self.known)
 
     @cached_property
     def put_in(self) -> Expr:
@@ -57,9 +64,9 @@ class Step:
         """The formula before the numbers are put in; a policy by the name that it has here, π₁ or π′."""
         formula = self.formula
         plain = formula.equation(formula.right)
-        if formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
+        if self.own or formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
             return plain
-        left = self.into if self.into.is_Symbol else self.into.func(*formula.left.args)
+        left = self.named if self.named.is_Symbol else self.named.func(*formula.left.args)
         return replace(plain, left=typeset(left))
 
     def equation(self) -> Equation:
@@ -82,9 +89,14 @@ class Step:
             rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
-        if self.label:
-            left = row(mathematics(self.label), punctuation(":"), left)
+        if label := self._label():
+            left = row(mathematics(label), punctuation(":"), left)
         return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)))
+
+    def _label(self) -> str:
+        if self.label is not None:
+            return self.label
+        return f"t = {self.known['t']}" if self.sign == "←" and "t" in self.known else ""
 
 
 @dataclass(frozen=True)
@@ -184,10 +196,14 @@ class Work:
     Args:
         misconception: the mistake to make, if any.
         carried: for follow-through, a person's own answers to earlier parts.
+        same: what came out on the right way, application by application: up to the formula that is misread, the same
+            comes out here.
     """
 
     misconception: Misconception | None = None
     carried: Mapping[str, Any] = field(default_factory=dict)
+    same: Sequence[Any] = ()
+    values: list[Any] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
     ends: dict[str, int] = field(default_factory=dict)
@@ -195,13 +211,19 @@ class Work:
 
     def misreads(self, formula: Formula) -> bool:
         """Whether the mistake to make is in this formula: what follows from it need not follow now."""
-        return self.misconception in formula.misread
+        misread = self.misconception in formula.misread
+        if misread:
+            self.same = ()
+        return misread
 
     def reading(self, formula: Formula) -> Expr:
         """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
         self.read[formula] = None
         mistake = self.misconception
-        return formula.right if mistake is None else formula.misread.get(mistake, formula.right)
+        if mistake is None or mistake not in formula.misread:
+            return formula.right
+        self.same = ()
+        return formula.misread[mistake]
 
     def step(
         self,
@@ -221,25 +243,36 @@ class Work:
             sign: the relation, a text, that holds here, where it is not the formula's own (an inequality that fails).
             right: what stands on the right in this problem, where the formula only says which function's
                 derivative it is.
-            label: which of many steps this is, in mathematics (``i = 2``); an update that knows its t says it.
+            label: which of many steps this is, in mathematics (``i = 2``).
             **known: the values by the formula's letters; quantities are mappings from their arguments.
         """
         own = right is not None
         right = self.reading(formula) if right is None else right
-        try:
-            value = bounded(tidy(value_of(right, known)))
-        except DivisionError as error:
-            raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
-        left = formula.left if into is None else into(*formula.left.args)
-        sign = sign or (formula.sign if into is None else "=")
-        if label is None:
-            label = f"t = {known['t']}" if sign == "←" and "t" in known else ""
-        self.lines.append(Step(formula, right, known, value, left, sign, own, label))
+        value = self._applied(formula, right, known)
+        if self.misconception is None:  # nobody reads the working of a mistake
+            sign = sign or (formula.sign if into is None else "=")
+            self.lines.append(Step(formula, right, known, value, sign, into, own, label))
         return value
 
     def value(self, formula: Formula, **known: Any) -> Any:
         """What a formula, as it is read here, gives for known quantities, without a step in the working."""
-        return value_of(self.reading(formula), known)
+        right = self.reading(formula)
+        return self._next(lambda: value_of(right, known))
+
+    def _applied(self, formula: Formula, right: Expr, known: Mapping[str, Any]) -> Any:
+        try:
+            return self._next(lambda: bounded(tidy(value_of(right, known))))
+        except DivisionError as error:
+            raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
+
+    def _next(self, found: Callable[[], Any]) -> Any:
+        """What comes out next, looked up while it must be what came out on the right way."""
+        number = len(self.values)
+        value = self.same[number] if number < len(self.same) else None
+        self.values.append(value)  # its place is taken even where nothing comes out
+        if value is None:
+            self.values[number] = value = found()
+        return value
 
     def system(
         self,
@@ -262,28 +295,38 @@ class Work:
         Raises:
             NoSolution: there is no unique solution.
         """
-        right = self.reading(formula)
+        right, other = self.reading(formula), None if instead is None else self.reading(instead)
         fixed = dict(known.get(unknown.code, {}))
         keys = [(tuple(case.values()) if len(case) > 1 else next(iter(case.values())), case) for case in cases]
         lookup: dict[Hashable, Any] = {key: Affine({key: ZERO + 1}) for key, _ in keys}
         bound = {**known, unknown.code: _Unknowns({**lookup, **fixed}, ZERO)}
         equations = {}
-        for key, case in keys:
-            equations[key] = value_of(right, {**bound, **case})
-            self.lines.append(Step(formula, right, {**known, unknown.code: fixed, **case}, None, formula.left, "="))
-        if instead is not None:
-            right, (last, _) = self.reading(instead), keys[-1]
-            equations[last] = lookup[last] + value_of(instead.left, {}) + value_of(right, bound) * (ZERO - 1)
-            self.lines[-1] = Step(instead, right, {**known, unknown.code: fixed}, None, instead.left, "=")
-        solution = bounded(solve_linear(equations))
-        lefts = tuple(indexed(formula.left, {**case}) for _, case in keys)
-        if len(keys) <= MOST_UNKNOWNS:
-            names = {key: left for (key, _), left in zip(keys, lefts, strict=True)}
-            self.lines.append(Elimination(names, equations, tuple(solution[key] for key, _ in keys)))
-        else:
-            self.lines.append(Note("Solving these equations:"))
-            self.lines.append(Result(lefts, tuple(solution[key] for key, _ in keys)))
+
+        def solved() -> dict[Any, Value]:
+            for key, case in keys:
+                equations[key] = value_of(right, {**bound, **case})
+            if instead is not None:
+                last = keys[-1][0]
+                equations[last] = lookup[last] + value_of(instead.left, {}) + value_of(other, bound) * (ZERO - 1)
+            return bounded(solve_linear(equations))
+
+        solution = self._next(solved)
+        if self.misconception is None:
+            steps = [Step(formula, right, {**known, unknown.code: fixed, **case}, None, "=") for _, case in keys]
+            if instead is not None:
+                steps[-1] = Step(instead, other, {**known, unknown.code: fixed}, None, "=")
+            self.lines += steps
+            self._write_solution({key: indexed(formula.left, case) for key, case in keys}, equations, solution)
         return {**fixed, **solution}
+
+    def _write_solution(
+        self, names: Mapping[Hashable, Expr], equations: Mapping[Hashable, Any], solution: Mapping[Hashable, Value]
+    ) -> None:
+        values = tuple(solution[key] for key in names)
+        if len(names) <= MOST_UNKNOWNS:
+            self.lines.append(Elimination(names, equations, values))
+        else:
+            self.lines += (Note("Solving these equations:"), Result(tuple(names.values()), values))
 
     def equate(self, letter: str, left: Any, right: Any) -> Value:
         """Solve an equation that is linear in one letter, in front of the reader; the letter's value.
@@ -344,6 +387,8 @@ class Work:
 
 def _simplest(value: Any) -> Any:
     """Numbers, alone or in a vector or table, as plain rationals where no parameter is left in them."""
+    if isinstance(value, fmpq):
+        return value
     if isinstance(value, dict):
         return {key: simplest(number) for key, number in value.items()}
     if isinstance(value, tuple):

@@ -1,7 +1,6 @@
 """The value of a backup diagram's root, from the numbers that stand on the diagram."""
 
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Open, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Name, PolicyField, Transition, check_keys, check_policy
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open

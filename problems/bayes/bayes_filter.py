@@ -1,6 +1,5 @@
 """The belief over the states of a robot after a run of actions and measurements."""
 
-from fractions import Fraction
 from itertools import pairwise
 from typing import Self
 
@@ -31,13 +30,14 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 4
+REVISION = 5
 
 
 class Event(Givens):

@@ -1,6 +1,5 @@
 """The belief over the states of a robot after one or several actions."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -22,6 +21,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
@@ -29,7 +29,7 @@ from rldrill.problems.scenes import SCENES, draw_motion
 
 TITLE = "Belief after an action"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):

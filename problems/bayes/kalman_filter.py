@@ -1,7 +1,6 @@
 """The Gaussian belief of a robot on a line after moving and measuring; with its velocity at level 3."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cache
 from typing import Self
 
@@ -11,6 +10,7 @@ from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (
     MatrixField,

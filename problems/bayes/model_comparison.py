@@ -1,6 +1,5 @@
 """The evidences of models of a coin, their posterior odds, and which of them is the most probable."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, OpenDistributionField, check_keys
 from rldrill.problems.parts import Number, Part, Values, YesNo
 

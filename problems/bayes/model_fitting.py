@@ -1,6 +1,5 @@
 """The parameters of a coin, a normal distribution or a line, by maximum likelihood and maximum a posteriori."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Model fitting"

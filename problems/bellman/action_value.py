@@ -1,6 +1,5 @@
 """The values of actions in one state under a policy, from given values of the states."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter, transitions_table, values_table
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open, unknown
@@ -17,7 +17,7 @@ from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_a
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Lookahead):
@@ -50,8 +50,10 @@ def draw(level: int, rng: Draws) -> Given:
     values = draw_values(rng, setting.states, gamma)
     if level == 3:
         rows = _equal(rng, setting, state, values, gamma)
-        rows, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
-        return Given(dynamics=Dynamics(transitions=tuple(rows)), values=_named(values, rows), gamma=left, find=True)
+        opened, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
+        if any(old.probability == Fraction(1, 2) != new.probability for old, new in zip(rows, opened, strict=True)):
+            return draw(level, rng)  # a half would be guessed
+        return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
     if level == 2 and rng.chance(Fraction(1, 2)):
         shape = Shape(states=4, actions=2, branches=2)
         worths = averaging(rng, rng.split(2, (4, 5)), values[state]) or []

@@ -1,6 +1,5 @@
 """One Bellman backup: the value of a state under a policy, or the number that makes the value what it is."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     Dynamics,
     Lookahead,
@@ -27,7 +27,7 @@ from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_a
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Lookahead):

@@ -1,6 +1,5 @@
 """Given values held against the Bellman equations: the residual of every state, and whether the values are right."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,

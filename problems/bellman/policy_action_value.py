@@ -1,11 +1,10 @@
 """The exact value of every state and action of a small MDP under a policy."""
 
-from fractions import Fraction
-
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, open_chance, policy_blocks
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open

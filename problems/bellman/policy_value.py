@@ -1,6 +1,5 @@
 """The exact value of every state of a small MDP under a policy."""
 
-from fractions import Fraction
 from typing import Any, Self
 
 from pydantic import ConfigDict, Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,

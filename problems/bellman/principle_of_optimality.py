@@ -1,7 +1,6 @@
 """The best paths of a small graph without chance: from the start, and from every state on the way."""
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from typing import NamedTuple, Self
@@ -12,6 +11,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Policy, Values
 

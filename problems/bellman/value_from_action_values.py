@@ -1,6 +1,5 @@
 """The value of states from given action values: under a policy, and the optimal one."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, Scalar, dot, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, values_table
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open

@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -15,6 +14,7 @@ from rldrill.problems.document import Block, Equation, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, tabular
 from rldrill.problems.parts import Matrix, Numbers, Part

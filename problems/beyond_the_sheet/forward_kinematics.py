@@ -1,6 +1,5 @@
 """The end point and the orientation of a planar arm."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Forward kinematics"
@@ -117,7 +117,7 @@ def question(given: Given) -> Question:
     parts = []
     for angle, end, entries in which:
         parts += [
-            Part(f"What is the angle {angle} against the $x$ axis, in radians?", Number(), zero=True),
+            Part(f"What is the angle {angle} relative to the $x$ axis, in radians?", Number(), zero=True),
             Part(f"Where is the end point {end}?", Numbers(entries), zero=given.frames),
         ]
     return Question(_situation(given), tuple(parts))
@@ -128,4 +128,4 @@ def _situation(given: Given) -> tuple[Block, ...]:
         return situation(given)
     place = f"({shown(given.base.x)}, {shown(given.base.y)})"
     turned = f"its base is at ${place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
-    return situation(given, f"{turned} against the $x$ axis", "x_0")
+    return situation(given, f"{turned} relative to the $x$ axis", "x_0")

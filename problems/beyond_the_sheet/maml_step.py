@@ -1,7 +1,6 @@
 """The inner and the outer step of MAML on quadratic losses; or the parameter or step size with a given outcome."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import in_open, step_size
 

@@ -1,7 +1,6 @@
 """The two tables of double Q-learning after updates of the one or the other along a run."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_ends
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",

@@ -1,6 +1,6 @@
 """The probabilities with which an ε-greedy policy takes its actions, also where best actions are tied."""
 
-from fractions import Fraction
+import re
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import exploration, in_open
@@ -114,11 +115,17 @@ def draw(level: int, rng: Draws) -> Given:
     return given
 
 
+def _cell(state: str) -> str:
+    """Where a cell of a grid lies that has its row and column for a name."""
+    found = re.fullmatch(r"r(\d+)c(\d+)", state)
+    return f" (row {found[1]}, column {found[2]} of a grid)" if found else ""
+
+
 def question(given: Given) -> Question:
     """The action values and ε; the probability of every action, then what the state is worth."""
     tied = " Actions that are tied for the best share the greedy probability evenly." if len(given.best) > 1 else ""
     blocks = (
-        Paragraph(f"An agent in state {given.state} has these action values:"),
+        Paragraph(f"An agent in state {given.state}{_cell(given.state)} has these action values:"),
         action_values_table({given.state: given.values}),
         Paragraph(
             "It acts ε-greedily: with probability $1 − ε$ it takes the greedy action, with probability $ε$ one of all "

@@ -1,6 +1,5 @@
 """The action values after Expected Sarsa updates along a run, for a given or an ε-greedy policy."""
 
-from fractions import Fraction
 from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter, dot
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import exploration, in_open
@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business

@@ -1,7 +1,6 @@
 """The action values after Q-learning updates along a run of transitions."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Annotated, Any
 
 from pydantic import Tag
@@ -9,6 +8,7 @@ from pydantic import Tag
 from rldrill.problems.asking_back import BackMoves, BackRun, back_asked, draw_back, draw_forward
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import (
@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business

@@ -1,6 +1,5 @@
 """The eligibility traces and the action values after updates of Sarsa(λ), or of Watkins's Q(λ), along a run."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, action_values_table, draw_action_ru
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -107,6 +107,8 @@ def _back(rng: Draws) -> Given:
         ahead = moved
     error = run.rewards[1] + gamma * ahead - middle
     end = moved + alpha * error * gamma * lam
+    if ahead == 0 and middle + error * lam == 0:
+        return _back(rng)  # whatever γ multiplies would be 0
     if error == 0 or end.denominator > 10 or end == old:
         return _back(rng)
     outcome = Outcome(*first, end)

@@ -1,6 +1,5 @@
 """How far value iteration can still be from V* after some sweeps, and how many sweeps an accuracy takes."""
 
-from fractions import Fraction
 from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount
@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 2
+REVISION = 3
 
 
 def _positive(value: Fraction) -> Fraction:
@@ -59,8 +59,8 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """V* is known, one bound; then V* or the first sweep; then mostly the first sweep, and a discount nearer to 1."""
-    known = level == 1 or rng.chance(Fraction(1, level))
+    """V* is known, one bound; then also how many sweeps are enough; then only the first sweep, and γ nearer to 1."""
+    known = level < 3
     states = draw_setting(rng).states[: 2 if level == 1 else 2 + rng.below(level)]
     start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
     other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}

@@ -1,6 +1,5 @@
 """The optimal policy of a model whose optimal state values are known."""
 
-from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):

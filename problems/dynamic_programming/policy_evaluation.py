@@ -1,13 +1,12 @@
 """Values after some sweeps of iterative policy evaluation, synchronous or in place."""
 
-from fractions import Fraction
-
 from pydantic import Field
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,

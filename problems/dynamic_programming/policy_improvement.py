@@ -1,6 +1,5 @@
 """The greedy policy for the values of a policy, and whether that policy was optimal already."""
 
-from fractions import Fraction
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, PolicyField, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
@@ -25,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):

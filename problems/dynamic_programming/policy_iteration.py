@@ -1,6 +1,5 @@
 """Values and policies of some rounds of policy iteration, and whether it has ended."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, check_policy, model_blocks
 from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_va
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):

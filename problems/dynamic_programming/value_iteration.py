@@ -1,6 +1,5 @@
 """Values after some sweeps of value iteration, and the greedy policy for them."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, model_blocks
 from rldrill.problems.parts import Choice, Number, Part, Policy, Values
 from rldrill.problems.phrases import discount

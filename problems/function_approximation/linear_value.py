@@ -1,7 +1,6 @@
 """Action values that are linear in features, with one block of weights for every action; or where two are equal."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -21,6 +20,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, weights
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part, Policy, Values
 from rldrill.problems.settings import Setting, draw_setting

@@ -1,6 +1,5 @@
 """Piecewise linear basis functions: the features of a state for several centres; or width or state from some."""
 
-from fractions import Fraction
 from math import ceil, isqrt
 from typing import Self
 
@@ -25,6 +24,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"

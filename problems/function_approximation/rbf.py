@@ -1,6 +1,5 @@
 """Radial basis functions: the features of a state for several centres; or the width or the state from some of them."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -23,6 +22,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, WidthField, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import in_open
 

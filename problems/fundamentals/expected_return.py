@@ -1,7 +1,6 @@
 """The expected return of a policy, from a start distribution and a small tree of chances."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import NamedTuple, Self, TypeAlias
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
@@ -30,7 +30,7 @@ from rldrill.problems.settings import Setting, settings
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 3
+REVISION = 4
 
 _MOST = 200
 

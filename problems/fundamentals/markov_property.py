@@ -1,7 +1,6 @@
 """A table of what followed short histories: the probabilities given the history, and whether the process is Markov."""
 
 from collections import Counter
-from fractions import Fraction
 from itertools import product
 from typing import NamedTuple, Self
 
@@ -11,6 +10,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Part, Values, YesNo
 from rldrill.problems.readings import distribution, note_of

@@ -1,7 +1,6 @@
 """The return of a finite sequence of rewards, from the start and from later times."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Annotated
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Discounts, Exact, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown

@@ -1,13 +1,12 @@
 """The return of rewards that never end: some first ones, then rewards that repeat for ever."""
 
-from fractions import Fraction
-
 from pydantic import Field, field_validator, model_validator
 
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown

@@ -1,7 +1,6 @@
 """Apprenticeship learning by projection: distances, projected points and the weights of the next reward."""
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import gcd, isqrt
 from typing import Self
 
@@ -12,6 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 

@@ -1,7 +1,6 @@
 """The feature expectations of a policy, estimated from trajectories that were recorded."""
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -12,6 +11,7 @@ from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open, unknown

@@ -1,7 +1,6 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -12,6 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import DistributionField, Name, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
@@ -160,16 +160,27 @@ def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[st
 
 def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict[str, Fraction]] | None:
     """Different whole feature expectations whose features are small whole numbers; None where some tries find none."""
+    later = {state: [gamma * chance for chance in row.values()] for state, row in chain.items()}
     found: list[dict[str, Fraction]] = []
     for _ in range(20):
         mu = dict(zip(chain, rng.distinct(len(chain), 2, 16), strict=True))
-        phi = [mu[state] - gamma * dot(row.values(), mu.values()) for state, row in chain.items()]
-        whole = all(value.denominator == 1 and 0 < value <= 9 for value in phi)
-        if whole and len(set(phi)) > 1 and mu not in found:
+        phi = _features(mu, later)
+        if len(phi) == len(mu) and len(set(phi)) > 1 and mu not in found:
             found.append(mu)
         if len(found) == size:
             return found
     return None
+
+
+def _features(mu: Mapping[str, Fraction], later: Mapping[str, Sequence[Fraction]]) -> list[Fraction]:
+    """The features behind feature expectations, as far as they are small whole numbers."""
+    phi = []
+    for state, row in later.items():
+        value = mu[state] - dot(row, mu.values())
+        if value.denominator != 1 or not 0 < value <= 9:
+            break
+        phi.append(value)
+    return phi
 
 
 def question(given: Given) -> Question:

@@ -1,6 +1,5 @@
 """Which max-margin constraints hold for given weights, and the smallest slack with which all do."""
 
-from fractions import Fraction
 from string import digits
 from typing import Self
 
@@ -11,6 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
 

@@ -1,6 +1,5 @@
 """One backward step of differential dynamic programming: the quadratic Q, and the change of the action."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.expressions import Expression, letters
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, tabular
 from rldrill.problems.parts import Matrix, Part
@@ -77,8 +77,8 @@ def question(given: Given) -> Question:
         (
             *plan(given, given.reward),
             Paragraph(
-                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} by the next "
-                "state are"
+                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} with respect to "
+                "the next state are"
             ),
             Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
             Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),

@@ -1,6 +1,5 @@
 """The matrices A and B of a robot's dynamics, linearised at an operating point."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Numbers, Part
 from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
 

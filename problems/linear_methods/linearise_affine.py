@@ -1,6 +1,5 @@
 """The constant term C of a linearisation, and the matrices that pull it into the state."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -8,6 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
 

@@ -1,6 +1,5 @@
 """Value matrices and gains of a finite horizon, backwards in time, and the first action."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import (
     Conventional,
     LinearQuadratic,

@@ -1,6 +1,5 @@
 """The LQR gain at one time from the value matrix of the next."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import Conventional, quadratic, single_gain
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import (

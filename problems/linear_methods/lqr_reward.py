@@ -1,6 +1,5 @@
 """The rewards of a short rollout of a linear system under a linear feedback."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, dot, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import NOTATIONS, LinearQuadratic, by_time, costs, draw_system, situation
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatricesField, check_shape, diagonal, tabular

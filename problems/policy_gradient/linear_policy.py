@@ -1,6 +1,5 @@
 """The greedy policy of action values that are linear in features; or the weight at which it changes."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionFeatures, action_features_table, check_action_features, weights
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, Policy, Values
 from rldrill.problems.settings import Setting, draw_setting
 

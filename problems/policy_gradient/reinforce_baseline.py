@@ -1,6 +1,5 @@
 """REINFORCE with a baseline: the gradient from one episode, each return taken relative to the state's baseline."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,13 +8,14 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
 from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Episode):

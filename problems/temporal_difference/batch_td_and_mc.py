@@ -1,7 +1,6 @@
 """What batch TD(0) and batch Monte Carlo make of the same episodes."""
 
 from collections import Counter
-from fractions import Fraction
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open

@@ -1,7 +1,6 @@
 """The eligibility traces of all states along a run, accumulating or replacing."""
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter

@@ -1,6 +1,5 @@
 """The λ-return of an episode, or of a run that is cut off, from its n-step returns."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discounts, Open, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter

@@ -1,6 +1,5 @@
 """The values of what is visited after Monte Carlo updates from one episode, first visit or every visit."""
 
-from fractions import Fraction
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, StepSize
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open

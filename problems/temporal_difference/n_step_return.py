@@ -1,7 +1,6 @@
 """The n-step return along a trajectory."""
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discounts, Open, Parameter, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open

@@ -1,6 +1,5 @@
 """The values after several visits by the sample average, or by a constant step size where the returns drift."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, StepSize, shown
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys, values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, step_size

@@ -1,6 +1,5 @@
 """The values of all states after TD(λ) updates in the backward view, along a run of transitions."""
 
-from fractions import Fraction
 from itertools import pairwise
 
 from pydantic import Field
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter

@@ -1,6 +1,5 @@
 """The values of some states of a run after TD(λ) updates in the forward view."""
 
-from fractions import Fraction
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter

@@ -1,6 +1,5 @@
 """The values of the updated states after TD(0) updates along a run of transitions."""
 
-from fractions import Fraction
 from itertools import pairwise
 from typing import Annotated, Self
 
@@ -9,6 +8,7 @@ from pydantic import Tag, model_validator
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open

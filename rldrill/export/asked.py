@@ -10,6 +10,7 @@ from rldrill.exercise import Exercise
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
+from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind, text_of
 from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
@@ -101,10 +102,9 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
     """Wrong answers to a part, the likeliest first; none to yes or no, where every mistake is the other."""
     if isinstance(part.kind, YesNo):
         return
-    kind, problem = answer_kind(part.kind), exercise.problem
     for wrong in exercise.diagnosing.wrong_answers(part.label, most):
         try:
-            found = kind.read(wrong.answer, problem.parameters, problem.given.terminal_states())
+            found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
         yield Wrong(tuple(map(_typed, found.values())), wrong.sentence)

@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
+from time import perf_counter
 from typing import Any, TypeAlias
 
-from rldrill.diagnosis import IN_A_FILE
+from rldrill.diagnosis import IN_A_FILE, Diagnosis
 from rldrill.exam.exam import Version
 from rldrill.exam.manifest import read_exam
 from rldrill.exercise import Exercise, draw, load
@@ -16,13 +17,15 @@ from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
 from rldrill.grading.report import MISSING, Judged, Score
 from rldrill.problems.parts import Part, Policy
-from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge
+from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
 Ref: TypeAlias = str | tuple[str, int]
 #: The label of a part, what was typed, and the earlier answers that it may go on from.
 _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
+#: So many seconds are spent in all on what can be done wrongly in one problem; what is found by then is looked up.
+_SEARCH = 4.0
 #: So many judgements are kept.
 _KEPT = 50_000
 #: Entries that are the same in so many other draws are the same in every draw.
@@ -164,6 +167,7 @@ class _Problem:
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
+        self._seconds = _SEARCH
         self._same: dict[str, frozenset[str]] = {}
 
     def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
@@ -219,13 +223,20 @@ class _Problem:
         diagnosis = None
         if self._rules.causes and not verdict.accepted:
             wrong = {label: each for label, each in before.items() if not each.accepted}
-            found = self.exercise.diagnosed(part.label, text, verdict, wrong, IN_A_FILE)
-            diagnosis = replace(found, wrong=None, right=None) if found.explains else None
+            found = self._diagnosed(part.label, text, verdict, wrong)
+            diagnosis = found if found.explains else None
         reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
         mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence
         score = Score(part.points * self._credit(part, verdict), part.points)
         outcome = verdict.outcome.value
         return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
+
+    def _diagnosed(self, label: str, text: str, verdict: Verdict, wrong: Mapping[str, Verdict]) -> Diagnosis:
+        """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""
+        begun = perf_counter()
+        found = self.exercise.diagnosed(label, text, verdict, wrong, min(IN_A_FILE, self._seconds))
+        self._seconds = max(0.0, self._seconds - (perf_counter() - begun))
+        return found if self._rules.keys else replace(found, wrong=None, right=None)
 
     def _credit(self, part: Part, verdict: Verdict) -> Fraction:
         """The share of the points; an entry that is the same in every draw earns nothing."""
@@ -292,9 +303,8 @@ class _Problem:
         return pointed if self._readable(part, pointed) else entry.text
 
     def _readable(self, part: Part, text: str) -> bool:
-        problem = self.exercise.problem
         try:
-            answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+            read_answer(self.exercise.solution, part, text)
         except Unreadable:
             return False
         return True

@@ -29,6 +29,7 @@ from rldrill.solutions.value import NotReal
 _EFFORT = 3000  # in hundredths of a millisecond, as measured
 _CONVERSION = 30
 _BITS = 4000
+_RATIONAL_BITS = 14_000  # of a quotient of the longest whole numbers
 _DEGREE = 24
 # degree, levels and bits of what a function is taken of, with a parameter in it and without
 _OPEN, _CLOSED = (4, 2, 100), (0, 4, 400)
@@ -128,7 +129,7 @@ class Arithmetic:
 
     def _settled(self, number: Any) -> Value:
         size = bits(number)
-        if size > _BITS or degree(number) > _DEGREE:
+        if size > (_RATIONAL_BITS if is_rational(number) else _BITS) or degree(number) > _DEGREE:
             raise Unreadable(_LARGE)
         if not is_closed(number):
             return number

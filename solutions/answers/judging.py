@@ -9,16 +9,18 @@ from typing import Any
 
 from rldrill.problems.expressions import GREEK
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
-from rldrill.solutions.answers.kinds import Cell, answer_kind
+from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
+from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import Reading, Unreadable
 from rldrill.solutions.exact import NotReal, Value, absolute, sign
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
+#: An answer may be so many times as long as the right one is as it is typed: with decimals, names, and spaces.
+_ROOM = 4
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 #: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
-_LONGEST = 2000  # what is longer is refused anyway
 _NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
 
 
@@ -79,16 +81,29 @@ def judge(solution: Solution, label: str, text: str, earlier: Mapping[str, Any] 
         KeyError: the problem has no such part.
     """
     part = part_of(solution, label)
-    kind = answer_kind(part.kind)
     try:
-        if isinstance(part.kind, Number):
-            _refuse_other_quantity(text[:_LONGEST], part.ask)
-        cells = kind.read(text, solution.problem.parameters, solution.problem.given.terminal_states())
+        cells = read_answer(solution, part, text)
     except Unreadable as error:
         return Verdict(Outcome.UNREADABLE, str(error))
+    kind = answer_kind(part.kind)
     value = kind.value({name: _content(cell) for name, cell in cells.items()})
     read = ", ".join(f"{name}: {echo}" if name else echo for name, echo in ((n, _echo(c)) for n, c in cells.items()))
     return _judge(solution, part, cells, value, read, dict(earlier or {}))
+
+
+def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
+    """What was typed as the answer of a part, cell by cell; it may be longer than the right one, but not much.
+
+    Raises:
+        Unreadable: it cannot be understood.
+    """
+    kind, problem = answer_kind(part.kind), solution.problem
+    if isinstance(part.kind, Number) and len(text) <= LONGEST:
+        _refuse_other_quantity(text, part.ask)
+    longest = LONGEST
+    if len(text) > LONGEST:  # to write the right answer takes its time
+        longest = max(LONGEST, _ROOM * len(kind.write(solution.answers[part.label])))
+    return kind.read(text, Allowed(problem.parameters, problem.given.terminal_states(), longest))
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:

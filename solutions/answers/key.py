@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from decimal import Decimal
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.document import Equation
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import EMPTY, Glyph, Math, Script, Tabular, number, operator, relation, row
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind

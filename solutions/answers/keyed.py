@@ -40,6 +40,11 @@ class Asked(Generic[Key]):
         """Whether numbers are asked for."""
         return self.goes_on is None
 
+    @property
+    def most(self) -> int:
+        """So many keys, lines or values are read at most."""
+        return max(_MOST, len(self.keys) + len(self.ends) + 1)
+
     def means_nothing(self, value: Source) -> bool:
         """Whether it is what a terminal state is given: 0, or a sign for no action."""
         text = value.text.strip("'\"")
@@ -84,8 +89,8 @@ def _bracketed(body: Source, asked: Asked[Key]) -> Source:
 def _marked(body: Source, asked: Asked[Key]) -> list[_Item] | None:
     """The items whose keys stand before colons, equal signs or arrows."""
     pieces = [piece for piece in body.split(",;\n|") if piece.text]
-    if sum(map(_marks, pieces)) > _MOST:
-        raise body.unreadable(f"More than {_MOST} keys were typed; leave out those that were not asked for.")
+    if sum(map(_marks, pieces)) > asked.most:
+        raise body.unreadable(f"More than {asked.most} keys were typed; leave out those that were not asked for.")
     items = [list(_items(piece, asked)) for piece in pieces]
     named = [item for found in items for item in found]
     if not named:
@@ -220,7 +225,7 @@ def _by_key(items: list[_Item], asked: Asked[Key]) -> dict[Key, Source]:
 def _tabled(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     """A table: a line for each key; or the keys in the first line; or states by actions."""
     lines = [ended(line) for line in _lines(body)]
-    if not 2 <= len(lines) <= _MOST:
+    if not 2 <= len(lines) <= asked.most:
         return None
     parting = next((mark for mark in "|;," if lines[0].has(mark)), None)
     rows = [line.split(parting) if parting else _words(line) for line in lines]
@@ -278,7 +283,7 @@ def _spaced(body: Source, asked: Asked[Key]) -> dict[Key, Source] | None:
     found: dict[Key, Source] = {}
     for piece in body.split(",;\n|"):
         words = _words(piece)
-        if len(words) > _MOST:
+        if len(words) > 2 * asked.most:
             return None
         while words:
             length = next((n for n in (3, 2, 1) if _is_name(words[:n], n, asked)), 0)

@@ -16,6 +16,7 @@ from rldrill.problems.mathematics import (
     row,
     word,
 )
+from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -45,6 +46,21 @@ class Samples:
     unreadable: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Allowed:
+    """What a typed answer may contain.
+
+    Args:
+        parameters: the open parameters of the problem.
+        ends: its terminal states, which may be given their 0, or no action.
+        longest: the most characters that are read.
+    """
+
+    parameters: Sequence[str] = ()
+    ends: Sequence[str] = ()
+    longest: int = LONGEST
+
+
 class Answer(ABC, Generic[KindT]):
     """One kind of answer. A value is what a solver gave; its cells are what is judged one by one."""
 
@@ -56,13 +72,12 @@ class Answer(ABC, Generic[KindT]):
         """The value cell by cell, each under the name that a person would use for it."""
 
     @abstractmethod
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
         """What was typed, cell by cell.
 
         Args:
             text: what was typed.
-            parameters: the open parameters that it may contain.
-            ends: the terminal states of the problem, which may be given their 0, or no action.
+            allowed: what it may contain, and how long it may be.
 
         Raises:
             Unreadable: it cannot be understood.
@@ -119,8 +134,8 @@ class NumberAnswer(Answer[parts.Number]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": value}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
-        return {"": read_number(text, parameters)}
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
+        return {"": read_number(text, allowed.parameters, allowed.longest)}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return cells[""]
@@ -146,8 +161,12 @@ class NumbersAnswer(Answer[parts.Numbers]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {f"entry {index + 1}": number for index, number in enumerate(value)}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
-        return dict(self.cells(read_vector(text, len(self.kind.entries), parameters, self.kind.entries)))
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
+        return dict(
+            self.cells(
+                read_vector(text, len(self.kind.entries), allowed.parameters, self.kind.entries, allowed.longest)
+            )
+        )
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return tuple(cells.values())
@@ -183,8 +202,10 @@ class MatrixAnswer(Answer[parts.Matrix]):
             for column, entry in enumerate(line)
         }
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
-        return dict(self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), parameters)))
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
+        return dict(
+            self.cells(read_matrix(text, (self.kind.rows, self.kind.columns), allowed.parameters, allowed.longest))
+        )
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         entries = list(cells.values())
@@ -219,8 +240,8 @@ class ValuesAnswer(Answer[parts.Values]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {self._name(key): value[key] for key in self.kind.keys}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:
-        return dict(self.cells(read_table(text, self.kind.keys, parameters, ends)))
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
+        return dict(self.cells(read_table(text, self.kind.keys, allowed.parameters, allowed.ends, allowed.longest)))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {key: cells[self._name(key)] for key in self.kind.keys}
@@ -262,8 +283,8 @@ class PolicyAnswer(Answer[parts.Policy]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {state: value[state] for state in self.kind.actions}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
-        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions, ends))
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
+        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions, allowed.ends, allowed.longest))
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}
@@ -302,7 +323,7 @@ class ChoiceAnswer(Answer[parts.Choice]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": (value,)}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:  # noqa: ARG002
         return {"": read_choice(text, self.kind.options)}
 
     def value(self, cells: Mapping[str, Any]) -> Any:
@@ -334,7 +355,7 @@ class YesNoAnswer(Answer[parts.YesNo]):
     def cells(self, value: Any) -> dict[str, Any]:
         return {"": (self.write(value),)}
 
-    def read(self, text: str, parameters: Sequence[str], ends: Sequence[str] = ()) -> dict[str, Cell]:  # noqa: ARG002
+    def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:  # noqa: ARG002
         return {"": self.write(read_yes_no(text))}
 
     def value(self, cells: Mapping[str, Any]) -> Any:

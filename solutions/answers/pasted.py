@@ -9,8 +9,6 @@ from collections.abc import Callable, Iterator
 
 from rldrill.problems.expressions import GREEK
 
-_LONGEST = 2000  # what is longer is refused anyway
-
 _PIECES = re.compile("[⎡⎢⎣⎛⎜⎝⎧⎨⎩]([^⎡⎢⎣⎤⎥⎦⎛⎜⎝⎞⎟⎠⎧⎨⎩⎫⎬⎭\n]*)[⎤⎥⎦⎞⎟⎠⎫⎬⎭]")
 _TOP = re.compile("[⎡⎛⎧]")
 _PIECE = re.compile("[⎡⎢⎣⎛⎜⎝⎧⎨⎩]")
@@ -58,8 +56,6 @@ _TAB = re.compile(r"(?<=[^\s,;:=|(\[{])( *)\t( *)(?=[^\s,;:=|)\]}])")
 
 def laid_out(text: str) -> str:
     """What was pasted, in the marks that people type; ``|`` parts the cells of a table."""
-    if len(text) > _LONGEST:
-        return text
     text = _ESCAPED.sub(_in_place(_unescaped), text)
     for change in (_stacked_matrices, _latex, _calls, _tables):
         text = change(text)

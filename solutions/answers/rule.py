@@ -11,6 +11,7 @@ from rldrill.solutions.exact import (
     absolute,
     clear_sign,
     is_closed,
+    is_rational,
     is_zero,
     magnitude,
     parameters,
@@ -32,19 +33,25 @@ _LONGEST = 10**4  # digits
 _FEW_BITS, _MANY_BITS = 64, 1024
 
 
-@lru_cache(maxsize=4096)
 def tolerance(value: Value) -> fmpq:
     """Half a unit of the third significant digit of a real value; 0.0005 for 0.
 
     Raises:
         NotReal: it has more digits before or behind the point than anybody writes.
     """
+    return _tolerance(value) if is_rational(value) else _remembered(value)
+
+
+def _tolerance(value: Value) -> fmpq:
     if is_zero(value):
         return _AT_ZERO
     exponent = magnitude(value) - DIGITS + 1
     if abs(exponent) > _LONGEST:
         raise NotReal("the value has too many digits to be told from others")
     return fmpq(10) ** exponent / 2
+
+
+_remembered = lru_cache(maxsize=4096)(_tolerance)
 
 
 def within(value: Value, key: Value, bound: fmpq) -> bool:

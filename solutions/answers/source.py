@@ -4,21 +4,25 @@ import re
 
 from rldrill.problems.latex import typed
 from rldrill.problems.spelling import Source, Unreadable
+from rldrill.solutions.answers.pasted import laid_out
 
-__all__ = ["Unreadable", "bare", "clean"]
+__all__ = ["LONGEST", "Unreadable", "bare", "clean"]
 
-_LONGEST = 2000
+#: No answer is longer, unless the right one is.
+LONGEST = 2000
 _ABOUT = re.compile(r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly)\b\.?)\s*", re.IGNORECASE)
 _QUOTES = "'\"`"
 
 
-def clean(text: str) -> Source:
+def clean(text: str, longest: int = LONGEST) -> Source:
     """A typed answer in the one spelling, without LaTeX, quotes around it all, and the sign for "about".
 
     Raises:
-        Unreadable: it is empty, too long, or holds characters that cannot be seen.
+        Unreadable: it is empty, longer than ``longest``, or holds characters that cannot be seen.
     """
-    source = bare(typed(text, _LONGEST))
+    if len(text) > longest:
+        raise Unreadable(f"It is longer than {longest} characters; shorten it.", longest)
+    source = bare(typed(laid_out(text), longest))
     if not source.text:
         raise Unreadable("Nothing was typed.")
     return source

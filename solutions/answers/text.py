@@ -29,9 +29,8 @@ from rldrill.solutions.answers.names import (
     unquoted,
 )
 from rldrill.solutions.answers.numbers import Reading, number, plain
-from rldrill.solutions.answers.pasted import laid_out
 from rldrill.solutions.answers.rule import equivalent, is_right
-from rldrill.solutions.answers.source import clean
+from rldrill.solutions.answers.source import LONGEST, clean
 from rldrill.solutions.exact import NotReal, sign
 from rldrill.solutions.exact import parameters as parameters_of
 
@@ -62,21 +61,26 @@ _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
+#: What is said before a number: R_0: 1/4, answer: 1/4, the answer is 1/4.
+_SAID_FIRST = re.compile(
+    r"(?:the\s+)?(?:answer|result|solution)\s+is\s+(?=\S)|[^\W\d][^:=\n]{0,30}:\s*(?=[^\s:=])", re.IGNORECASE
+)
 _ENTRIES = 200
 _FORMS = 30
 
 
-def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
+def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGEST) -> Reading:
     """Read one number, perhaps in several forms: ``V(s) = 1/4 = 0.25``.
 
     Args:
         text: what was typed.
         parameters: the names of the open parameters that it may contain, as in ``PARAMETERS``.
+        longest: the most characters that are read.
 
     Raises:
         Unreadable: it is not one number.
     """
-    reading = plain(text) or _number(clean(laid_out(text)), parameters, Arithmetic())
+    reading = plain(text) or _number(_unsaid(clean(text, longest)), parameters, Arithmetic())
     bars = _BARS.fullmatch(text.strip())
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
         raise Unreadable(
@@ -87,7 +91,11 @@ def read_number(text: str, parameters: Sequence[str] = ()) -> Reading:
 
 
 def read_vector(
-    text: str, length: int | None = None, parameters: Sequence[str] = (), names: Sequence[str] = ()
+    text: str,
+    length: int | None = None,
+    parameters: Sequence[str] = (),
+    names: Sequence[str] = (),
+    longest: int = LONGEST,
 ) -> tuple[Reading, ...]:
     """Read a vector: ``1, 2`` or ``[1 2]`` or ``(1; 2)``, or by name: ``mu: 1, Sigma: 2``.
 
@@ -96,11 +104,12 @@ def read_vector(
         length: how many numbers are needed, if that is known.
         parameters: the names of the open parameters that it may contain.
         names: what the entries are, in mathematics; entries that are typed with these names may stand in any order.
+        longest: the most characters that are read.
 
     Raises:
         Unreadable: an entry is not a number, or is given twice, or there are too few or too many.
     """
-    source = clean(laid_out(text))
+    source = clean(text, longest)
 
     def vector(member: Source) -> tuple[Reading, ...]:
         return _vector(member, length, parameters, names)
@@ -117,7 +126,8 @@ def _vector(source: Source, length: int | None, parameters: Sequence[str], names
         source = _right_side(source)  # R = 1, 2
         entries = _pieces(source, length)
     entries = _unlabelled(entries, names)  # R_0 = 1, R_1 = 2
-    readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None)
+    most = max(_ENTRIES, length or 0)
+    readings = _numbers(entries, parameters, "entry {}".format if len(entries) != 1 else None, most=most)
     if length is not None and len(readings) != length:
         raise source.unreadable(
             f"{_count(len(readings))} read, {length} {_are(length)} needed.{_comma(source, len(readings), length)}"
@@ -142,7 +152,7 @@ def _pieces(source: Source, length: int | None) -> list[Source]:
 
 
 def read_matrix(
-    text: str, shape: tuple[int, int] | None = None, parameters: Sequence[str] = ()
+    text: str, shape: tuple[int, int] | None = None, parameters: Sequence[str] = (), longest: int = LONGEST
 ) -> tuple[tuple[Reading, ...], ...]:
     """Read a matrix by its rows: ``[[1, 2], [3, 4]]`` or ``[1 2; 3 4]`` or one row on each line.
 
@@ -151,11 +161,12 @@ def read_matrix(
         shape: the rows and columns that are needed, if that is known; a single row or column may
             then be typed as a vector, and a single entry as a number.
         parameters: the names of the open parameters that it may contain.
+        longest: the most characters that are read.
 
     Raises:
         Unreadable: an entry is not a number, or the shape is another one.
     """
-    source = clean(laid_out(text))
+    source = clean(text, longest)
     return _forms(
         source, lambda member: _matrix(member, shape, parameters), lambda rows: [entry for row in rows for entry in row]
     )
@@ -169,11 +180,11 @@ def _matrix(
     plain = rows is None
     if rows is None:
         rows = plain_rows(body)
-    if len(rows) > _ENTRIES:
-        raise source.unreadable(f"More than {_ENTRIES} rows were typed; leave out those that were not asked for.")
+    if len(rows) > (most := max(_ENTRIES, *shape or (1,))):
+        raise source.unreadable(f"More than {most} rows were typed; leave out those that were not asked for.")
     arithmetic, alone = Arithmetic(), len(rows) == len(rows[0]) == 1
     matrix = [
-        _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic)
+        _numbers(row, parameters, None if alone else f"row {i}, entry {{}}".format, arithmetic, most)
         for i, row in enumerate(rows, 1)
     ]
     for i, row in enumerate(matrix, 1):
@@ -191,7 +202,11 @@ def _matrix(
 
 
 def read_table(
-    text: str, keys: Sequence[Key], parameters: Sequence[str] = (), ends: Sequence[str] = ()
+    text: str,
+    keys: Sequence[Key],
+    parameters: Sequence[str] = (),
+    ends: Sequence[str] = (),
+    longest: int = LONGEST,
 ) -> dict[Key, Reading]:
     """Read a number for each key: ``cool: 3.5, warm: 2.5``, or the numbers alone in the keys' order.
 
@@ -200,20 +215,21 @@ def read_table(
         keys: the states, or the pairs of state and action, that each need a number.
         parameters: the names of the open parameters that the numbers may contain.
         ends: the terminal states, whose 0 may be typed too.
+        longest: the most characters that are read.
 
     Raises:
         Unreadable: a key is unknown, repeated or missing, or its number cannot be read.
     """
     if len(keys) == 1 and (reading := plain(text)) is not None:
         return {keys[0]: reading}
-    source = clean(laid_out(text))
+    source = clean(text, longest)
     asked = Asked(keys, ends)
     found = by_name(source, asked)
     if found is None:
         body = untransposed(_unnamed(source))
         rows = _number_rows(body, spaced=len(keys) > 1)
         flat = [entry for row in rows for entry in row]
-        found = in_order(rows, source, asked) if len(flat) <= _ENTRIES else None
+        found = in_order(rows, source, asked) if len(flat) <= asked.most else None
         if found is None:
             readings = _numbers(flat, parameters, "entry {}".format if len(flat) != 1 else None)
             needed = f"{len(keys)} {_are(len(keys))} needed: {listed(map(shown, keys))}."
@@ -236,7 +252,11 @@ def _number_rows(source: Source, *, spaced: bool) -> list[list[Source]]:
 
 
 def read_words(
-    text: str, keys: Sequence[str], options: Mapping[str, Sequence[str]], ends: Sequence[str] = ()
+    text: str,
+    keys: Sequence[str],
+    options: Mapping[str, Sequence[str]],
+    ends: Sequence[str] = (),
+    longest: int = LONGEST,
 ) -> dict[str, tuple[str, ...]]:
     """Read a policy: ``cool: fast, warm: slow``, or the actions alone in the keys' order.
 
@@ -245,6 +265,7 @@ def read_words(
         keys: the states.
         options: the actions that are allowed in each.
         ends: the terminal states, for which a sign for no action may be typed.
+        longest: the most characters that are read.
 
     Returns:
         The action of each state, or several that are said to be equally good: ``cool: E or S``.
@@ -252,7 +273,7 @@ def read_words(
     Raises:
         Unreadable: a state is unknown, repeated or missing, or its action is not allowed.
     """
-    source = clean(laid_out(text))
+    source = clean(text, longest)
     asked = Asked(keys, ends, lambda word, key: _is_option(word, options[key]))
     found = by_name(source, asked)
     if found is None:
@@ -311,7 +332,7 @@ def read_choice(text: str, options: Mapping[str, str]) -> str:
     Raises:
         Unreadable: no option fits, or several do.
     """
-    source = clean(laid_out(text))
+    source = clean(text)
     typed = _flattened(unquoted(source.text))
     spellings = [(_flattened(told), letter) for letter, told in options.items()]
     typed = _SAID.sub("", typed)
@@ -363,11 +384,17 @@ def read_yes_no(text: str) -> bool:
     Raises:
         Unreadable: it is neither.
     """
-    source = clean(laid_out(text))
+    source = clean(text)
     word = unquoted(source.text).casefold().rstrip(".!")
     if word in _YES or word in _NO:
         return word in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
+
+
+def _unsaid(source: Source) -> Source:
+    """A number without the words before it."""
+    said = _SAID_FIRST.match(source.text)
+    return source.part(said.end(), len(source.text)) if said else source
 
 
 def _right_side(source: Source) -> Source:
@@ -473,10 +500,11 @@ def _numbers(
     parameters: Sequence[str],
     place: Callable[..., str] | None,
     arithmetic: Arithmetic | None = None,
+    most: int = _ENTRIES,
 ) -> tuple[Reading, ...]:
     """Read some entries with one effort; ``place`` names an entry by its number, counted from 1."""
-    if len(entries) > _ENTRIES:
-        raise Unreadable(f"More than {_ENTRIES} numbers were typed; leave out those that were not asked for.")
+    if len(entries) > most:
+        raise Unreadable(f"More than {most} numbers were typed; leave out those that were not asked for.")
     arithmetic = arithmetic or Arithmetic()
     readings = []
     for i, entry in enumerate(entries, 1):

@@ -1,10 +1,10 @@
 """The diagram's equation, applied from the leaves up to the root."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.backup_diagrams.backup_diagram_value import Given
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.formula.formula import Formula, slip

@@ -1,10 +1,10 @@
 """Prediction and Bayes' rule in turn: the action first, then the measurement after it."""
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from typing import Any, TypeAlias
 
 from rldrill.problems.bayes.bayes_filter import Event, Given
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
 from rldrill.solutions.exact import exact

@@ -1,11 +1,11 @@
 """The five lines of the Kalman filter, step by step, in matrices; on a line they are 1×1."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.matrices import AnyMatrix, identity, matrix
 from rldrill.solutions.matrices import given as given_matrix

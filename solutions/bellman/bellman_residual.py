@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.bellman.bellman_residual import Given
 from rldrill.problems.document import joined
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip

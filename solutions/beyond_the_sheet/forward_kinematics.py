@@ -1,9 +1,9 @@
 """The angle of every link, then the links added as vectors."""
 
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.beyond_the_sheet.forward_kinematics import Given
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import arms
 from rldrill.solutions.dynamics import angle, radians
 from rldrill.solutions.exact import exact

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
 from typing import Any
@@ -11,10 +11,12 @@ from unicodedata import normalize
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
 from rldrill.solutions.answers.rule import is_right
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
+from rldrill.solutions.diagnosis.alternatives import at_one
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import approximate, near
+from rldrill.solutions.diagnosis.written_line import Numbers, by_the_numbers, numbers_typed, put_in_otherwise
 from rldrill.solutions.exact import NotReal, is_rational
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.edits import probes
@@ -118,11 +120,12 @@ class _Follower:
         last = sides[-1]
         numbers = list(named) or [number for number in self._order() if number > self.reached] or list(self._order())
         first_time = not self.values
+        line = next(filter(None, map(numbers_typed, _SIDES.split(text))), None)
         where = numbers[0] if numbers else None
         causes: tuple[Cause, ...] = ()
         if first_time:
             for number in numbers:
-                found = self._causes(number, last)
+                found = self._causes(number, last, line)
                 if found:
                     where, causes = number, found
                     break
@@ -140,16 +143,19 @@ class _Follower:
         application = None if where is None else self.search.applications[where]
         return Line(text, Standing.MISCALCULATED, application, (), sides)
 
-    def _causes(self, number: int, typed: Reading) -> tuple[Cause, ...]:
+    def _causes(self, number: int, typed: Reading, line: Numbers | None) -> tuple[Cause, ...]:
+        """What one step's value may come from, if it is what was typed, with the numbers that stand in the line."""
         application = self.search.applications[number]
         about = approximate(typed.value)
-        found = [
-            cause
-            for cause in self.search.alternatives(application)
-            if near(approximate(cause.became), about) and _same(typed, cause.became)
-        ]
+        every = self.search.alternatives(application)
+        if line is not None:
+            every = [*every, *_of_an_equation(application), *put_in_otherwise(application, line)]
+        found = [cause for cause in every if near(approximate(cause.became), about) and _same(typed, cause.became)]
+        if line is not None:
+            found = by_the_numbers(application, found, line)
         if not found:
             return ()
+        found.sort(key=lambda cause: -cause.weight)
         best = found[0].weight
         return tuple(cause for cause in found if cause.weight >= best / 2)[:2]
 
@@ -175,6 +181,13 @@ class _Follower:
         if not wanted:
             return []
         return [each for each in self._order() if wanted in _names(self.search.applications[each])]
+
+
+def _of_an_equation(application: Application) -> Iterator[Cause]:
+    """What can be done where the right side of an equation is worked out, with the values that solve the system."""
+    if application.equation:
+        for cause in at_one(replace(application, equation=False)):
+            yield replace(cause, application=application)
 
 
 def _number(value: Any) -> bool:

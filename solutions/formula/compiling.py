@@ -138,6 +138,10 @@ _NAMES = {
 }
 
 
+#: Takes what a formula is given and does not need; no letter is called that.
+_OTHERS = "_"
+
+
 @cache
 def needs(expression: Expr) -> tuple[str, ...]:
     """The names that values must be given for, sorted."""
@@ -147,14 +151,15 @@ def needs(expression: Expr) -> tuple[str, ...]:
 
 @cache
 def compiled(expression: Expr) -> Callable[..., Any]:
-    """The expression as a Python function of the names that it needs, in their order.
+    """The expression as a Python function of the names that it needs; it takes any others, too.
 
     What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
     get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
     they are printed, and are bound as arguments. Typed answers and the names of states never do.
     """
     compiler = Compiler()
-    source = f"lambda {', '.join(map(_checked, needs(expression)))}: {compiler.doprint(expression)}"
+    parameters = ", ".join((*map(_checked, needs(expression)), f"**{_OTHERS}"))
+    source = f"lambda {parameters}: {compiler.doprint(expression)}"
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
 
 
@@ -166,6 +171,15 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
         NoSolution: it has no value.
     """
     try:
-        return compiled(expression)(*(known[name] for name in needs(expression)))
+        return compiled(expression)(**known)
     except LookupError as error:
-        raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None
+        raise _not_given(error.args[0]) from None
+    except TypeError:
+        for name in needs(expression):
+            if name not in known:
+                raise _not_given(name) from None
+        raise
+
+
+def _not_given(name: object) -> NotGiven:
+    return NotGiven(f"no value is given for {name!r}, which the formula needs")

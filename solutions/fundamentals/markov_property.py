@@ -1,9 +1,9 @@
 """Conditional probabilities from the table, compared history by history."""
 
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.document import joined
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.markov_property import Given, Seen, where
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_rational, sign

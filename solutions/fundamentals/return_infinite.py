@@ -1,10 +1,10 @@
 """A geometric series for the rewards that repeat, then the first rewards before it."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.exact import Scalar
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.return_infinite import Given
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.numerics import np
@@ -37,6 +37,8 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
+    n = len(given.repeated)
+    work.say(f"The rewards repeat after ${n}$ {'step' if n == 1 else 'steps'}, $n = {n}$: a geometric series.")
     return work.step(GEOMETRIC_SERIES, t=len(given.first), n=len(given.repeated), **_known(given, read))
 
 

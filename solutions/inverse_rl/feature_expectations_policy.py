@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.exact import Parameter, shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.inverse_rl.feature_expectations_policy import Given
 from rldrill.problems.recurrence import end_components
 from rldrill.solutions import knowns

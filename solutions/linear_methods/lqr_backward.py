@@ -1,9 +1,9 @@
 """The Riccati recursion backwards from the horizon: at every time first the gain, then the value matrix."""
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_backward import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import NoSolution, exact

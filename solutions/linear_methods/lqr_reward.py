@@ -1,8 +1,8 @@
 """A rollout, one time after the other: action, reward, next state."""
 
 from dataclasses import replace
-from fractions import Fraction
 
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices

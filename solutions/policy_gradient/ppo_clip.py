@@ -1,10 +1,10 @@
 """Ratio, the two terms and their minimum for every sample; then the mean."""
 
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.exact import Weight, shown
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip

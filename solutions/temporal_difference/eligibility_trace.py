@@ -1,9 +1,9 @@
 """Eligibility traces along a run: every trace at every time."""
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 
 from rldrill.problems.exact import Scalar
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.temporal_difference.eligibility_trace import Given
 from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.numerics import np

@@ -1,10 +1,10 @@
 """The n-step returns asked for, each from its formula."""
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.exact import Scalar
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.runs import per_step
 from rldrill.problems.temporal_difference.n_step_return import Given
 from rldrill.solutions import knowns

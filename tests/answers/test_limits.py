@@ -1,6 +1,7 @@
 """What is read of a size, and what is one larger and refused: both sides of every limit that a person may meet."""
 
 import pytest
+from flint import fmpq
 
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
@@ -8,7 +9,7 @@ from rldrill.solutions.answers.text import Unreadable, read_number, read_table, 
 
 #: The largest that is read, the smallest that is not, and what is said of it.
 LIMITS = {
-    "digits": ("1" * 40, "1" * 41, "40 digits are the most"),
+    "digits": ("1" * 2000, "1" * 2001, "2000 digits are the most"),
     "digits behind the point": ("0." + "1" * 39, "0." + "1" * 40, "40 digits are the most"),
     "digits of a fraction": ("1 1/" + "3" * 40, "1 1/" + "3" * 41, "40 digits are the most"),
     "power of ten": ("1e40", "1e41", "40 digits are the most"),
@@ -47,9 +48,10 @@ LIMITS = {
 @pytest.mark.parametrize("limit", LIMITS)
 def test_the_largest_is_read_and_the_next_refused(limit: str) -> None:
     largest, larger, complaint = LIMITS[limit]
-    read_number(largest, ["gamma"])
+    longest = 2000 if limit == "characters" else 5000
+    read_number(largest, ["gamma"], longest)
     with pytest.raises(Unreadable) as refused:
-        read_number(larger, ["gamma"])
+        read_number(larger, ["gamma"], longest)
     assert complaint in refused.value.message
 
 
@@ -60,13 +62,26 @@ def test_sixty_signs_are_shown_back_and_no_more() -> None:
 
 
 def test_so_many_entries_and_keys_are_read() -> None:
-    assert len(read_vector(", ".join("1" * 200), 200)) == 200
-    with pytest.raises(Unreadable, match="200"):
-        read_vector(", ".join("1" * 201), 201)
+    assert len(read_vector(", ".join("1" * 200))) == 200
+    with pytest.raises(Unreadable, match="More than 200 numbers"):
+        read_vector(", ".join("1" * 201))
+    assert len(read_vector(", ".join("1" * 300), 300)) == 300  # so many as are asked for
+    with pytest.raises(Unreadable, match="More than 300 numbers"):
+        read_vector(", ".join("1" * 301), 300)
     states = [f"s{index}" for index in range(200)]
     assert len(read_table(", ".join(f"{state}: 1" for state in states), states)) == 200
-    with pytest.raises(Unreadable, match="More than 200 keys"):
-        read_table(", ".join(f"{state}: 1" for state in [*states, "t"]), [*states, "t"])
+    with pytest.raises(Unreadable, match="More than 201 keys"):
+        read_table(", ".join(f"{state}: 1" for state in [*states, "t", "u"]), states)
+    many = [f"s{index}" for index in range(300)]
+    assert len(read_table(", ".join(f"{state}: 1" for state in many), many, (), (), 5000)) == 300
+
+
+def test_a_quotient_of_long_whole_numbers_is_read() -> None:
+    above, below = "7" * 60, "3" * 60
+    assert read_number(f"{above}/{below}").value == fmpq(7, 3)
+    assert read_number(f"-{above} = -{above}/1").value == -int(above)
+    with pytest.raises(Unreadable, match="divides by zero"):
+        read_number(f"{above}/{'0' * 41}")
 
 
 @pytest.mark.parametrize(

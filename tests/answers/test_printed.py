@@ -1,12 +1,14 @@
 """Whatever rldrill prints as an answer, in whatever form, is right when it is typed back."""
 
 import json
+import random
+import re
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-from rldrill.exercise import Exercise
+from rldrill.exercise import Exercise, read
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown
@@ -18,6 +20,10 @@ from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
 
+#: Enough that the answers fill several thousand characters, with numbers of some fifty digits.
+STATES = 30
+#: A number that is longer than a line of the terminal.
+TORN = re.compile(r"[0-9/]\n *[0-9/]")
 SEEDS = (100, 101, 102)
 
 
@@ -57,3 +63,21 @@ def test_what_is_printed_can_be_typed(name: str) -> None:
                 for text in printed(exercise, part):
                     verdict = judge(exercise.solution, part.label, text)
                     assert verdict.outcome is Outcome.RIGHT, (level, seed, part.label, text, verdict)
+
+
+def test_what_is_printed_of_a_large_model_can_be_typed() -> None:
+    chance = random.Random(5)
+    names = [f"s{number}" for number in range(STATES)]
+    rows = []
+    for state in names:
+        for action in ("left", "right"):
+            weights = [chance.randint(1, 7) for _ in range(3)]
+            for after, weight in zip(chance.sample(names, 3), weights, strict=True):
+                rows.append([state, action, after, f"{weight}/{sum(weights)}", chance.randint(-5, 9)])
+    exercise = read({"family": "optimal-value", "given": {"mdp": {"transitions": rows}, "gamma": "9/10"}})
+    for part in exercise.parts:
+        texts = [text for text in printed(exercise, part) if not TORN.search(text)]
+        assert max(map(len, texts)) > 2000 or part.label == "b"
+        for text in texts:
+            assert exercise.check(text, part.label).outcome is Outcome.RIGHT, (part.label, text[:200])
+        assert "longer than" in exercise.check("1" * 5 * max(map(len, texts)), part.label).says

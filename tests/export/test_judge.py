@@ -13,6 +13,7 @@ import rldrill
 from number_spellings import spellings
 from rldrill.export.html import task
 from rldrill.export.page import beside
+from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Unreadable, read_number
 
@@ -46,8 +47,7 @@ def judged(task: dict[str, Any], typed: list[str]) -> dict[str, Any]:
 def typed_cells(exercise: rldrill.Exercise, label: str, text: str) -> list[str]:
     """What is typed into each box of the page, from an answer that is typed as one text."""
     part = next(part for part in exercise.parts if part.label == label)
-    problem = exercise.problem
-    read = answer_kind(part.kind).read(text, problem.parameters, problem.given.terminal_states())
+    read = read_answer(exercise.solution, part, text)
     return [
         cell if isinstance(cell, str) else cell[0] if isinstance(cell, tuple) else cell.echo for cell in read.values()
     ]

@@ -1,4 +1,4 @@
-"""Pin problems with their answers, their pages, the limits of their fields, and the minutes of the levels.
+"""Pin problems with their answers, their pages, the limits of their fields, the minutes of the levels, and screens.
 
 Of the families named, or of all:
 
@@ -24,8 +24,10 @@ from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.effort import minutes, whole
 from rldrill.solutions.solution import solver
+from screens import WIDTHS, transcript
 
 PAGES = Path(__file__).with_name("pages")
+SCREENS = Path(__file__).with_name("screens")
 PROBLEMS = Path(__file__).with_name("problems.json")
 FIELDS = Path(__file__).with_name("fields.json")
 PINNED = range(2)
@@ -64,5 +66,7 @@ times = {
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
+for kind in WIDTHS:
+    (SCREENS / f"{kind}.txt").write_text(transcript(kind), encoding="utf-8")
 for known in chosen:
     (PAGES / f"{known.name}.txt").write_text(page(known), encoding="utf-8")

@@ -17,8 +17,8 @@ from rldrill.render.typst import document
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 
-#: As many problems of a level are held to what they were; one of them is shown.
-DRAWN = 20
+#: As many problems of a level are held to what they were, and as many to how they look; one of them is shown.
+DRAWN, SEEN = 20, 4
 
 
 def page(family: Family) -> str:
@@ -28,13 +28,16 @@ def page(family: Family) -> str:
 
 def _level(family: Family, level: int) -> str:
     exercise = draw(family.name, level, 0)
-    drawn = [draw(family.name, level, seed).problem.data() for seed in range(DRAWN)]
+    exercises = [draw(family.name, level, seed) for seed in range(DRAWN)]
+    drawn = [each.problem.data() for each in exercises]
+    seen = [document(each.question()) for each in exercises[:SEEN]]
     everything = [*exercise.question(), *(Paragraph(part.ask) for part in exercise.parts), *exercise.working()]
     return "\n".join(
         [
             f"{'=' * 20} {exercise.id}",
             _shown(exercise),
             f"drawn {_digest(json.dumps(drawn, sort_keys=True))}",
+            f"seen {_digest(''.join(seen))}",
             f"narrow {_digest(_terminal(everything, 48))}",
             f"typst {_digest(document(tuple(everything)))}",
             f"markdown {_digest(markdown(tuple(everything)))}",

@@ -71,6 +71,14 @@ def test_with_gamma_0_only_the_first_states_count(seed: int) -> None:
         assert value == exactly(total / len(firsts))
 
 
+@given(seeds)
+@quick
+def test_with_a_weight_left_open_every_other_weight_still_counts(seed: int) -> None:
+    given_ = draw("max-margin", 3, seed).problem.given
+    for index, value in enumerate(given_.expert):
+        assert any(rival.mu[index] != value for rival in given_.policies.values())
+
+
 @given(seeds, st.sampled_from([1, 2]))
 @quick
 def test_all_constraints_hold_with_the_slack_and_one_is_tight(seed: int, level: int) -> None:
