@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from rldrill.exam.manifest import printed
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables, text
@@ -187,3 +188,31 @@ def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
     found = verdicts(written(tmp_path, "a.csv", f"{HEAD}{long}Zoe,td-zero/1/7,a,5.25\n"))
     assert found.pop("Zoe") == "right"
     assert set(found.values()) == {"unreadable"}
+
+
+PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61)
+
+
+@pytest.mark.parametrize("problem", ["return/1/7", "td-zero/1/7"])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "a" * 300_000,
+        "a=\n" * 100_000,
+        "²" * 1999,
+        "(" * 990 + "1" + ")" * 990,
+        "(((9^64)^64)^64)^64",
+        "sqrt(" * 330 + "2" + ")" * 330,
+        "/".join(["3"] * 900),
+        "+".join(f"1/{number}" for number in range(1001, 1250)),
+        "1/(" + "+".join(f"sqrt({prime})" for prime in PRIMES) + ")",
+        "(" + "+".join(f"exp({number}/7)" for number in range(1, 60)) + ")^64",
+        "\\frac{1}{" * 180 + "2" + "}" * 180,
+    ],
+)
+def test_no_answer_takes_long(problem: str, answer: str) -> None:
+    exercise = rldrill.load(problem)
+    exercise.check("1")  # what is worked out once for a problem is no answer's doing
+    begun = time.process_time()
+    assert not exercise.check(answer).accepted
+    assert time.process_time() - begun < 0.4  # 0.05 s on a machine that does nothing else

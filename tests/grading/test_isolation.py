@@ -13,7 +13,7 @@ from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.blueprint import Entry as Asked
 from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
-from rldrill.grading import marking
+from rldrill.grading import isolation, marking, verification
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.marking import Desk
 from rldrill.grading.report import Score
@@ -161,3 +161,11 @@ def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert time.perf_counter() - begun < 4
     assert len(report.students) == 2
     assert "the run took more than 1 seconds; grade the rest in another one" in report.refused[0].says
+
+
+def test_the_bounds_are_those_that_are_told() -> None:
+    told = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
+    assert f"| solving one problem | {isolation.LOADING:g} s;" in told
+    assert f"| grading one student | `--seconds`, {verification.STUDENT:g};" in told
+    assert (verification.RUN, "| the whole run | one hour;" in told) == (3600, True)
+    assert f"| memory of marking | {isolation.MEMORY // 2**30} GB," in told
