@@ -75,6 +75,7 @@ class _Follower:
         self.expected = {
             each.number: entries for each in search.applications if (entries := numbers(each.value)) is not None
         }
+        self.shapes = dict.fromkeys(_shape(each.value) for each in search.applications if _is_array(each.value))
         self.between = {each.number: list(_inner(each)) for each in search.applications}
 
     def lines(self, texts: Sequence[str]) -> Iterator[Line]:
@@ -107,11 +108,12 @@ class _Follower:
 
     def _entries(self, piece: str) -> Entries | None:
         parameters = self.search.problem.parameters
+        if "[" in piece or "(" in piece:
+            for shape in self.shapes:
+                with suppress(Unreadable):
+                    return tuple(entry for line in read_matrix(piece, shape, parameters) for entry in line)
         with suppress(Unreadable):
             return (read_number(piece, parameters),)
-        with suppress(Unreadable):
-            if "[" in piece or "(" in piece:
-                return tuple(entry for line in read_matrix(piece, None, parameters) for entry in line)
         return None
 
     def _placed(self, text: str, label: str, last: Entries) -> Line:
@@ -193,6 +195,14 @@ class _Follower:
         if not wanted:
             return []
         return [each for each in self._order(long) if wanted in _names(self.search.applications[each])]
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, Vector) or is_matrix(value)
+
+
+def _shape(value: Any) -> tuple[int, int]:
+    return (1, len(list(value))) if isinstance(value, Vector) else (value.nrows(), value.ncols())
 
 
 def _number(value: Any) -> bool:
