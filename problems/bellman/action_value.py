@@ -52,9 +52,8 @@ def draw(level: int, rng: Draws) -> Given:
         rows = _equal(rng, setting, state, values, gamma)
         rows, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
         return Given(dynamics=Dynamics(transitions=tuple(rows)), values=_named(values, rows), gamma=left, find=True)
-    if level == 2 and rng.chance(Fraction(1, 2)):
+    if level == 2 and rng.chance(Fraction(1, 2)) and (worths := averaging(rng, rng.split(2, (4, 5)), values[state])):
         shape = Shape(states=4, actions=2, branches=2)
-        worths = averaging(rng, rng.split(2, (4, 5)), values[state]) or []
         rows = [
             row
             for action, number in zip(setting.actions, worths, strict=False)

@@ -2,7 +2,7 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from html import escape
 from math import gcd, lcm
@@ -40,12 +40,13 @@ class _Writer(LatexHtml):
         return f'<p><img src="@@PLUGINFILE@@/{name}" alt="{escape(described(picture))}"></p>'
 
 
-def moodle_exam(exam: Exam, *, practice: bool) -> bytes:
+def moodle_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> bytes:
     """All versions in one file, each in a category of its own.
 
     Args:
         exam: the exam.
         practice: whether the working is told after an attempt.
+        advance: called after each version.
     """
     quiz = ElementTree.Element("quiz")
     for version in exam.versions:
@@ -54,6 +55,7 @@ def moodle_exam(exam: Exam, *, practice: bool) -> bytes:
         _text(ElementTree.SubElement(category, "category"), f"$course$/top/{name}")
         for number, exercise in enumerate(version.exercises, 1):
             quiz.append(_question(number, exercise, practice=practice))
+        advance()
     ElementTree.indent(quiz)
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(quiz, encoding="utf-8") + b"\n"
 

@@ -1,4 +1,4 @@
-"""Pin problems with their answers, their pages, the limits of their fields, and the minutes of the levels.
+"""Pin problems with their answers, pages, and limits of fields; the minutes and the variety of the levels.
 
 Of the families named, or of all:
 
@@ -19,7 +19,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 from limits import limits
 from printing import page
 from rldrill.audit.checking import agrees
+from rldrill.exam.expected import COUNTED, VARIETY
 from rldrill.exam.expected import FILE as MINUTES
+from rldrill.exam.pool import variety
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.effort import minutes, whole
@@ -61,8 +63,12 @@ times = {
     ]
     for known in chosen
 }
+varieties = {known.name: [variety(known.name, level, COUNTED) for level in known.levels] for known in chosen}
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
+rewrite(
+    VARIETY, wanted, {known.name: [variety(known.name, each, COUNTED) for each in known.levels] for known in chosen}
+)
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for known in chosen:
     (PAGES / f"{known.name}.txt").write_text(page(known), encoding="utf-8")
