@@ -26,8 +26,7 @@ from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, on
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
-    POLICY_IMPROVEMENT,
-    POLICY_ITERATION,
+    of_round,
 )
 from rldrill.solutions.work import Work
 
@@ -41,13 +40,12 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     for number in range(given.rounds):
         before = policy
         work.say(f"Evaluation of $π_{{{number}}}$:")
-        values = evaluation(work, POLICY_ITERATION, mdp, known | {"pi": policy, "V": values})
+        evaluate, improve = of_round(number)
+        values = evaluation(work, evaluate, mdp, known | {"pi": policy, "V": values})
         values |= work.answer(of_states(mdp, values))
         work.say(f"Improvement to $π_{{{number + 1}}}$:")
         improved_to = numbered(pi, number + 1)
-        best = {
-            state: work.step(POLICY_IMPROVEMENT, s=state, V=values, into=improved_to, **known) for state in mdp.states
-        }
+        best = {state: work.step(improve, s=state, V=values, into=improved_to, **known) for state in mdp.states}
         for state, actions in best.items():
             if policy[state] in actions and len(actions) > 1:
                 work.say(f"In {state} there is a tie: the old action, {policy[state]}, is kept.")

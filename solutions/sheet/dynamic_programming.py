@@ -1,5 +1,8 @@
 """Section 3 of the sheet: dynamic programming."""
 
+from dataclasses import replace
+from functools import cache
+
 from sympy import Abs, evaluate
 
 from rldrill.problems.mathematics import Fence, Math, Script, operator, row, variable
@@ -23,6 +26,7 @@ from rldrill.solutions.formula.notation import (
     called,
     gamma,
     letter,
+    numbered,
     pi,
     quantity,
     s,
@@ -268,3 +272,21 @@ with evaluate(False):
             CHANGE_FOR_ERROR: Change(0),
         },
     )
+
+
+@cache
+def of_round(number: int) -> tuple[Formula, Formula]:
+    """Evaluation and improvement of policy iteration in the symbols of a round: V^{π₀} and π₀."""
+    policy = numbered(pi, number)
+    values = quantity("V", called(Script(variable("V"), above=Script(variable("π"), variable(str(number))))))
+    with evaluate(False):
+        ahead = R(s, policy(s), s1) + gamma * values(s1)
+        lookahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * values(s1)), s1, Successors(s, a))
+        return (
+            replace(
+                POLICY_ITERATION,
+                left=values(s),
+                right=SumOver(P(s, policy(s), s1) * ahead, s1, Successors(s, policy(s))),
+            ),
+            replace(POLICY_IMPROVEMENT, right=ArgMaxOver(lookahead, a, Actions(s)), also=()),
+        )

@@ -33,7 +33,7 @@ from rldrill.solutions.formula.notation import (
 )
 
 _PI = variable("π")
-_EXPERT = Script(_PI, variable("E"))
+_EXPERT, _PI_1 = (Script(_PI, variable(mark)) for mark in "E1")
 _MU = variable("μ")
 _BAR = Accent(_MU, "bar")
 
@@ -61,6 +61,8 @@ mu_of = quantity("mu_of", lambda index, state: row(_component(_MU, index), Fence
 mu_expert = quantity("mu_expert", lambda index: row(_component(_MU, index), Fence(_EXPERT)))
 mu_bar = quantity("mu_bar", lambda index: _component(_BAR, index))
 mu_now = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI)))
+#: Those of the first new policy.
+mu_first = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI_1)))
 w = quantity("w", lambda index: _component(variable("w"), index))
 start = quantity("start_chance", conditioned("p"))
 policy = letter("policy", "π")
@@ -72,7 +74,7 @@ worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T"))
 margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
 xi = letter("xi", "ξ")
 step_length = letter("step_length", "c")
-distance = letter("distance", Fence(row(_MU, Fence(_PI), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
+distance = letter("distance", Fence(row(_MU, Fence(_PI_1), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
 remaining = letter("remaining", Fence(variable("w"), "‖", "‖"))
 
 
@@ -190,7 +192,7 @@ with evaluate(False):
     DISTANCE = Formula(
         "feature-distance",
         distance,
-        sqrt(SumOver((mu_now(i) - mu_expert(i)) ** 2, i, Features)),
+        sqrt(SumOver((mu_first(i) - mu_expert(i)) ** 2, i, Features)),
         title="Distance of the feature expectations",
         source="Abbeel & Ng 2004, section 3",
         hint="Square the differences of the components, add, and take the root.",

@@ -15,6 +15,8 @@ FROM_FILES: list[tuple[str, dict[str, Any]]] = [
                          "sweeps": 1, "action_values": True}),
     ("value-iteration", {"mdp": {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "end", 1, 2],
                                                  ["b", "x", "end", 1, 4]]}, "gamma": "gamma", "sweeps": 1, "tie": "a"}),
+    ("optimal-policy-from-v", {"mdp": {"transitions": [["a", "x", "a", 1, 0], ["a", "y", "end", 1, 2]]},
+                               "values": {"a": 2}, "gamma": "1/2"}),
     ("td-lambda-backward", {"trajectory": {"states": ["a", "b"], "rewards": [1]}, "values": {"a": 1, "b": 2},
                             "alpha": 1, "gamma": 1, "lam": 1, "replacing": True}),
     ("eligibility-trace", {"states": ["a"], "gamma": 1, "lam": 1, "asked": [0], "replacing": True}),
