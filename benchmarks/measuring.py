@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from statistics import median
 from typing import Any
 
 _HELLO = "import typer\napp = typer.Typer()\n@app.command()\ndef main(): print('hello')\napp()"
@@ -25,7 +26,7 @@ def _rate(work: Callable[[int], object], seconds: float, least: int) -> float:
 
 
 def drawing() -> dict[str, float]:
-    """Problems a second, for every family."""
+    """Problems a second, for the median family and for every one."""
     from rldrill.problems.catalogue import families, family
     from rldrill.solutions.drawing import draw
 
@@ -33,7 +34,7 @@ def drawing() -> dict[str, float]:
     for name in families():
         level = min(family(name).levels, key=lambda level: abs(level - 2))
         found[name] = _rate(lambda seed, name=name, level=level: draw(name, level, seed).mistakes, 0.15, 10)
-    return found
+    return {"the median family": median(found.values())} | found
 
 
 def latex() -> dict[str, float]:
