@@ -85,7 +85,7 @@ TABLES: dict[str, tuple[str, Callable[[Measured], Iterable[str]]]] = {
     "judging": ("Answers judged for a problem in hand: a second", list),
     "formulas": ("Values of formulas: a second; times of what is compiled ÷ written by hand", list),
     "models": ("Optimal values of random models (4 actions, 3 outcomes each): seconds", list),
-    "million": ("A million problems with working, by what 600 cost: hours", list),
+    "million": ("A million problems of level 2 with working, by what 600 cost more than 200", list),
 }  # fmt: skip
 
 
