@@ -57,7 +57,7 @@ def situation(given: PlanarArm, base: str = "its base is at the origin", axis: s
     Args:
         given: the arm.
         base: where its base is, in words.
-        axis: against which axis the first link's angle counts.
+        axis: from which axis the first link's angle counts.
     """
     rows = tuple(
         (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
@@ -66,8 +66,8 @@ def situation(given: PlanarArm, base: str = "its base is at the origin", axis: s
     return (
         Paragraph(
             f"An arm with {len(rows)} link{'s' * (len(rows) > 1)} moves in the plane; {base}. Link $i$ has the length "
-            f"$l_i$. $θ_1$ is the angle of the first link against the ${axis}$ axis; every other $θ_i$ is the angle of "
-            "link $i$ against the link before it. Angles are in radians, counter-clockwise."
+            f"$l_i$. $θ_1$ is the angle of the first link relative to the ${axis}$ axis; every other $θ_i$ is that of "
+            "link $i$ relative to the link before it. Angles are in radians, counter-clockwise."
         ),
         Beside(
             (

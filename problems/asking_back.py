@@ -12,7 +12,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, Trajectory, after, draw_action_run
-from rldrill.problems.settings import Setting
+from rldrill.problems.settings import Setting, draw_moves
 
 Rows = dict[str, dict[str, Fraction]]
 
@@ -153,12 +153,12 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
         sought: the parameter.
         steps: how many transitions update the pair; after two of them α is no longer in a linear equation.
     """
-    state, *others = rng.shuffled(setting.states)[: steps + 1]
     actions = setting.actions[:count]
+    named, (action,) = draw_moves(rng, setting, (("a", "bc"[:steps]),), actions)
+    state, *others = (named[letter] for letter in "abc"[: steps + 1])
     alpha = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "3/5")
     gamma = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "4/5")
     rows = draw_rows(rng, [name for name in setting.states if name in (state, *others)], actions, gamma.denominator)
-    action = rng.choice(actions)
     following = [rng.choice([name for name in actions if rows[other][name] < max(rows[other].values())])
                  for other in others]  # fmt: skip
     ahead = [worth(rows[other], after) for other, after in zip(others, following, strict=True)]

@@ -25,7 +25,7 @@ TITLES: dict[Backup, str] = {
     "bellman-optimality-v": "the Bellman optimality equation for $V^*$",
     "bellman-optimality-q": "the Bellman optimality equation for $Q^*$",
     "td-zero": "TD(0)",
-    "n-step-td": "$n$-step TD for state values, with $n > 1$",
+    "n-step-td": "n-step TD for state values, with $n > 1$",
     "monte-carlo": "the Monte Carlo method for state values",
     "sarsa": "Sarsa",
     "expected-sarsa": "Expected Sarsa",

@@ -1,14 +1,22 @@
 """Features of states and actions and the weights that go with them, as problems give them."""
 
 from collections.abc import Mapping, Sequence
+from typing import Annotated
+
+from pydantic import Field
 
 from rldrill.problems.document import Table
-from rldrill.problems.exact import Exact, Weight, shown
+from rldrill.problems.exact import Exact, Weight, WeightField, shown
 from rldrill.problems.models import Name
 
 FeatureVector = tuple[Exact, ...]
-#: The features of every action in some states.
-ActionFeatures = dict[Name, dict[Name, FeatureVector]]
+#: Of so many actions a softmax is written out; every probability of it has a sum over all of them.
+MOST_ACTIONS = 100
+#: A preference for every action of a state.
+ActionPreferences = Annotated[dict[Name, WeightField], Field(max_length=MOST_ACTIONS)]
+#: The features of every action in one state, and in some states.
+OneStateFeatures = Annotated[dict[Name, FeatureVector], Field(max_length=MOST_ACTIONS)]
+ActionFeatures = dict[Name, OneStateFeatures]
 
 
 def check_features(features: Mapping[str, Sequence[object]], size: int) -> None:
@@ -59,8 +67,8 @@ def action_features_table(features: ActionFeatures) -> Table:
 
 
 def weights(theta: Sequence[Weight]) -> str:
-    """All weights by their numbers, as mathematics."""
-    return ", ".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(theta, 1))
+    """All weights by their numbers, as mathematics: each a formula of its own, between which a line may break."""
+    return "$, $".join(f"θ_{{{index}}} = {shown(weight)}" for index, weight in enumerate(theta, 1))
 
 
 def weight_names(theta: Sequence[object]) -> tuple[str, ...]:

@@ -186,7 +186,8 @@ class _Reader:
         if "properties" in schema:
             return "a table"
         held = schema.get("additionalProperties")
-        return f"a table, for every name {self.words(held)}" if isinstance(held, dict) else "a table"
+        size = _range(schema, "minProperties", "maxProperties", " entries")
+        return f"a table{size}, for every name {self.words(held)}" if isinstance(held, dict) else f"a table{size}"
 
 
 def _range(schema: Schema, low: str, high: str, unit: str = "") -> str:

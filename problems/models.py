@@ -43,7 +43,7 @@ Chance = TypeVar("Chance")
 #: Models up to this size are drawn beside their table.
 _DRAWN_STATES, _DRAWN_TRANSITIONS = 4, 16
 #: So many states are solved exactly in seconds.
-_MOST_STATES = 1024
+MOST_STATES = 1024
 
 
 #: The name of a state, an action or a hypothesis.
@@ -149,8 +149,8 @@ class Model(Dynamics):
 
     @model_validator(mode="after")
     def _closed(self) -> Self:
-        if len(self.states) > _MOST_STATES:
-            raise ValueError(f"there are {len(self.states)} states; at most {_MOST_STATES} can be solved exactly")
+        if len(self.states) > MOST_STATES:
+            raise ValueError(f"there are {len(self.states)} states; at most {MOST_STATES} can be solved exactly")
         for state in self.states:
             if state in self.terminal:
                 raise ValueError(f"{state!r} is terminal, so no action can be taken there")

@@ -17,7 +17,7 @@ from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_setting, draw_way
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
@@ -447,16 +447,10 @@ def draw_action_run(
         same: whether a state that is visited again sees the same action again.
     """
     setting = draw_setting(rng)
-    named = dict(zip(sorted(set(visits) - {"."}), rng.shuffled(setting.states), strict=False))
-    states = tuple(named.get(letter, setting.terminal) for letter in visits)
-    left = [state for state in (states if last else states[:-1]) if state != setting.terminal]
-    actions = tuple(rng.choice(setting.actions[:choices]) for _ in left)
-    if same:
-        habit = dict(zip(left, actions, strict=True))
-        actions = tuple(habit[state] for state in left)
+    states, actions = draw_way(rng, setting, visits, setting.actions[:choices], same=same)
     run = Trajectory(
         states=states,
-        actions=actions,
+        actions=actions if last else actions[: len(states) - 1],
         rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
         terminal=tuple(state for state in states if state == setting.terminal),
     )
@@ -546,11 +540,11 @@ def run_situation(
     """A run, and the values before it; ``more`` is said after the step size, if ``steps`` has it, and the discount."""
     before = "the first transition" if isinstance(given, ValueMoves | ActionMoves) else "the first update"
     rates = " ".join([*([step_size(given.alpha)] if steps else []), discount(given.gamma)])
-    told = f"These are the values before {before}. {rates} {more}"
+    told = f"These are the values before {before}. {rates} {more}".strip()
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
     if isinstance(given, ValueRun):
         told = unknown(given, f"{told} The value $x$ is left open." if "x" in given.letters else told)
-    return (*happened, Paragraph(told.strip()), *values)
+    return (*happened, Paragraph(told), *values)
 
 
 def sought_parts(given: ValueRun) -> tuple[Part, ...]:

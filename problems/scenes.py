@@ -21,11 +21,11 @@ class Scene:
 SCENES = (
     Scene(
         "A robot pushes and pulls a door.",
-        ("closed", "ajar", "half open", "open"), "push", "pull", ("sees light", "sees none"),
+        ("closed", "ajar", "half open", "open"), "push", "pull", ("light", "no light"),
     ),
     Scene(
         "A robot does not know where in a corridor it is.",
-        ("west", "hall", "bend", "east"), "right", "left", ("door", "wall"),
+        ("west", "middle", "bend", "east"), "right", "left", ("door", "wall"),
     ),
     Scene(
         "A rover goes down into a crater and up again.",

@@ -3,6 +3,7 @@
 import tomllib
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise, permutations
 from pathlib import Path
 
 from rldrill.problems.draws import Draws
@@ -60,6 +61,75 @@ def settings() -> tuple[Setting, ...]:
         )
         for world in worlds
     )
+
+
+@cache
+def _ways(
+    setting: Setting, moves: tuple[tuple[str, str], ...], actions: tuple[str, ...]
+) -> tuple[tuple[dict[str, str], tuple[tuple[str, ...], ...]], ...]:
+    """All that letters can stand for, so that every move is possible; and the actions that can make each."""
+    letters = sorted({letter for before, after in moves for letter in before + after} - {"."})
+    places = (*setting.states, setting.terminal)
+    found = []
+    for states in permutations(setting.states, len(letters)):
+        named = dict(zip(letters, states, strict=True)) | {".": setting.terminal}
+        fit = tuple(
+            tuple(
+                action
+                for action in actions
+                if {named[letter] for letter in after} <= {*setting.reached(places, named[before], action)}
+            )
+            for before, after in moves
+        )
+        if all(fit):
+            found.append((named, fit))
+    return tuple(found)
+
+
+def possible(setting: Setting, moves: tuple[tuple[str, str], ...], actions: tuple[str, ...]) -> bool:
+    """Whether a world has states and actions for such moves."""
+    return bool(_ways(setting, moves, actions))
+
+
+def draw_moves(
+    rng: Draws, setting: Setting, moves: tuple[tuple[str, str], ...], actions: tuple[str, ...]
+) -> tuple[dict[str, str], tuple[str, ...]]:
+    """States of a world for letters, and an action for every move, which can lead there as the world has it.
+
+    Args:
+        rng: the stream of choices.
+        setting: the world; it must have such states.
+        moves: for every action the letter of the state in which it is taken, and those to which it can lead; a full
+            stop is the end.
+        actions: those that may be taken.
+    """
+    named, fit = rng.choice(_ways(setting, moves, actions))
+    return named, tuple(rng.choice(possible) for possible in fit)
+
+
+def draw_way(
+    rng: Draws, setting: Setting, visits: str, actions: tuple[str, ...], *, same: bool = False
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The states of a run through a world, and the actions that can lead from each to the next.
+
+    Args:
+        rng: the stream of choices.
+        setting: the world.
+        visits: a letter for every state, in the order of the visits; a full stop is the end: ``"aba."``.
+        actions: those that may be taken; in a last state that is not the end, any of them.
+        same: whether a state that is visited again sees the same action again.
+    """
+    steps = tuple(pairwise(visits))
+    if same:
+        after = {letter: "".join(dict.fromkeys(b for a, b in steps if a == letter)) for letter, _ in steps}
+        named, habits = draw_moves(rng, setting, tuple(after.items()), actions)
+        habit = dict(zip(after, habits, strict=True))
+        taken = tuple(habit[letter] for letter, _ in steps)
+    else:
+        named, taken = draw_moves(rng, setting, steps, actions)
+        habit = {}
+    last = () if visits[-1] == "." else (habit.get(visits[-1]) or rng.choice(actions),)
+    return tuple(named[letter] for letter in visits), (*taken, *last)
 
 
 def draw_setting(rng: Draws) -> Setting:

@@ -24,7 +24,7 @@ from rldrill.problems.models import check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import Trajectory, trajectory_table
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_setting, draw_way
 
 
 class SoftmaxRun(Givens):
@@ -115,18 +115,17 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
     Two steps and even chances; then three steps in two states; then also three actions, and γ left open.
     """
     setting = draw_setting(rng)
-    first, second = rng.shuffled(setting.states)[:2]
-    states = {1: (first, first), 2: (first, second, first), 3: (first, second, second)}[level]
     actions = setting.actions[: 3 if level == 3 else 2]
+    states, taken = draw_way(rng, setting, {1: "aa.", 2: "aba.", 3: "abb."}[level], actions)
     policy = draw_even_policy if level == 1 else draw_log_policy
     while True:
-        theta, features = policy(rng, tuple(dict.fromkeys(states)), actions)
+        theta, features = policy(rng, tuple(dict.fromkeys(states[:-1])), actions)
         if not told_apart(features):
             continue
         if level == 1 or prod(_below(theta, rows) for rows in features.values()) <= _MOST_BELOW[level]:
             break
     gamma = Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1")
-    run = draw_run(rng, (*states, setting.terminal), actions, setting.terminal, doubled=gamma == Fraction(1, 2))
+    run = draw_run(rng, states, taken, setting.terminal, doubled=gamma == Fraction(1, 2))
     return {"trajectory": run, "theta": theta, "features": features, "gamma": gamma}
 
 
@@ -157,16 +156,16 @@ def every_step_counts(run: Trajectory, weights: Sequence[Fraction]) -> bool:
 
 
 def draw_run(
-    rng: Draws, states: tuple[str, ...], actions: tuple[str, ...], terminal: str, *, doubled: bool = False
+    rng: Draws, states: tuple[str, ...], taken: tuple[str, ...], terminal: str, *, doubled: bool = False
 ) -> Trajectory:
-    """A run through these states, its actions and rewards drawn.
+    """A run through these states with these actions, its rewards drawn.
 
     With ``doubled`` every reward is a multiple of twice what the one before is: then halved returns are whole.
     """
     units = [2**time if doubled else 1 for time in range(len(states) - 1)]
     return Trajectory(
         states=states,
-        actions=tuple(rng.choice(actions) for _ in units),
+        actions=taken[: len(units)],
         rewards=tuple(unit * rng.nonzero(-(4 // unit), 8 // unit) for unit in units),
         terminal=(terminal,) if terminal in states else (),
     )

@@ -19,7 +19,7 @@ _ALIKE = {
     for sign in signs
 }  # fmt: skip
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
-_SMALL_QUOTIENT = re.compile(f"([⁰¹²³⁴⁵⁶⁷⁸⁹]+)[/⁄]([{_LOWERED}]+)")
+_SMALL_QUOTIENT = re.compile(f"(?<![⁰¹²³⁴⁵⁶⁷⁸⁹])([⁰¹²³⁴⁵⁶⁷⁸⁹]++)[/⁄]([{_LOWERED}]+)")
 #: A power whose exponent holds a letter: eᵞ, 2⁻ᵖ.
 _RAISED_LETTERS = re.compile("(?<=[0-9eγ)])[⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹]*[ᵝᵞᵟᵠᵖ][⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹ᵝᵞᵟᵠᵖ]*")
 _LOWERED_BEHIND = re.compile(rf"(?<![\w.])[\d.]*\d[{_LOWERED}]")

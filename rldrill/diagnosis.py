@@ -18,6 +18,7 @@ from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.explaining import SURE_ENOUGH, Explained, explained
 from rldrill.solutions.diagnosis.following import Line, Standing, follow
+from rldrill.solutions.diagnosis.outcomes import Outcomes
 from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.saying import Words, place, saying
 from rldrill.solutions.diagnosis.search import Search
@@ -85,6 +86,12 @@ class Diagnosis:
             return self.sentence
         return f"{verdict.says} {self.sentence}"
 
+    def without_lines(self) -> "Diagnosis":
+        """The same without the step as it should be, which may hold the key."""
+        return replace(
+            self, wrong=None, right=None, alternatives=tuple(each.without_lines() for each in self.alternatives)
+        )
+
     def to_json(self) -> dict[str, Any]:
         """The diagnosis as JSON has it."""
         where = None if self.place is None else {"formula": self.place.formula, "step": self.place.step}
@@ -127,13 +134,25 @@ class Diagnosing:
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
         self._searches: dict[str, Search] = {}
+        self._outcomes: dict[tuple[str, str], Outcomes] = {}
         self._stop = Event()
         self._thread: Thread | None = None
 
     def search(self, earlier: Mapping[str, Any]) -> Search:
         """The search that goes on from a person's own earlier answers."""
-        key = str(sorted(earlier.items(), key=lambda item: item[0]))
-        return self._searches.setdefault(key, Search(self.solution, earlier))
+        key = _as_text(earlier)
+        if key not in self._searches:
+            self._searches[key] = Search(self.solution, earlier)
+        return self._searches[key]
+
+    def outcomes(self, label: str, earlier: Mapping[str, Any]) -> Outcomes:
+        """What causes make of the answer to a part, for somebody who went on from own earlier answers."""
+        search = self.search(earlier)
+        key = label, _as_text(earlier)
+        if key not in self._outcomes:
+            part = part_of(self.solution, label)
+            self._outcomes[key] = Outcomes(search, part, answer_kind(part.kind).cells(self.solution.answers[label]))
+        return self._outcomes[key]
 
     def begin(self) -> None:
         """Search ahead, while the person types."""
@@ -143,13 +162,9 @@ class Diagnosing:
         self._thread = in_background(self._ahead)
 
     def _ahead(self) -> None:
-        search, clock = self.search({}), Clock(stop=self._stop)
-        search.whole(clock)
-        for application in search.applications:
-            if clock.over:
-                return
-            search.alternatives(application)
-            search.responses(application)
+        clock = Clock(stop=self._stop)
+        for part in self.solution.problem.parts:
+            self.outcomes(part.label, {}).grow(clock)
 
     def finish(self) -> None:
         """Whatever was searched ahead is enough now."""
@@ -163,9 +178,9 @@ class Diagnosing:
         if verdict.outcome is not Outcome.CLOSE or self._rounded(label, text):
             return verdict
         self.finish()
-        found = explained(self.search({}), self._typed(label, text), Clock())  # a verdict depends on no clock
-        likely = sum(cause.weight for cause in found.causes if cause.weight >= SURE_ENOUGH)
-        if found.confidence * likely < _SURE * sum(cause.weight for cause in found.causes) or not likely:
+        found = explained(self.outcomes(label, {}), self._typed(label, text), Clock())  # a verdict depends on no clock
+        pairs = zip(found.causes, found.shares, strict=True)
+        if sum(share for cause, share in pairs if cause.weight >= SURE_ENOUGH) < _SURE:
             return verdict
         said = _told(found, self.search({}).applications).sentence
         return replace(verdict, outcome=Outcome.WRONG, says=said)
@@ -182,15 +197,14 @@ class Diagnosing:
 
     def wrong_answers(self, label: str, number: int) -> tuple["WrongAnswer", ...]:
         """Wrong answers to a part, the likeliest first, each with what it comes from."""
-        search, part = self.search({}), part_of(self.solution, label)
-        kind = answer_kind(part.kind)
-        key = Typed(part, {}, kind.cells(self.solution.answers[label]))
+        search, outcomes = self.search({}), self.outcomes(label, {})
+        kind = answer_kind(outcomes.part.kind)
         found: dict[str, WrongAnswer] = {}
         for candidate in sorted(search.whole(Clock()), key=lambda each: -each.cause.weight):
             if len(found) == number:
                 break
             with suppress(*UNDONE):
-                if key.cells_of(candidate.answers) and distinguishable(
+                if outcomes.cells_of(candidate.answers) and distinguishable(
                     self.solution, {label: candidate.answers[label]}
                 ):
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
@@ -225,11 +239,14 @@ class Diagnosing:
         typed = self._typed(label, text)
         clock = Clock(seconds)
         for carried in ({}, earlier) if earlier else ({},):
-            search = self.search(carried)
-            found = explained(search, typed, clock)
+            found = explained(self.outcomes(label, carried), typed, clock)
             if found.causes:
-                return _told(found, search.applications)
+                return _told(found, self.search(carried).applications)
         return Diagnosis("unexplained", verdict.says)
+
+
+def _as_text(earlier: Mapping[str, Any]) -> str:
+    return str(sorted(earlier.items(), key=lambda item: item[0]))
 
 
 def _is_shorter(cell: Cell, key: Any) -> bool:
@@ -253,9 +270,8 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
 
 def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     causes = found.causes
-    whole = sum(cause.weight for cause in causes)
     first, *others = (
-        _diagnosis(cause, applications, round(found.confidence * cause.weight / whole, 2)) for cause in causes
+        _diagnosis(cause, applications, round(share, 2)) for cause, share in zip(causes, found.shares, strict=True)
     )
     said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
     said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says

@@ -3,6 +3,7 @@
 import reprlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from numbers import Integral
 from pathlib import Path
@@ -16,7 +17,6 @@ from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Block, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.identity import looks_like_id
 from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.render.markdown import markdown, markdown_text

@@ -19,6 +19,9 @@ _DIGITS = 40
 _TOO_DEEP = f"it nests deeper than {_DEEPEST} brackets; write it flatter."
 _TOO_LONG = f"a whole number has more than {_DIGITS} digits; shorten it."
 _TOML_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)\)$")
+#: A key with more dots than there may be brackets: reading it takes time and memory by the square of them.
+_KEY = r"(?:[\w-]++|\"(?:[^\"\\\n]|\\.)*+\"|'[^'\n]*+')[ \t]*+"
+_DOTTED = re.compile(rf"(?<![^\s.\[{{,])(?:{_KEY}\.[ \t]*+){{{_DEEPEST}}}", re.ASCII)
 _NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
 
 
@@ -146,6 +149,8 @@ def _parsed(read: Callable[[str], object], text: str, where: str, line: int | No
 
 
 def _toml(text: str) -> object:
+    if _DOTTED.search(text):
+        raise _RefusedError(_TOO_DEEP)
     try:
         return tomllib.loads(text, parse_float=_number)
     except tomllib.TOMLDecodeError as error:

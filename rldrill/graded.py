@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge
 from rldrill.solutions.effort import points
 from rldrill.solutions.solution import Solution

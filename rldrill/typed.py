@@ -4,10 +4,9 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from numbers import Integral
+from numbers import Rational
 
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 
 _PARTING = re.compile(r"[,;\n]")
 
@@ -55,7 +54,7 @@ def _scalar(value: object, what: str) -> str:
             return "yes" if value else "no"
         case str():
             return f"({value})" if _PARTING.search(value) else value  # one entry must not be read as several
-        case Integral() | Fraction():
+        case Rational():
             return str(value)
         case float() | Decimal() if math.isfinite(value):
             return float.__repr__(value) if isinstance(value, float) else str(value)

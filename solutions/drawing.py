@@ -77,7 +77,7 @@ def by_id(text: str) -> Solution:
     if revision is not None and revision != family.revision:
         raise UsageError(
             f"{text} is of revision {revision}, but {name} is at revision {family.revision} in this release "
-            f"and draws other problems; install the release that printed it, or leave out '@{revision}'."
+            "and draws other problems; install the release that printed it."
         )
     return draw(family, level, seed)
 

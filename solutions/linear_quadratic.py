@@ -11,7 +11,7 @@ from rldrill.solutions.exact import ZERO, Value, exact
 from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
-from rldrill.solutions.sheet.linear_methods import LQR_SOLVED, Quadratic
+from rldrill.solutions.sheet.linear_methods import Quadratic
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
 
@@ -41,7 +41,7 @@ def gain(work: Work, lqr: Quadratic, **known: Any) -> Any:
     work.recall(lqr.gain)
     work.reading(lqr.gain)
     H, G = work.step(lqr.bracket, **known), work.step(lqr.product, **known)
-    return work.step(lqr.gain, right=LQR_SOLVED, Ht={t: H}, Gt={t: G}, **known)
+    return work.step(lqr.solved, Ht={t: H}, Gt={t: G}, **known)
 
 
 def start(given: LinearQuadratic) -> matrices.AnyMatrix:

@@ -64,7 +64,7 @@ class Step:
         """The formula before the numbers are put in; a policy by the name that it has here, π₁ or π′."""
         formula = self.formula
         plain = formula.equation(formula.right)
-        if formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
+        if self.own or formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
             return plain
         left = self.named if self.named.is_Symbol else self.named.func(*formula.left.args)
         return replace(plain, left=typeset(left))

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from statistics import median
@@ -12,7 +13,6 @@ import rldrill
 from from_files import FROM_FILES
 from rldrill.exam import expected
 from rldrill.problems.catalogue import families, family, topics
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import minutes, whole
 from rldrill.solutions.sheet import SECTIONS, formulas

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,6 @@ import pytest
 import rldrill
 from rldrill import Exercise, Outcome, UserError
 from rldrill.problems.catalogue import family
-from rldrill.problems.fractions import Fraction
 
 # R₁ = −2 + 1/2 · 4 + 1/4 · 1 = 1/4, then R₀ = 3 + 1/2 · 1/4 = 25/8.
 RETURN = {"family": "return", "given": {"rewards": [3, -2, 4, 1], "gamma": "1/2", "time": 1}}

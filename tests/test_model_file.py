@@ -1,6 +1,7 @@
 """Models in files of their own: tables, arrays, JSON and pomdp-solve's format."""
 
 import json
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,6 @@ import pytest
 
 import rldrill
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 
 # The racing car of Berkeley's CS188 at γ = 0.9, which slows down when warm: V*(cool) = 31/2, V*(warm) = 29/2.
 CAR = """state,action,next,probability,reward

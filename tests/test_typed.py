@@ -1,13 +1,13 @@
 """An answer that a program gives as data, as a person would type it."""
 
 from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.typed import typed
 
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -21,7 +22,6 @@ from rldrill.grading.verification import Settings
 from rldrill.grading.verification import verify as verify_with
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError, NothingToGrade
-from rldrill.problems.fractions import Fraction
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

@@ -37,7 +37,7 @@ from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 4
+REVISION = 5
 
 
 class Event(Givens):

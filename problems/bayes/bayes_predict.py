@@ -29,7 +29,7 @@ from rldrill.problems.scenes import SCENES, draw_motion
 
 TITLE = "Belief after an action"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):

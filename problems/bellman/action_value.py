@@ -17,7 +17,7 @@ from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_a
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Lookahead):
@@ -50,11 +50,12 @@ def draw(level: int, rng: Draws) -> Given:
     values = draw_values(rng, setting.states, gamma)
     if level == 3:
         rows = _equal(rng, setting, state, values, gamma)
-        rows, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
-        return Given(dynamics=Dynamics(transitions=tuple(rows)), values=_named(values, rows), gamma=left, find=True)
-    if level == 2 and rng.chance(Fraction(1, 2)):
+        opened, left, _ = draw_letter(rng, rows, gamma, ("x", "x", "p", "gamma"))
+        if any(old.probability == Fraction(1, 2) != new.probability for old, new in zip(rows, opened, strict=True)):
+            return draw(level, rng)  # a half would be guessed
+        return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
+    if level == 2 and rng.chance(Fraction(1, 2)) and (worths := averaging(rng, rng.split(2, (4, 5)), values[state])):
         shape = Shape(states=4, actions=2, branches=2)
-        worths = averaging(rng, rng.split(2, (4, 5)), values[state]) or []
         rows = [
             row
             for action, number in zip(setting.actions, worths, strict=False)

@@ -27,7 +27,7 @@ from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_a
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Lookahead):

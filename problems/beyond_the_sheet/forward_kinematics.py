@@ -117,7 +117,7 @@ def question(given: Given) -> Question:
     parts = []
     for angle, end, entries in which:
         parts += [
-            Part(f"What is the angle {angle} against the $x$ axis, in radians?", Number(), zero=True),
+            Part(f"What is the angle {angle} relative to the $x$ axis, in radians?", Number(), zero=True),
             Part(f"Where is the end point {end}?", Numbers(entries), zero=given.frames),
         ]
     return Question(_situation(given), tuple(parts))
@@ -128,4 +128,4 @@ def _situation(given: Given) -> tuple[Block, ...]:
         return situation(given)
     place = f"({shown(given.base.x)}, {shown(given.base.y)})"
     turned = f"its base is at ${place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
-    return situation(given, f"{turned} against the $x$ axis", "x_0")
+    return situation(given, f"{turned} relative to the $x$ axis", "x_0")

@@ -98,9 +98,8 @@ def question(given: Given) -> Question:
     """J, then the velocity, then the singularity where J is square."""
     m, n = len(given.rows), len(given.lengths)
     rates = ", ".join(f"ω_{index} = {shown(rate)}" for index, rate in enumerate(given.rates or (), 1))
-    moves = "the end point $(x, y)$ and the angle $φ$ of the last link against the $x$ axis" if given.orientation else (
-        "the end point $(x, y)$ of the last link"
-    )  # fmt: skip
+    angle = "and the angle $φ$ of the last link relative to the $x$ axis"
+    moves = f"the end point $(x, y)$ {angle}" if given.orientation else "the end point $(x, y)$ of the last link"
     velocity = tuple(f"v_{row}" for row in given.rows)
     turned = f" The joints turn with the angular velocities ${rates}$." if rates else ""
     parts = [Part("What is $J$ at this configuration?", Matrix(m, n))]
@@ -119,8 +118,8 @@ def question(given: Given) -> Question:
         (
             *situation(given),
             Paragraph(
-                f"The Jacobian $J$ has the derivatives of {moves} by the joint angles: one row for each of "
-                f"${', '.join(given.rows)}$, one column for each joint.{turned}"
+                f"The Jacobian $J$ has the derivatives of {moves} with respect to the joint angles: one row for each "
+                f"of ${', '.join(given.rows)}$, one column for each joint.{turned}"
             ),
         ),
         tuple(parts),

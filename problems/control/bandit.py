@@ -9,8 +9,9 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.document import Table as Cells
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Logarithm, WeightField, shown
+from rldrill.problems.exact import Exact, Logarithm, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.features import ActionPreferences
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Number, Part, Policy, Values
@@ -122,9 +123,7 @@ class Balance(Averaged):
 class Preferences(Bandit):
     """The pulls so far, the preferences after them, and one more pull, from which they learn with step size α."""
 
-    preferences: dict[Name, WeightField] = Field(
-        min_length=2, description="The preference of every arm after these pulls."
-    )
+    preferences: ActionPreferences = Field(min_length=2, description="The preference of every arm after these pulls.")
     alpha: Exact = Field(gt=0, description="The step size, above 0.")
     pulled: Pull = Field(description="The pull after them, from which the preferences learn.")
     story: Story = Field(default="", description="A sentence that is printed first.")

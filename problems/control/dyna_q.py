@@ -16,11 +16,11 @@ from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import ActionMove, ActionRun, Trajectory, action_values_table, run_situation
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_moves, draw_setting, possible
 
 TITLE = "Dyna-Q"
 SOURCE = "Sutton & Barto 2018, sections 8.2 and 8.3"
-REVISION = 2
+REVISION = 3
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "model.0.2",  # what the model held is replaced by what was tried last
@@ -112,18 +112,27 @@ class Given(ActionRun):
 def draw(level: int, rng: Draws) -> Given:
     """One transition and a remembered pair; then one or two, the model often empty; then a changed environment."""
     setting = draw_setting(rng)
-    first, second, third = rng.shuffled(setting.states)[:3]
     choices = rng.sample(setting.actions, 2)
     alpha, gamma, unit = draw_rates(rng) if level > 1 else Rates(Fraction(1, 2), Fraction(1, 2), 4)
-    last = () if level == 1 or rng.chance(Fraction(1, 2)) else (rng.choice((first, third, setting.terminal)),)
+    after = "" if level == 1 or rng.chance(Fraction(1, 2)) else rng.choice("ac.")
+    known = "b" if level == 1 else "c"
+    if level == 3:  # what was tried before led elsewhere, and what is remembered now does
+        moves = (("a", "bc"), ("c", "ab"), *([("b", after)] if after else []))
+    else:
+        moves = (("a", "b"), (known, "a"), *([("b", after)] if after else []))
+    if not possible(setting, moves, choices):
+        return draw(level, rng)
+    stands, (taken, remembers, *later) = draw_moves(rng, setting, moves, choices)
+    first, second, third = stands["a"], stands["b"], stands.get("c", "")
+    last = tuple(stands[letter] for letter in after)
     run = Trajectory(
         states=(first, second, *last),
-        actions=tuple(rng.choice(choices) for _ in (first, *last)),
+        actions=(taken, *later),
         rewards=tuple(rng.nonzero(-4, 8) for _ in (first, *last)),
         terminal=tuple(state for state in last if state == setting.terminal),
     )
     tried = tuple(zip(run.states, run.actions, strict=False))
-    remembered = Entry(second if level == 1 else third, rng.choice(choices), rng.nonzero(-4, 8), first)
+    remembered = Entry(stands[known], remembers, rng.nonzero(-4, 8), first)
     model: tuple[Entry, ...] = (remembered,)
     changed: tuple[Entry, ...] = ()
     planned: tuple[tuple[str, str], ...] = (remembered.pair,)
@@ -146,8 +155,8 @@ def draw(level: int, rng: Draws) -> Given:
         gamma=gamma,
     )
     updates = [*given.tried, *(given.learned[pair] for pair in planned)]
-    moves = [ActionMove(entry.state, entry.action, entry.next, entry.reward) for entry in updates]
-    if remembered.pair in tried or not readable(given.values, moves, run.terminal, alpha, gamma, _greatest):
+    replayed = [ActionMove(entry.state, entry.action, entry.next, entry.reward) for entry in updates]
+    if remembered.pair in tried or not readable(given.values, replayed, run.terminal, alpha, gamma, _greatest):
         return draw(level, rng)
     return given
 

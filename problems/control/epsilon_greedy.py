@@ -1,5 +1,6 @@
 """The probabilities with which an ε-greedy policy takes its actions, also where best actions are tied."""
 
+import re
 from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -114,11 +115,17 @@ def draw(level: int, rng: Draws) -> Given:
     return given
 
 
+def _cell(state: str) -> str:
+    """Where a cell of a grid lies that has its row and column for a name."""
+    found = re.fullmatch(r"r(\d+)c(\d+)", state)
+    return f" (row {found[1]}, column {found[2]} of a grid)" if found else ""
+
+
 def question(given: Given) -> Question:
     """The action values and ε; the probability of every action, then what the state is worth."""
     tied = " Actions that are tied for the best share the greedy probability evenly." if len(given.best) > 1 else ""
     blocks = (
-        Paragraph(f"An agent in state {given.state} has these action values:"),
+        Paragraph(f"An agent in state {given.state}{_cell(given.state)} has these action values:"),
         action_values_table({given.state: given.values}),
         Paragraph(
             "It acts ε-greedily: with probability $1 − ε$ it takes the greedy action, with probability $ε$ one of all "

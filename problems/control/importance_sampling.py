@@ -1,5 +1,6 @@
 """The importance sampling ratios of some episodes, and the ordinary and the weighted estimate of a state's value."""
 
+from itertools import islice
 from math import prod
 from typing import Annotated, Self
 
@@ -22,11 +23,11 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open, terminal_note
 from rldrill.problems.runs import Trajectory, timeline
-from rldrill.problems.settings import Setting, draw_setting
+from rldrill.problems.settings import Setting, draw_moves, possible, settings
 
 TITLE = "Importance sampling"
 SOURCE = "Sutton & Barto 2018, section 5.5"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -87,20 +88,31 @@ _PAIRS = (
 )
 
 
+#: What happens in an episode of one step, and in one of two.
+_MOVES = {1: (("a", "."),), 2: (("a", "b"), ("b", "."))}
+
+
 def draw(level: int, rng: Draws) -> Given:
     """One episode of two steps; then two or three; then the same with the target policy left open in one state."""
-    setting = draw_setting(rng)
-    first, second = rng.shuffled(setting.states)[:2]
+    setting = rng.choice(tuple(setting for setting in settings() if len(setting.onward) > 1))
+    both = setting.onward[:2]
+    lengths = {1: (2,), 2: rng.choice(((1, 2), (2, 2), (1, 2, 2))), 3: rng.choice(((1, 2), (2, 2), (1, 1, 2)))}[level]
+    lengths = rng.shuffled(lengths)
+    moves = tuple(move for length in lengths for move in _MOVES[length])
+    if not possible(setting, moves, both):
+        return draw(level, rng)
+    named, taken = draw_moves(rng, setting, moves, both)
+    left, first, second = iter(taken), named["a"], named["b"]
     behaviour, target = {}, {}
     for state in (first, second):
         pair = rng.choice(_PAIRS)
-        actions = setting.actions[:2] if rng.chance(Fraction(1, 2)) else setting.actions[1::-1]
+        actions = both if rng.chance(Fraction(1, 2)) else both[::-1]
         chances = [dict(zip(actions, (Fraction(text), 1 - Fraction(text)), strict=True)) for text in pair]
         behaviour[state], target[state] = chances
-    lengths = {1: (2,), 2: rng.choice(((1, 2), (2, 2), (1, 2, 2))), 3: rng.choice(((1, 2), (2, 2), (1, 1, 2)))}[level]
-    lengths = rng.shuffled(lengths)
     given = Given(
-        episodes=tuple(_episode(rng, setting, (first, second)[:length]) for length in lengths),
+        episodes=tuple(
+            _episode(rng, setting, (first, second)[:length], tuple(islice(left, length))) for length in lengths
+        ),
         target=target,
         behaviour=behaviour,
         gamma=rng.fraction("1/2", "1") if level > 1 else rng.fraction("1/2", "4/5"),
@@ -108,8 +120,8 @@ def draw(level: int, rng: Draws) -> Given:
     if not _telling(given):
         return draw(level, rng)
     if level == 3:
-        left, right = setting.actions[:2]
-        return given.model_copy(update={"target": target | {first: {left: Parameter("p"), right: Parameter("1-p")}}})
+        open_chances = dict(zip(both, (Parameter("p"), Parameter("1-p")), strict=True))
+        return given.model_copy(update={"target": target | {first: open_chances}})
     return given
 
 
@@ -145,10 +157,10 @@ def _telling(given: Given) -> bool:
     )
 
 
-def _episode(rng: Draws, setting: Setting, states: tuple[str, ...]) -> Trajectory:
+def _episode(rng: Draws, setting: Setting, states: tuple[str, ...], actions: tuple[str, ...]) -> Trajectory:
     return Trajectory(
         states=(*states, setting.terminal),
-        actions=tuple(rng.choice(setting.actions[:2]) for _ in states),
+        actions=actions,
         rewards=tuple(rng.nonzero(-4, 8) for _ in states),
         terminal=(setting.terminal,),
     )

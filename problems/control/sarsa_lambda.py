@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, action_values_table, draw_action_ru
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -107,6 +107,8 @@ def _back(rng: Draws) -> Given:
         ahead = moved
     error = run.rewards[1] + gamma * ahead - middle
     end = moved + alpha * error * gamma * lam
+    if ahead == 0 and middle + error * lam == 0:
+        return _back(rng)  # whatever γ multiplies would be 0
     if error == 0 or end.denominator > 10 or end == old:
         return _back(rng)
     outcome = Outcome(*first, end)

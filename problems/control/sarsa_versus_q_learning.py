@@ -15,7 +15,7 @@ from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, ru
 
 TITLE = "Sarsa versus Q-learning"
 SOURCE = "Sutton & Barto 2018, sections 6.4 and 6.5"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "alpha",  # it is printed only where a value that it has moved is used
@@ -52,7 +52,7 @@ class Given(ActionRun):
 
 def draw(level: int, rng: Draws) -> Given:
     """One transition; then some that come back to a state; then some with γ left open."""
-    visits = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba."), 3: ("ab", "abc", "abc.", "abcd")}[level]
+    visits = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba."), 3: ("abc", "abc.", "abcd")}[level]
     found = draw_forward(rng, rng.choice(visits), 2 if level == 1 else 3, lambda row, _: max(row.values()))
     if len({tuple(row.values()) for row in found["values"].values()}) < len(found["values"]):
         return draw(level, rng)

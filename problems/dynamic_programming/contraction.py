@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 2
+REVISION = 3
 
 
 def _positive(value: Fraction) -> Fraction:
@@ -59,8 +59,8 @@ class Given(Givens):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """V* is known, one bound; then V* or the first sweep; then mostly the first sweep, and a discount nearer to 1."""
-    known = level == 1 or rng.chance(Fraction(1, level))
+    """V* is known, one bound; then also how many sweeps are enough; then only the first sweep, and γ nearer to 1."""
+    known = level < 3
     states = draw_setting(rng).states[: 2 if level == 1 else 2 + rng.below(level)]
     start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
     other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}

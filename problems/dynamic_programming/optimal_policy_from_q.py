@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Dynamics, Name, Transition, transitions_table
+from rldrill.problems.models import MOST_STATES, Dynamics, Name, Transition, transitions_table
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount, terminal_note, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
@@ -18,7 +18,7 @@ from rldrill.problems.valued import UNITS, tells_apart
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -28,7 +28,7 @@ class Given(Givens):
     """
 
     values: dict[Name, dict[Name, Exact]] = Field(
-        min_length=1, description="For every state the optimal values of its actions."
+        min_length=1, max_length=MOST_STATES, description="For every state the optimal values of its actions."
     )
     missing: Dynamics | None = Field(default=None, description="What the actions do whose values are missing.")
     gamma: Probability | None = Field(default=None, description="The discount; needed if values are missing.")

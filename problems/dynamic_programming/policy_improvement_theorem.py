@@ -25,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement theorem"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -74,6 +74,8 @@ def draw(level: int, rng: Draws) -> Given:
     }
     rows = tuple(row for row in mdp.transitions if row.action in (policy[row.state], other[row.state]))
     ends = tuple(end for end in mdp.terminal if _reached(rows, end))
+    if level == 2 and states == 2 and all(row.probability == 1 for row in rows):
+        return draw(level, rng)  # that would be level 1
     return Given(
         mdp=Model(story=setting.told(ends), transitions=rows, terminal=ends),
         policy=policy,

@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_va
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):

@@ -15,11 +15,11 @@ from rldrill.problems.models import Name, check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open, step_size
 from rldrill.problems.runs import Trajectory, trajectory_table
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_setting, draw_way
 
 TITLE = "Semi-gradient TD"
 SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -71,26 +71,24 @@ class Given(Givens):
 
 #: Weights at level 2: half an estimate is whole.
 _EVEN = (Fraction(-4), Fraction(-2), Fraction(2), Fraction(4))
-#: The states of a run at level 2, by their numbers, the last one terminal if it is None; the features of each; and
-#: whether it is Sarsa.
-_RUNS: tuple[tuple[tuple[int | None, ...], int, bool], ...] = (
-    ((0, 1, None), 3, False), ((0, 1, 0), 2, False), ((0, 1, 2), 2, False), ((0, 1), 2, True), ((0, 1), 3, True),
+#: The order of visits of a run at level 2; the features of each state; and whether it is Sarsa.
+_RUNS: tuple[tuple[str, int, bool], ...] = (
+    ("ab.", 3, False), ("aba", 2, False), ("abc", 2, False), ("ab", 2, True), ("ab", 3, True),
 )  # fmt: skip
 
 
 def draw(level: int, rng: Draws) -> Given:
     """One step of TD(0); then two of them, or one of Sarsa; then two of Sarsa, the step size left open."""
     setting = draw_setting(rng)
-    order = rng.shuffled(setting.states)
-    visits, size, sarsa = {1: ((0, 1), 2, False), 3: ((0, 1, 0), 2, True)}.get(level) or rng.choice(_RUNS)
-    states = tuple(setting.terminal if visit is None else order[visit] for visit in visits)
+    visits, size, sarsa = {1: ("ab", 2, False), 3: ("aba", 2, True)}.get(level) or rng.choice(_RUNS)
     choices = setting.actions[:2] if sarsa else ()
+    # a state sees the same action again, so the first step counts in the second
+    states, taken = draw_way(rng, setting, visits, choices or setting.actions, same=True)
     named = [state for state in setting.states if state in states]
-    habit = {state: rng.choice(choices) for state in named if choices}  # so the first step counts in the second
     given = Given(
         trajectory=Trajectory(
             states=states,
-            actions=tuple(habit[state] for state in states if choices),
+            actions=taken if choices else (),
             rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
             terminal=tuple(state for state in states if state == setting.terminal),
         ),
@@ -102,7 +100,8 @@ def draw(level: int, rng: Draws) -> Given:
         alpha=Parameter("alpha") if level == 3 else rng.fraction("1/2", "1/4", "1/5" if len(states) == 2 else "1/2"),
         gamma=rng.fraction("1/2", "1/2", "1"),
     )
-    return given if all(map(any, given.features.values())) and all(_matters(given)) else draw(level, rng)
+    used = all(map(any, given.features.values())) and all(map(any, zip(*given.features.values(), strict=True)))
+    return given if used and all(_matters(given)) else draw(level, rng)
 
 
 def _matters(given: Given) -> Iterator[Fraction]:

@@ -30,7 +30,7 @@ from rldrill.problems.settings import Setting, settings
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 3
+REVISION = 4
 
 _MOST = 200
 

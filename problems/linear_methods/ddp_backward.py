@@ -77,8 +77,8 @@ def question(given: Given) -> Question:
         (
             *plan(given, given.reward),
             Paragraph(
-                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} by the next "
-                "state are"
+                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} with respect to "
+                "the next state are"
             ),
             Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
             Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),

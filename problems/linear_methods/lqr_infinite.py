@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 3
+REVISION = 4
 _LARGEST = 6
 _LARGEST_ROOT = 40
 
@@ -110,9 +110,8 @@ def draw(level: int, rng: Draws) -> Given:
             return _scalar(a, b, q, r, gamma=added)
         return _scalar(a, b, q, r, N=((added,),))
     if rng.chance(Fraction(2, 5)):
-        total, difference, b, q, r = map(Fraction, rng.choice(_pairs()))
-        A = _circulant((total + difference) / 2, (total - difference) / 2)
-        return Given(A=A, B=diagonal(b, b), Q=diagonal(q, q), R=diagonal(r, r))
+        (total, b, together, r), (difference, _, apart, _) = (map(Fraction, mode) for mode in rng.choice(_pairs()))
+        return Given(A=_circulant(total, difference), B=diagonal(b, b), Q=_circulant(together, apart), R=diagonal(r, r))
     return _price(rng)
 
 
@@ -181,13 +180,21 @@ def _is_square(number: Fraction) -> bool:
 
 
 @cache
-def _pairs() -> tuple[tuple[int, int, int, int, int], ...]:
-    """How sum and difference of two coupled states are multiplied, then B, Q, R: one root at most stays."""
-    found = []
-    for (a, b, q, r), other in product(_scalars(rational=True), range(-4, 5)):
-        if other and abs(other) != abs(a) and (other - a) % 2 == 0 and _under_root(other, b, q, r) < _LARGEST_ROOT:
-            found += [(a, other, b, q, r), (other, a, b, q, r)]
-    return tuple(found)
+def _pairs() -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
+    """A, B, Q and R of the sum and of the difference of two coupled states: systems in which the root comes out."""
+    modes = [
+        (a, b, q, r)
+        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 25), range(1, 13))
+        if _is_square(Fraction((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r))
+    ]
+    return tuple(
+        (first, second)
+        for first, second in product(modes, modes)
+        if first[1::2] == second[1::2]
+        and first[0] != second[0]
+        and (abs(first[0]), first[2]) != (abs(second[0]), second[2])
+        and (first[0] - second[0]) % 2 == (first[2] - second[2]) % 2 == 0
+    )
 
 
 def _under_root(a: int, b: int, q: int, r: int) -> int:
@@ -202,8 +209,9 @@ def _squarefree(number: int) -> int:
     return number
 
 
-def _circulant(diagonal_: Fraction, beside: Fraction) -> Rows:
-    """Two equal halves that act on each other alike."""
+def _circulant(total: Fraction, difference: Fraction) -> Rows:
+    """Two equal halves that act on each other alike, by what their sum and their difference are multiplied with."""
+    diagonal_, beside = (total + difference) / 2, (total - difference) / 2
     return ((diagonal_, beside), (beside, diagonal_))
 
 
@@ -212,7 +220,7 @@ def question(given: Given) -> Question:
     n = len(given.A)
     x, u, *_, in_costs = given.notation
     named = (("A", given.A), ("B", given.B), ("Q", given.Q), ("R", given.R), *((("N", given.N),) if given.N else ()))
-    coupled = n == 2 and _circulant(given.A[0][0], given.A[0][1]) == given.A and given.A[0][1] != 0
+    coupled = n == 2 and given.A[0] == given.A[1][::-1] and given.A[0][1] != 0
     story = "Two identical robots that are coupled symmetrically form a system. It" if coupled else "A system"
     cost = quadratic(given.notation, crossed=given.N is not None)
     earns = f"costs ${cost}$" if in_costs else f"earns the reward $r({x}_t, {u}_t) = −({cost})$"

@@ -14,12 +14,12 @@ from rldrill.problems.models import Name, values_table
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
-from rldrill.problems.settings import Setting, draw_setting
+from rldrill.problems.settings import Setting, draw_setting, draw_way
 from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_policy, draw_run, policy_blocks, told_apart
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(SoftmaxRun):
@@ -43,9 +43,9 @@ class Given(SoftmaxRun):
 def draw(level: int, rng: Draws) -> Given:
     """One transition and even chances; then weights that are logarithms; then two transitions, α left open."""
     setting = draw_setting(rng)
-    first, second = rng.shuffled(setting.states)[:2]
     actions = setting.actions[: 3 if level == 2 else 2]
-    states = (first, second, first) if level == 3 else (first, second)
+    states, taken = draw_way(rng, setting, "aba" if level == 3 else "ab", actions)
+    first, second, *_ = states
     theta: tuple[Weight, ...]
     if level == 3:
         theta, features = _weights_of_their_own(rng, (first, second), actions)
@@ -54,7 +54,7 @@ def draw(level: int, rng: Draws) -> Given:
         if not told_apart(features):
             return draw(level, rng)
     return Given(
-        trajectory=draw_run(rng, states, actions, setting.terminal),
+        trajectory=draw_run(rng, states, taken, setting.terminal),
         theta=theta,
         features=features,
         values={

@@ -27,7 +27,7 @@ from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 4
+REVISION = 5
 
 
 class Lookahead(Givens):
@@ -149,15 +149,16 @@ def draw(level: int, rng: Draws) -> Given:
         return AlongRun(
             run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=rng.fraction("1/2", "2/3", "1")
         )
-    state, *others = rng.shuffled(setting.states)[:3]
     actions = setting.actions[: 1 + level]
+    state = rng.choice(setting.states)
+    ahead_of = {a: [s for s in setting.reached(setting.states, state, a) if s != state] for a in actions}
+    if not all(ahead_of.values()):
+        return draw(level, rng)  # an action cannot lead anywhere else
     shape = Shape(states=3, actions=1 + level, branches=level)
-    targets = tuple(name for name in setting.states if name in others)
-    rows = [
-        row
-        for action in actions
-        for row in draw_outcomes(rng, state, action, rng.sample(targets, rng.choice((1, level))), shape)
-    ]
+    rows = []
+    for action, targets in ahead_of.items():
+        chosen = rng.sample(targets, min(rng.choice((1, level)), len(targets)))
+        rows += draw_outcomes(rng, state, action, tuple(s for s in setting.states if s in chosen), shape)
     needed = {state, *(row.next for row in rows)} if level == 1 else {row.next for row in rows}
     gamma = rng.fraction("1/2", "1")
     values = {name: 2 * rng.nonzero(-3, 5) for name in setting.states if name in needed}

@@ -8,8 +8,9 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, WeightField, shown
+from rldrill.problems.exact import Exact, Logarithm, Probability, Weight, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.features import ActionPreferences
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part, YesNo
@@ -32,7 +33,7 @@ class Sample(Givens):
     old: Probability | None = Field(
         default=None, description="The probability with which the old policy took it; instead of old_preferences."
     )
-    old_preferences: dict[Name, WeightField] | None = Field(
+    old_preferences: ActionPreferences | None = Field(
         default=None,
         description="The old policy's preferences for the actions of the state; instead of old.",
         examples=[{"left": 0, "right": "ln 2"}],
@@ -40,7 +41,7 @@ class Sample(Givens):
     new: Probability | None = Field(
         default=None, description="The probability with which the new policy takes it; instead of preferences."
     )
-    preferences: dict[Name, WeightField] | None = Field(
+    preferences: ActionPreferences | None = Field(
         default=None, description="The new policy's preferences for the actions of the state; instead of new."
     )
     advantage: Exact = Field(description="The advantage of the action.")

@@ -15,7 +15,7 @@ from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, ever
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Episode):

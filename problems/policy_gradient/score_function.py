@@ -9,7 +9,7 @@ from rldrill.problems.document import Block, Document, Paragraph, Table, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, WeightField, dot, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
+from rldrill.problems.features import OneStateFeatures, check_features, features_table, weight_names, weights
 from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open
@@ -35,7 +35,7 @@ class Given(Givens):
     policy takes one of two actions with the probability p, and p is asked for.
     """
 
-    features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
+    features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
     theta: tuple[WeightField, ...] | None = Field(default=None, description="The weights; instead of policy.")
     policy: OpenDistributionField | None = Field(
         default=None, description="The probability of every action; instead of theta."

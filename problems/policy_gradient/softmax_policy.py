@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, Weight, WeightField, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.features import FeatureVector, check_features, features_table, weights
+from rldrill.problems.features import FeatureVector, OneStateFeatures, check_features, features_table, weights
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
@@ -37,7 +37,7 @@ class Given(Givens):
     """
 
     theta: tuple[WeightField, ...] = Field(min_length=1, max_length=20, description="The weights.")
-    features: dict[Name, FeatureVector] = Field(min_length=2, description="The features of every action.")
+    features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
     entropy: bool = Field(
         default=False, exclude_if=lambda entropy: not entropy, description="Whether the policy's entropy is asked for."
     )

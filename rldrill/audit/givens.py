@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
+from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.solution import Solution, solve
 

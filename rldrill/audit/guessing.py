@@ -2,9 +2,9 @@
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from typing import Any
 
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
 from rldrill.solutions.answers.judging import credit
 from rldrill.solutions.answers.kinds import answer_kind

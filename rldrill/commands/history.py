@@ -48,12 +48,13 @@ def command(
 def _export(path: Path, target: Path | None) -> None:
     from rldrill.history.attempts import to_line
     from rldrill.history.log import read
+    from rldrill.writing import write_bytes_atomically
 
     lines = "".join(f"{to_line(attempt)}\n" for attempt in read(path))
     if target is None:
         typer.echo(lines, nl=False)
     else:
-        target.write_text(lines, encoding="utf-8")
+        write_bytes_atomically(target, lines.encode())
 
 
 def _import(path: Path, source: Path | None) -> None:

@@ -27,6 +27,8 @@ def command(
     Examples: rldrill solve examples/racing-car.toml · rldrill solve td-zero/2/7 --json
     """
 
+    from rich.padding import Padding
+
     import rldrill
     from rldrill.commands.output import print_json
     from rldrill.problem_file import schema_of
@@ -47,5 +49,5 @@ def command(
     out = console()
     for part in exercise.parts:
         out.print(asked(part, only=len(exercise.parts) == 1))
-        out.print(render([exercise.answer(part)]))
+        out.print(Padding(render([exercise.answer(part)]), (0, 0, 0, 4), expand=False))
     out.print(render([Heading("Working"), *exercise.working()]))

@@ -4,13 +4,13 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rldrill.commands.arguments import Json, tell
-from rldrill.problems.fractions import Fraction
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -70,6 +70,9 @@ def command(
     hand_ins: Annotated[
         HandIns | None, typer.Option("--hand-ins", help="Which counts of one student's; with an exam the last.")
     ] = None,
+    absent: Annotated[
+        bool, typer.Option("--absent/--no-absent", help="Count people on the roster who handed in nothing.")
+    ] = True,
     allow_files: Annotated[
         bool, typer.Option("--allow-files", help="Open problem files that answers name, beside the answers.")
     ] = False,
@@ -131,6 +134,7 @@ def command(
         needed=None if enough is None else _share(enough),
         rules=Rules(causes=told in ("reason", "key"), keys=told == "key"),
         student=seconds,
+        absent=absent,
     )
     with _progress() as advance:
         report = verify(files, settings, advance)
@@ -237,7 +241,7 @@ def _put(text: str, path: Path) -> None:
 def _print(report: "Report", feedback: str) -> None:
     from rich.text import Text
 
-    from rldrill.grading.reports.text import points
+    from rldrill.grading.reports.text import earned, points
     from rldrill.render.terminal import console, words
 
     out = console()
@@ -246,9 +250,9 @@ def _print(report: "Report", feedback: str) -> None:
         where = ", ".join(student.paths)
         named = ": ".join(filter(None, (where, whose))) + (f", version {student.version}" if student.version else "")
         out.print(words((named, "bold")))
-        if feedback != "none":
+        if feedback != "none" and student.paths:
             out.print(_table(student, feedback))
-        out.print(Text(f"\nScore: {points(student.score)}\n"))
+        out.print(Text(f"\nScore: {earned(report, student)}\n"))
     if len(report.students) > 1:
         out.print(Text(f"All together: {points(report.score)}"))
 

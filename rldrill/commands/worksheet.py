@@ -13,6 +13,7 @@ from rldrill.commands.arguments import Json, Level, NotationOption, Seed, comple
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
     from rldrill.exam.exam import Exam
+    from rldrill.exam.sealing import Secret
     from rldrill.export.formats import Format
     from rldrill.print.exam_files import Files
 
@@ -67,6 +68,10 @@ def command(
     roster: Annotated[
         Path | None, typer.Option("--roster", metavar="FILE.csv", help="A version for everybody in it: name, number.")
     ] = None,
+    secret_file: Annotated[
+        Path | None,
+        typer.Option("--secret-file", metavar="FILE", help="Seal the exam: without this file nobody can redraw it."),
+    ] = None,
     paper: Annotated[str | None, typer.Option("--paper", metavar="a4|letter", help="The paper.")] = None,
     space: Annotated[Space | None, typer.Option("--space", help="How much room for working.")] = None,
     solutions: Annotated[Solutions | None, typer.Option("--solutions", help="Where the solutions are.")] = None,
@@ -83,7 +88,7 @@ def command(
     ] = None,
     format_: Annotated[
         str | None,
-        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, anki, latex, markdown or json."),
+        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, qti, anki, latex, markdown, json."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", "-f", help="Replace what an earlier run has written.")] = False,
     init: Annotated[
@@ -94,7 +99,7 @@ def command(
     ] = None,
     key: Annotated[bool, typer.Option("--key", help="Print keys alone.")] = False,
     as_json: Json = False,
-    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
+    notation: NotationOption = None,
 ) -> None:
     """Typeset a worksheet or an exam as PDF, with a key for each version.
 
@@ -119,12 +124,13 @@ def command(
         "solutions": solutions and solutions.value,
         "ids": ids,
         "duplex": duplex,
+        "notation": notation,
     }
     if init is not None:
         _write_template(init, force=force)
         written = [init]
     elif source is not None:
-        if names or count or minutes or level or exclude or seed is not None or versions or roster or title:
+        if any((names, count, minutes, level, exclude, seed is not None, versions, roster, title, secret_file)):
             raise UsageError("--from prints what the manifest holds; leave out what would make another exam.")
         if other is not None:
             _print(_exported(_from(source, changes), output or source, other, force=force), as_json=as_json)
@@ -136,11 +142,11 @@ def command(
             **changes, exclude=None if exclude is None else tuple(exclude), seed=seed, versions=versions, title=title
         )
         if other is not None:
-            exam = _drawn(blueprint, roster)
+            exam = _drawn(blueprint, roster, secret_file)
             practice = roster is None and not _is_blueprint_file(names or [], blueprint)
             _print(_exported(exam, output or Path(stem), other, practice=practice, force=force), as_json=as_json)
             return
-        written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, only_keys=key, force=force)
+        written = _printed(blueprint, output or Path(f"{stem}.pdf"), roster, secret_file, only_keys=key, force=force)
     _print([str(path) for path in written], as_json=as_json)
 
 
@@ -149,18 +155,38 @@ def _is_blueprint_file(names: list[str], blueprint: "Blueprint") -> bool:
     return len(names) == 1 and names[0].lower().endswith(".toml") and all(e.file is None for e in blueprint.problems)
 
 
-def _drawn(blueprint: "Blueprint", roster: Path | None) -> "Exam":
-    from rldrill.exam.fairness import fairness
+def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None) -> "Exam":
     from rldrill.exam.planning import plan
     from rldrill.exam.roster import read_roster
 
     people = () if roster is None else read_roster(roster)
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
-        exam = plan(blueprint, roster=people, advance=advance)
+        exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    if len(exam.versions) > 1:
-        typer.echo(f"{len(exam.versions)} versions: {fairness(exam).says()}", err=True)
+    _tell_fairness(exam)
     return exam
+
+
+def _secret(path: Path | None) -> "Secret | None":
+    if path is None:
+        return None
+    from rldrill.exam.sealing import read_secret
+
+    secret, is_new = read_secret(path)
+    if is_new:
+        typer.echo(f"rldrill: {path} is a new secret; keep it, and the manifest, from everybody else", err=True)
+    return secret
+
+
+def _tell_fairness(exam: "Exam") -> None:
+    from rldrill.exam.fairness import fairness
+
+    if (number := len(exam.versions)) == 1:
+        return
+    figures = fairness(exam)
+    typer.echo(f"{number} versions: {figures.says()}", err=True)
+    if scarce := figures.says_what_is_scarce(number):
+        typer.echo(f"rldrill: {scarce}", err=True)
 
 
 def _from(source: Path, changes: dict[str, Any]) -> "Exam":
@@ -169,9 +195,17 @@ def _from(source: Path, changes: dict[str, Any]) -> "Exam":
     from rldrill.exam.manifest import read_manifest
 
     exam = read_manifest(source)
+    _keep_sealed(exam, changes)
     return replace(
         exam, layout=replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
     )
+
+
+def _keep_sealed(exam: "Exam", changes: dict[str, Any]) -> None:
+    from rldrill.problems.errors import UsageError
+
+    if exam.sealed and changes["ids"]:
+        raise UsageError("The exam is sealed, and IDs would tell what is drawn; leave --ids out.")
 
 
 def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool = False, force: bool) -> list[str]:
@@ -180,7 +214,9 @@ def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool =
 
     target = named(output, format_)
     check(exam, target, format_, force=force)
-    return list(map(str, export(exam, target, format_, practice=practice or exam.layout.solutions == "inline")))
+    practice = practice or exam.layout.solutions == "inline"
+    with _progress("Writing", len(exam.versions)) as advance:
+        return list(map(str, export(exam, target, format_, practice=practice, advance=advance)))
 
 
 def _paper(name: str) -> str:
@@ -228,10 +264,11 @@ def _is_problem(name: str) -> bool:
     return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")
 
 
-def _printed(blueprint: "Blueprint", output: Path, roster: Path | None, *, only_keys: bool, force: bool) -> list[Path]:
-    from rldrill.exam.fairness import fairness
+def _printed(
+    blueprint: "Blueprint", output: Path, roster: Path | None, secret_file: Path | None, *, only_keys: bool, force: bool
+) -> list[Path]:
     from rldrill.exam.manifest import manifest, written
-    from rldrill.exam.planning import plan, version_code
+    from rldrill.exam.planning import plan, version_codes
     from rldrill.exam.roster import read_roster
     from rldrill.exam.selection import fresh_seed
     from rldrill.print.exam_files import Files, check_output, make_room, write
@@ -241,19 +278,19 @@ def _printed(blueprint: "Blueprint", output: Path, roster: Path | None, *, only_
     check_output(output)
     people = () if roster is None else read_roster(roster)
     number = len(people) or blueprint.versions
-    files = Files(output, tuple(map(version_code, range(number))), blueprint.layout, bool(people), only_keys)
+    secret = _secret(secret_file)
     if needs_system_fonts(blueprint.head, people):
         typer.echo("rldrill: some letters come from this computer's fonts; elsewhere they may look otherwise", err=True)
     fresh = blueprint.seed is None
-    blueprint = blueprint.but(seed=fresh_seed() if fresh else None)
-    typer.echo(f"seed {blueprint.seed}", err=True)
+    seed = fresh_seed() if blueprint.seed is None else blueprint.seed
+    typer.echo(f"seed {seed}", err=True)
+    files = Files(output, version_codes(number, seed, secret), blueprint.layout, bool(people), only_keys)
     if fresh:  # what is there is of another seed: that is told before any work is done
         make_room(files, force=force)
     with _progress("Drawing", number) as advance:
-        exam = plan(blueprint, roster=people, advance=advance)
+        exam = plan(blueprint.but(seed=seed), roster=people, secret=secret, advance=advance)
     data = written(manifest(exam, typst_version()))
-    if number > 1:
-        typer.echo(f"{number} versions: {fairness(exam).says()}", err=True)
+    _tell_fairness(exam)
     del exam
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(files, force=force)
@@ -272,6 +309,7 @@ def _reprinted(
     from rldrill.problems.errors import UsageError
 
     exam, makes = read_exam(source)
+    _keep_sealed(exam, changes)
     personal = makes[0]().person is not None
     layout = replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
     target = output or source.with_suffix(".pdf")

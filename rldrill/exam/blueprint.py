@@ -7,12 +7,14 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic_core import PydanticCustomError
 
 from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
 from rldrill.files import parse, read_text, shown
 from rldrill.problems.complaints import nearest
 from rldrill.problems.errors import FileError, UsageError
+from rldrill.problems.notations import LECTURE, known
 
 #: So many problems and versions an exam has at most.
 MOST_PROBLEMS, MOST_VERSIONS = 100, 999
@@ -36,7 +38,17 @@ def _written_date(value: object) -> object:
     return value.isoformat() if isinstance(value, date) else value
 
 
+def _known_notation(name: str) -> str:
+    try:
+        return known(name)
+    except UsageError as error:
+        raise PydanticCustomError("notation", "{said}", {"said": str(error)[:-1]}) from None
+
+
+#: The name of a notation.
+Notation = Annotated[str, AfterValidator(_known_notation)]
 _Points = Annotated[int, Field(ge=1, le=1000)]
+_Partial = Literal["all", "entries"]
 _Names = Annotated[tuple[str, ...], BeforeValidator(_listed), Field(strict=False)]
 
 
@@ -54,6 +66,7 @@ class Entry(_Table):
     level: Annotated[int, Field(ge=1, le=3)] | None = None
     count: Annotated[int, Field(ge=1, le=MOST_PROBLEMS)] | None = None
     points: _Points | Annotated[tuple[_Points, ...], Field(strict=False, min_length=1)] | None = None
+    partial: _Partial | Annotated[tuple[_Partial, ...], Field(strict=False, min_length=1)] | None = None
 
     @property
     def is_fixed(self) -> bool:
@@ -76,13 +89,15 @@ class Blueprint(_Table):
     order: Literal["fixed", "shuffled"] = "fixed"
     minutes: Annotated[int, Field(ge=1, le=600)] | None = None
     points: Annotated[int, Field(ge=1, le=10_000)] | None = None
-    partial: Literal["all", "entries"] = "all"
+    scale: Annotated[int, Field(ge=1, le=10_000)] | None = None
+    partial: _Partial = "all"
     exclude: _Names = ()
     paper: Literal["a4", "letter"] = "a4"
     space: Literal["none", "tight", "normal", "wide"] = "normal"
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: Notation = LECTURE
     problems: Annotated[tuple[Entry, ...], Field(strict=False)] = (Entry(topic=(), count=8),)
     _where: str = PrivateAttr("")
     _lines: tuple[int, ...] = PrivateAttr(())

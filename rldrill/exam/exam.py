@@ -1,10 +1,12 @@
 """An exam as a thing: versions of one length and difficulty that share no problem."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 from rldrill.exercise import Exercise
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.notations import LECTURE
 from rldrill.solutions.effort import minutes, whole
 
 DEFAULT_TITLE = "Reinforcement Learning: worksheet"
@@ -51,6 +53,7 @@ class Layout:
         solutions: whether keys are written, and whether beside the exam or in it.
         ids: whether the problems' IDs and the seed are printed; an ID is its own key.
         duplex: whether every PDF has an even number of pages.
+        notation: how quantities are written.
     """
 
     paper: Literal["a4", "letter"] = "a4"
@@ -58,6 +61,7 @@ class Layout:
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: str = LECTURE
 
 
 @dataclass(frozen=True)
@@ -71,12 +75,14 @@ class Version:
         exercises: the problems in the order in which they are printed.
         slots: for each of them its place in the blueprint, from 0, which versions have in common.
         person: whose it is, where there is a roster.
+        partial: for every problem the rules for wrong entries of its parts, where they are others than the exam's.
     """
 
     code: str
     exercises: tuple[Exercise, ...]
     slots: tuple[int, ...]
     person: Person | None = None
+    partial: tuple[Mapping[str, str], ...] = ()
 
     @property
     def points(self) -> int:
@@ -104,6 +110,8 @@ class Exam:
         versions: all versions.
         partial: what wrong entries of a table or matrix cost: all of the part's points, or their share of them.
         layout: how it is printed.
+        sealed: whether a secret was mixed into its draws.
+        scale: as how many points reports tell the whole exam; None for its own.
     """
 
     head: Head
@@ -111,6 +119,8 @@ class Exam:
     versions: tuple[Version, ...]
     partial: Literal["all", "entries"] = "all"
     layout: Layout = Layout()
+    sealed: bool = False
+    scale: int | None = None
 
 
 def points_of(exercise: Exercise) -> int:

@@ -10,12 +10,14 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
+from rldrill.exam.blueprint import Notation
 from rldrill.exam.exam import Exam, Head, Layout, Person, Version, minutes_of, points_of
 from rldrill.exam.fairness import fairness
 from rldrill.exercise import Exercise, read
 from rldrill.files import read_data, shown
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import Identity, looks_like_id, split_id
+from rldrill.problems.notations import LECTURE
 from rldrill.solutions.effort import minutes_of as part_minutes
 
 #: The version of the manifest's form.
@@ -36,7 +38,9 @@ def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
         "typst": printed_with,
         **asdict(exam.head),
         "seed": exam.seed,
+        **({"sealed": True} if exam.sealed else {}),
         "points": exam.versions[0].points,
+        **({} if exam.scale is None else {"scale": exam.scale}),
         "partial": exam.partial,
         "layout": asdict(exam.layout),
         "fairness": fairness(exam).data(),
@@ -51,17 +55,19 @@ def written(data: Mapping[str, Any]) -> bytes:
 
 def _version(version: Version) -> dict[str, Any]:
     whose = {} if version.person is None else {"person": asdict(version.person)}
-    numbered = enumerate(zip(version.slots, version.exercises, strict=True), 1)
-    problems = [_problem(number, slot, exercise) for number, (slot, exercise) in numbered]
+    rules = version.partial or ({},) * len(version.exercises)
+    numbered = enumerate(zip(version.slots, version.exercises, rules, strict=True), 1)
+    problems = [_problem(number, *each) for number, each in numbered]
     return {"code": version.code, **whose, "points": version.points, "minutes": version.minutes, "problems": problems}
 
 
-def _problem(number: int, slot: int, exercise: Exercise) -> dict[str, Any]:
+def _problem(number: int, slot: int, exercise: Exercise, rules: Mapping[str, str]) -> dict[str, Any]:
     parts = [
         {
             "part": part.label,
             "kind": part.kind.name,
             "points": part.points,
+            **({"partial": rules[part.label]} if part.label in rules else {}),
             "minutes": round(float(part_minutes(exercise.solution, part.label)), 1),
         }
         for part in exercise.parts
@@ -95,6 +101,7 @@ class _Table(BaseModel):
 class _Part(_Table):
     part: str
     points: Annotated[int, Field(ge=0)]
+    partial: Literal["all", "entries"] | None = None
 
 
 class _Problem(_Table):
@@ -110,7 +117,7 @@ class _Person(_Table):
 
 
 class _Version(_Table):
-    code: Annotated[str, Field(min_length=1, max_length=8)]
+    code: Annotated[str, Field(pattern=r"^[A-Z0-9]{1,8}$")]  # it is in the names of files
     person: _Person | None = None
     problems: Annotated[tuple[_Problem, ...], Field(min_length=1)]
 
@@ -121,6 +128,7 @@ class _Layout(_Table):
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: Notation = LECTURE
 
 
 class _Manifest(_Table):
@@ -133,6 +141,8 @@ class _Manifest(_Table):
     language: Literal["en", "de"] = "en"
     decimal_mark: Literal[".", ","] = "."
     seed: int
+    sealed: bool = False
+    scale: Annotated[int, Field(ge=1)] | None = None
     partial: Literal["all", "entries"] = "all"
     paper: Literal["a4", "letter"] = "a4"  # where format 1 has it
     layout: _Layout | None = None
@@ -161,7 +171,7 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     head = Head(**{name: getattr(data, name) for name in Head.__dataclass_fields__})
     layout = Layout(**(data.layout or _Layout(paper=data.paper, ids=True)).model_dump())
     makes = tuple(partial(_made, version, where) for version in data.versions)
-    return Exam(head, data.seed, (), data.partial, layout), makes
+    return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
 
 def codes(path: str | Path) -> tuple[str, ...]:
@@ -177,13 +187,15 @@ def codes(path: str | Path) -> tuple[str, ...]:
 class Printed:
     """What a manifest says of a version without solving it: whose it is, and its problems in their order.
 
-    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0.
+    ``ids`` holds None for a problem of somebody's own; ``slots`` are the places in the blueprint, from 0; ``worth`` has
+    for every problem the points of its parts.
     """
 
     code: str
     person: Person | None
     ids: tuple[str | None, ...]
     slots: tuple[int, ...]
+    worth: tuple[Mapping[str, int], ...]
 
 
 def printed(path: str | Path) -> tuple[Printed, ...]:
@@ -198,6 +210,7 @@ def printed(path: str | Path) -> tuple[Printed, ...]:
             None if version.person is None else Person(version.person.name, version.person.number),
             tuple(problem.id for problem in version.problems),
             _slots(version),
+            tuple({part.part: part.points for part in problem.parts} for problem in version.problems),
         )
         for version in _checked(path).versions
     )
@@ -246,7 +259,10 @@ def _made(version: _Version, where: str) -> Version:
     )
     slots = _slots(version)
     person = None if version.person is None else Person(version.person.name, version.person.number)
-    return Version(version.code, exercises, slots, person)
+    rules = tuple(
+        {part.part: part.partial for part in problem.parts if part.partial is not None} for problem in version.problems
+    )
+    return Version(version.code, exercises, slots, person, rules)
 
 
 def _slots(version: _Version) -> tuple[int, ...]:

@@ -3,11 +3,15 @@
 import csv
 from io import StringIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rldrill.exam.blueprint import MOST_VERSIONS
 from rldrill.exam.exam import Person
 from rldrill.files import read_text, shown
 from rldrill.problems.errors import FileError
+
+if TYPE_CHECKING:
+    from _csv import Reader
 
 #: A longer name does not fit on the head of a page.
 _LONGEST = 60
@@ -22,7 +26,15 @@ def read_roster(path: str | Path) -> tuple[Person, ...]:
     where = shown(path)
     text = read_text(path, (".csv",))
     head = text.partition("\n")[0]
-    rows = csv.reader(StringIO(text), delimiter=";" if head.count(";") > head.count(",") else ",")
+    lines = StringIO(text, newline=None)  # a line may end as it did on old Macintoshes
+    rows = csv.reader(lines, delimiter=";" if head.count(";") > head.count(",") else ",")
+    try:
+        return _people(rows, where)
+    except csv.Error as error:
+        raise FileError(f"{where}, line {rows.line_num}: it is no line of a table ({error}); correct it.") from None
+
+
+def _people(rows: "Reader", where: str) -> tuple[Person, ...]:
     names = [cell.strip().lower() for cell in next(rows, [])]
     if "name" not in names or "number" not in names:
         raise FileError(f"{where}, line 1: a roster begins with the line 'name,number'; write it there.")

@@ -1,11 +1,12 @@
 """The places of an exam: which family and level, or which fixed problem, stands where."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import chain, islice, zip_longest
 
-from rldrill.exam.blueprint import MOST_PROBLEMS, Blueprint, Entry
+from rldrill.exam.blueprint import MOST_PROBLEMS, MOST_VERSIONS, Blueprint, Entry
+from rldrill.exam.expected import COUNTED, variety
 from rldrill.exam.expected import minutes as expected
 from rldrill.exam.selection import MIXED
 from rldrill.exercise import Exercise, load
@@ -30,6 +31,7 @@ class Slot:
         level: at which level; None for a fixed problem.
         fixed: the problem, where it is the same in every version.
         points: of the problem or of its parts, where they are set.
+        partial: the rule for wrong entries, of the problem or of its parts, where it is another than the exam's.
         where: where the blueprint says so; what complaints begin with.
     """
 
@@ -37,7 +39,14 @@ class Slot:
     level: int | None
     fixed: Exercise | None = None
     points: int | tuple[int, ...] | None = None
+    partial: str | tuple[str, ...] | None = None
     where: str = ""
+
+    @property
+    def by_part(self) -> list[tuple[str, tuple[int, ...] | tuple[str, ...]]]:
+        """What is set for every part: a problem has to have as many."""
+        found = (("points", self.points), ("rules for partial points", self.partial))
+        return [(what, each) for what, each in found if isinstance(each, tuple)]
 
     @property
     def minutes(self) -> int:
@@ -45,15 +54,31 @@ class Slot:
         levels = expected()[self.family]
         return levels[min(self.level or 2, len(levels)) - 1]
 
+    @property
+    def variety(self) -> int:
+        """How many versions may have such a problem and share no answer, as far as that is counted."""
+        levels = variety()[self.family]
+        counted = levels[min(self.level or 2, len(levels)) - 1]
+        return MOST_VERSIONS if counted == COUNTED else counted
 
-def slots(blueprint: Blueprint, seed: int) -> tuple[Slot, ...]:
-    """The places of a blueprint's exam; the same seed makes the same choice.
+
+def slots(
+    blueprint: Blueprint, seed: int, versions: int = 1, draws: Callable[[str], Draws] = Draws
+) -> tuple[Slot, ...]:
+    """The places of a blueprint's exam; the same seed makes the same choice, if the same is drawn by the same key.
+
+    Args:
+        blueprint: what the exam shall be.
+        seed: what the choice depends on.
+        versions: how many versions there are: of topics those families come first that have as many different answers.
+        draws: the stream of choices by its key.
 
     Raises:
         FileError: a name in a file does not exist, or a family has no such level; with the line.
         UsageError: the same on a command line.
     """
-    named = {index: _named(blueprint, index, seed) for index in range(len(blueprint.problems))}
+    keys = [f"order {seed} {index}" for index in range(len(blueprint.problems))]
+    named = {index: _named(blueprint, index, draws(key)) for index, key in enumerate(keys)}
     rest = (blueprint.minutes or 0) - sum(slot.minutes for found in named.values() for slot in found or ())
     topics = [index for index, found in named.items() if found is None]
     if blueprint.minutes and topics and rest < 1:
@@ -63,11 +88,11 @@ def slots(blueprint: Blueprint, seed: int) -> tuple[Slot, ...]:
     for index in topics:
         weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
         time = None if blueprint.minutes is None else max(1, rest * weights[0] // sum(weights))
-        found = _of_topics(blueprint, index, Draws(f"order {seed} {index}"), time)
+        found = _of_topics(blueprint, index, draws(keys[index]), time, versions)
         rest -= sum(slot.minutes for slot in found)
         named[index] = found
     return tuple(
-        replace(slot, points=entry.points, where=blueprint.place(index))
+        replace(slot, points=entry.points, partial=entry.partial, where=blueprint.place(index))
         for index, entry in enumerate(blueprint.problems)
         for slot in named[index] or ()
     )
@@ -87,7 +112,7 @@ def _told(where: str) -> Iterator[None]:
         raise
 
 
-def _named(blueprint: Blueprint, index: int, seed: int) -> list[Slot] | None:
+def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
     """The places of an entry that names its problem or family; None for one that names topics."""
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
@@ -99,17 +124,16 @@ def _named(blueprint: Blueprint, index: int, seed: int) -> list[Slot] | None:
         (header,) = headers([family_of(entry.family).name])
         if entry.level is not None and entry.level not in header.levels:
             raise UsageError(f"{header.name} has no level {entry.level}; it has {', '.join(map(str, header.levels))}.")
-        draws = Draws(f"order {seed} {index}")
         return [Slot(header.name, _level(header, entry.level, draws)) for _ in range(entry.count or 1)]
 
 
-def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None) -> list[Slot]:
+def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None, versions: int) -> list[Slot]:
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
         candidates = _headers(entry.topic or (), blueprint.exclude)
     if time is None:
-        return list(islice(_endless(candidates, entry.level, draws), entry.count or 1))
-    trials = (_filled(candidates, entry, draws, time) for _ in range(_TRIALS))
+        return list(islice(_endless(candidates, entry.level, draws, versions), entry.count or 1))
+    trials = (_filled(candidates, entry, draws, time, versions) for _ in range(_TRIALS))
     return min(trials, key=lambda found: abs(time - sum(slot.minutes for slot in found)))
 
 
@@ -126,11 +150,20 @@ def _level(header: Header, wanted: int | None, draws: Draws) -> int:
     return level if level in header.levels else header.levels[-1]
 
 
-def _endless(candidates: Sequence[Header], level: int | None, draws: Draws) -> Iterator[Slot]:
-    """Topic by topic in turn, every family before one comes again."""
+def _endless(candidates: Sequence[Header], level: int | None, draws: Draws, versions: int) -> Iterator[Slot]:
+    """Topic by topic in turn, every family before one comes again; first those with an answer for each version."""
     while True:
+        poor: list[Slot] = []
         for header in _interleaved(candidates, draws):
-            yield Slot(header.name, _level(header, level, draws))
+            slot = Slot(header.name, _level(header, level, draws))
+            if slot.variety < versions and level is None:
+                others = [replace(slot, level=other) for other in header.levels]
+                slot = max((slot, *others), key=lambda each: min(each.variety, versions))
+            if slot.variety < versions:
+                poor.append(slot)
+            else:
+                yield slot
+        yield from sorted(poor, key=lambda slot: -slot.variety)
 
 
 def _interleaved(candidates: Sequence[Header], draws: Draws) -> Iterator[Header]:
@@ -141,9 +174,9 @@ def _interleaved(candidates: Sequence[Header], draws: Draws) -> Iterator[Header]
     return (header for header in chain.from_iterable(rounds) if header is not None)
 
 
-def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int) -> list[Slot]:
+def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int, versions: int) -> list[Slot]:
     """One random choice: so many as are asked for, or as many as the time has room for; topics in turn."""
-    endless = _endless(candidates, entry.level, draws)
+    endless = _endless(candidates, entry.level, draws, versions)
     if entry.count is not None:
         return list(islice(endless, entry.count))
     result: list[Slot] = []

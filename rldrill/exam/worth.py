@@ -1,11 +1,11 @@
 """Points: what every part of an exam earns, by the minutes, as its blueprint sets them, or scaled to a total."""
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 from rldrill.exam.slots import Slot
 from rldrill.exercise import Exercise
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.effort import minutes_of, points
 
 
@@ -44,6 +44,29 @@ def worth(slots: Sequence[Slot], exercises: Sequence[Exercise], total: int | Non
     for (index, label, _), share in zip(waiting, shared([amount for *_, amount in waiting], rest), strict=True):
         result[index][label] = share
     return result
+
+
+def partial(slots: Sequence[Slot], exercises: Sequence[Exercise]) -> list[dict[str, str]]:
+    """The rules for wrong entries of every problem's parts, where the blueprint sets others than the exam's.
+
+    Raises:
+        FileError: there are more or fewer of them than parts.
+    """
+    return [_rules(slot, exercise) for slot, exercise in zip(slots, exercises, strict=True)]
+
+
+def _rules(slot: Slot, exercise: Exercise) -> dict[str, str]:
+    labels = [part.label for part in exercise.problem.parts]
+    if slot.partial is None:
+        return {}
+    rules = [slot.partial] * len(labels) if isinstance(slot.partial, str) else slot.partial
+    if len(rules) != len(labels):
+        raise error(
+            slot.where,
+            f"partial is given for {len(rules)} part{'s' * (len(rules) > 1)}, and {slot.family} has {len(labels)} "
+            "here; give so many, or one rule for the problem.",
+        )
+    return dict(zip(labels, rules, strict=True))
 
 
 def shared(weights: Sequence[Fraction | int], total: int) -> list[int]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
+from rldrill.grading.places import places
 from rldrill.problems.errors import FileError, NothingToGrade, UsageError
 from rldrill.problems.identity import looks_like_id
 from rldrill.typed import typed
@@ -32,17 +33,21 @@ _ALSO = {
 _FIRST = ("first name", "firstname", "given name", "vorname")
 _LAST = ("last name", "lastname", "surname", "family name", "nachname")
 _AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
+#: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
+csv.field_size_limit(10**7)
 _SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
 _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
 #: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
 JOINERS = "\u200c\u200d"
 #: No name has more characters.
 _LONGEST = 200
+#: A table from problems to answers is one student's; it has no more characters.
+_LARGEST = 10**6
 #: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
 _MOST_BROKEN = 20
 #: A problem's number in an exam.
 PLACE = re.compile(r"[1-9][0-9]{0,2}")
-_BARE_ID = re.compile(r"^\s*\[?\s*(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
+_BARE_ID = re.compile(r"^[ \t]*+\[?[ \t]*+(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +59,11 @@ class Entry:
         problem: an ID, or the path of a problem file from the folder of the file of answers.
         part: the label of the part; empty where the file leaves it out.
         text: what was typed; blank for no answer.
-        line: the line of the file, where its format has one for every answer.
+        line: the line of the file where the answer stands.
         path: the file of answers.
         commas: whether commas may be decimal commas: semicolons part the file's columns, and no answer has a point.
         number: the student's matriculation number, where there is a column for it.
-        column: which field of its line the answer is, counted from 1, in a spreadsheet.
+        column: where in the line it begins, counted from 1: which field it is in a spreadsheet, else which sign.
     """
 
     student: str
@@ -74,7 +79,19 @@ class Entry:
     @property
     def where(self) -> str:
         """The place, as sentences name it."""
-        return shown(self.path) if self.line is None else f"{shown(self.path)}, line {self.line}"
+        return placed(shown(self.path), self.line, None if self.is_cell else self.column)
+
+    @property
+    def is_cell(self) -> bool:
+        """Whether it is a cell of a spreadsheet."""
+        return self.path.suffix.lower() == ".csv"
+
+
+def placed(path: str, line: int | None, column: int | None) -> str:
+    """A place in a file, as sentences name it."""
+    return ", ".join(
+        [path, *([] if line is None else [f"line {line}"]), *([] if column is None else [f"column {column}"])]
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +138,8 @@ def read_answers(path: str | Path) -> HandedIn:
     path = Path(path)
     text = read_text(path, SUFFIXES)
     suffix = path.suffix.lower()
+    if suffix in DATA_SUFFIXES and len(text) > _LARGEST:
+        raise FileError(f"{shown(path)}: it is larger than {_LARGEST // 10**6} MB, and is one student's; shorten it.")
     if not text.strip():
         rows: tuple[Row, ...] = ()
     elif suffix == ".csv":
@@ -136,23 +155,23 @@ def read_answers(path: str | Path) -> HandedIn:
     return HandedIn(path, entries, refused)
 
 
-def _row(fields: Mapping[str, object], line: int | None, path: Path, column: int | None = None) -> Row:
+def _row(fields: Mapping[str, object], line: int | None, column: int | None, path: Path) -> Row:
     """An entry from what a file holds, or why there is none."""
     try:
-        return _entry(fields, line, path, column)
+        return _entry(fields, line, column, path)
     except FileError as error:
         student = fields.get("student") or fields.get("number")
         whose = student if isinstance(student, str | int) else ""
         return Refusal(shown(path), line, _in_one_line(str(whose)), str(error))
 
 
-def _entry(fields: Mapping[str, object], line: int | None, path: Path, column: int | None) -> Entry:
+def _entry(fields: Mapping[str, object], line: int | None, column: int | None, path: Path) -> Entry:
     """An entry from what a file holds.
 
     Raises:
         FileError: a field is not what it should be.
     """
-    place = Entry("", "", "", "", line, path).where
+    place = Entry("", "", "", "", line, path, column=column).where
     student, number, problem, part = (_word(fields.get(name), name, place) for name in _NAMED)
     if (
         not looks_like_id(problem)
@@ -176,9 +195,10 @@ def _word(value: object, name: str, place: str) -> str:
         return ""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise FileError(f"{place}: '{name}' must be a text; write it in quotes.")
-    word = " ".join(unicodedata.normalize("NFC", str(value)).split())
+    word = " ".join(str(value)[: 10 * _LONGEST].split())  # normal forms of long texts take long
+    word = unicodedata.normalize("NFC", word)
     if len(word) > _LONGEST:
-        raise FileError(f"{place}: '{name}' has {len(word)} characters; shorten it.")
+        raise FileError(f"{place}: '{name}' has more than {_LONGEST} characters; shorten it.")
     if not all(sign.isprintable() or sign in JOINERS for sign in word):
         raise FileError(f"{place}: '{name}' holds a character that cannot be printed; retype it.")
     return word
@@ -198,10 +218,12 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
         hint = ' Problem IDs stand in quotes: ["td-zero/2/7"].'
         unquoted = path.suffix.lower() == ".toml" and _BARE_ID.search(text)
         raise FileError(f"{error}{hint if unquoted else ''}") from None
+    found = places(text, path)
     if not isinstance(data, dict):
         raise FileError(f"{where}: a file of answers is a table from problem IDs to answers.")
     student = data.pop("student", None)
-    answers = data.pop("answers", None) if "answers" in data else data
+    above = ("answers",) if "answers" in data else ()
+    answers = data.pop("answers", None) if above else data
     if answers is not data and data:
         raise FileError(f"{where}: {_quoted(next(iter(data)))} stands outside 'answers'; move it in there.")
     if not isinstance(answers, dict):
@@ -209,7 +231,9 @@ def _tables(text: str, path: Path) -> Iterator[Row]:
     for problem, parts in answers.items():
         for part, answer in parts.items() if isinstance(parts, dict) else [("", parts)]:
             fields = {"student": student, "problem": problem, "part": part, "answer": answer}
-            yield _row(fields, None, path)
+            keys = (*above, problem, part) if isinstance(parts, dict) else (*above, problem)
+            line, column = found.get(keys, (None, None))
+            yield _row(fields, line, column, path)
 
 
 def _json_lines(text: str, path: Path) -> Iterator[Row]:
@@ -222,7 +246,8 @@ def _json_lines(text: str, path: Path) -> Iterator[Row]:
         except FileError as error:
             yield Refusal(shown(path), number, "", str(error))
         else:
-            yield _row(data, number, path)
+            _, column = places(line, path).get(("answer",), (None, None))
+            yield _row(data, number, column, path)
 
 
 def _object(line: str, path: Path, number: int) -> dict[str, object]:
@@ -243,7 +268,7 @@ def _csv(text: str, path: Path) -> Iterator[Row]:
     rows = [
         Refusal(shown(path), line, _whose(found), found["says"])
         if "says" in found
-        else _row({name: found[name] for name in _KNOWN if name in found}, line, path, column)
+        else _row({name: found[name] for name in _KNOWN if name in found}, line, column, path)
         for line, found in records
     ]
     commas = separator == ";" and not any(isinstance(row, Entry) and _POINT.search(row.text) for row in rows)
@@ -330,7 +355,8 @@ def _separator(text: str, wanted: Sequence[str]) -> tuple[str, int, str]:
 
 def _names(fields: Sequence[str]) -> list[str]:
     names = [" ".join(field.replace("_", " ").replace('"', " ").lower().split()) for field in fields]
-    return [_ALSO[name] if _ALSO.get(name) not in (None, *names) else name for name in names]
+    there = {None, *names}
+    return [_ALSO[name] if _ALSO.get(name) not in there else name for name in names]
 
 
 def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:

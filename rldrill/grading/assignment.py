@@ -31,7 +31,8 @@ class Assignment:
     Args:
         manifest: the file that was written beside the exam.
         version: the code of the version that everybody sat; None to go by the roster.
-        roster: a table of the students with their versions; None to go by the manifest's own.
+        roster: a table of the students, with their versions where there are several and ``version`` is None; without
+            it the manifest's own people are the roster.
 
     Raises:
         FileError: the manifest or the roster cannot be read.
@@ -41,24 +42,28 @@ class Assignment:
     def __init__(self, manifest: Path, version: str | None = None, roster: Path | None = None) -> None:
         self.manifest = manifest
         exam = read_exam(manifest)[0]
-        self.title, self.partial, self._ids_printed = exam.head.title, exam.partial, exam.layout.ids
+        self.title, self.partial, self.scale = exam.head.title, exam.partial, exam.scale
+        self._ids_printed = exam.layout.ids
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None
         self._roster: dict[str, Sitting] = {}
+        self.people: list[Sitting] = []
         self._known = f"the versions of {shown(manifest)} are {', '.join(self.versions)}"
         if version is not None:
             if version.upper() not in self.versions:
                 raise UsageError(f"There is no version {version[:20]!r}; {self._known}.")
             self._all = self.versions[version.upper()]
-        elif roster is not None:
-            self._roster = self._read(roster)
-        elif any(each.person for each in self.versions.values()):
+        elif len(self.versions) == 1:
+            (self._all,) = self.versions.values()
+        if roster is not None:
+            self._read(roster)
+            self._all = None
+        elif version is None and any(each.person for each in self.versions.values()):
             for each in self.versions.values():
                 if each.person is not None:
                     self._put(Sitting(each.person.name, each.person.number, each))
-        elif len(self.versions) == 1:
-            (self._all,) = self.versions.values()
-        else:
+            self._all = None
+        elif self._all is None:
             raise UsageError(f"Who sat which version? {self._known}; say --version CODE or --roster FILE.csv.")
 
     def sitting(self, entry: Entry) -> Sitting:
@@ -112,6 +117,7 @@ class Assignment:
         return (self._ids_printed and version.ids[place]) or f"problem {place + 1}"
 
     def _put(self, sitting: Sitting) -> None:
+        self.people.append(sitting)
         for name in filter(None, (sitting.number, sitting.student)):
             key = folded(name)
             if self._roster.setdefault(key, sitting) is not sitting:
@@ -119,20 +125,20 @@ class Assignment:
                     sitting.student, "", None, f"several students on the roster are called {name!r}; give the number."
                 )
 
-    def _read(self, path: Path) -> dict[str, Sitting]:
-        """A roster: columns for the name (or first and last name) or the number, and for the version."""
+    def _read(self, path: Path) -> None:
+        """A roster: columns for the name (or first and last name) or the number, and for the version, if it differs."""
         text = read_text(path, (".csv",))
-        for line, row in table(text, path, ("student", "number", "version"), ("version",))[2]:
+        needed = ("version",) if self._all is None else ()
+        for line, row in table(text, path, ("student", "number", "version"), needed)[2]:
             if "says" in row:
                 raise FileError(row["says"])
-            code = row.get("version", "").upper()
+            code = row.get("version", "").upper() if self._all is None else self._all.code
             if code not in self.versions:
                 raise FileError(f"{shown(path)}, line {line}: there is no version {code[:20]!r}; {self._known}.")
             student = row.get("student", "")
             if not student and not row.get("number"):
                 raise FileError(f"{shown(path)}, line {line}: neither a name nor a number stands there; give one.")
             self._put(Sitting(student or row["number"], row.get("number", ""), self.versions[code]))
-        return self._roster
 
 
 def folded(name: str) -> str:

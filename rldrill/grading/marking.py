@@ -3,18 +3,19 @@
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
+from time import perf_counter
 from typing import Any, TypeAlias
 
-from rldrill.diagnosis import IN_A_FILE
+from rldrill.diagnosis import IN_A_FILE, Diagnosis
 from rldrill.exam.exam import Version
 from rldrill.exam.manifest import read_exam
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
 from rldrill.grading.report import MISSING, Judged, Score
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
@@ -23,6 +24,8 @@ from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 Ref: TypeAlias = str | tuple[str, int]
 #: The label of a part, what was typed, and the earlier answers that it may go on from.
 _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
+#: So many seconds are spent in all on what can be done wrongly in one problem; what is found by then is looked up.
+_SEARCH = 4.0
 #: So many judgements are kept.
 _KEPT = 50_000
 #: Entries that are the same in so many other draws are the same in every draw.
@@ -98,6 +101,7 @@ class Desk:
             UserError: it does not exist or is broken.
         """
         if ref not in self._problems:
+            rules: Mapping[str, str] = {}
             if isinstance(ref, str):
                 exercise = load(ref)
             else:
@@ -105,7 +109,8 @@ class Desk:
                 if code not in self._versions:
                     self._versions[code] = self._makes[code]()
                 exercise = self._versions[code].exercises[number]
-            self._problems[ref] = _Problem(exercise, self._rules)
+                rules = self._versions[code].partial[number]
+            self._problems[ref] = _Problem(exercise, self._rules, rules)
         return self._problems[ref]
 
     @cached_property
@@ -144,7 +149,7 @@ class Desk:
             taken[label] = entry
         elif not self._rules.repeated:
             whose = f" by {entry.student}" if entry.student else ""
-            lines = "" if entry.line is None else f" (first in line {before.line})"
+            lines = "" if before.line is None else f" (first in line {before.line})"
             return f"{name} ({label}) is answered twice{whose}{lines}; the first answer counts, take out the other."
         return ""
 
@@ -157,11 +162,12 @@ def refusal(entry: Entry, says: str, problem: str) -> Refusal:
 class _Problem:
     """A problem and the answers to it that were judged."""
 
-    def __init__(self, exercise: Exercise, rules: Rules) -> None:
-        self.exercise, self._rules = exercise, rules
+    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str]) -> None:
+        self.exercise, self._rules, self._partial = exercise, rules, partial
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
+        self._seconds = _SEARCH
         self._same: dict[str, frozenset[str]] = {}
 
     def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
@@ -174,7 +180,7 @@ class _Problem:
             text = "" if entry is None else self._text(part, entry)
             if entry is None or not text.strip():
                 result.append((part.label, entry, self._missing(part)))
-            elif entry.column is not None and _DATE.fullmatch(text.strip()):
+            elif entry.is_cell and _DATE.fullmatch(text.strip()):
                 result.append((part.label, entry, self._date(part, text)))
             else:
                 verdict, judged = self._answer(part, text, given if own else {})
@@ -217,19 +223,26 @@ class _Problem:
         diagnosis = None
         if self._rules.causes and not verdict.accepted:
             wrong = {label: each for label, each in before.items() if not each.accepted}
-            found = self.exercise.diagnosed(part.label, text, verdict, wrong, IN_A_FILE)
-            diagnosis = replace(found, wrong=None, right=None) if found.explains else None
+            found = self._diagnosed(part.label, text, verdict, wrong)
+            diagnosis = found if found.explains else None
         reason = verdict.says if diagnosis is None else diagnosis.of(verdict)
         mistake = "" if verdict.accepted or diagnosis is None else diagnosis.sentence
         score = Score(part.points * self._credit(part, verdict), part.points)
         outcome = verdict.outcome.value
         return Judged(verdict.read, outcome, verdict.accepted, reason, score, self._key(part), diagnosis, mistake)
 
+    def _diagnosed(self, label: str, text: str, verdict: Verdict, wrong: Mapping[str, Verdict]) -> Diagnosis:
+        """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""
+        begun = perf_counter()
+        found = self.exercise.diagnosed(label, text, verdict, wrong, min(IN_A_FILE, self._seconds))
+        self._seconds = max(0.0, self._seconds - (perf_counter() - begun))
+        return found if self._rules.keys else found.without_lines()
+
     def _credit(self, part: Part, verdict: Verdict) -> Fraction:
         """The share of the points; an entry that is the same in every draw earns nothing."""
         if verdict.accepted or not verdict.credit:
             return verdict.credit
-        if self._rules.partial == "all":
+        if self._partial.get(part.label, self._rules.partial) == "all":
             return Fraction(0)
         same = self._same_everywhere(part)
         if not same:

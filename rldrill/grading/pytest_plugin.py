@@ -47,12 +47,12 @@ class Answer(pytest.Item):
 
     def runtest(self) -> None:
         """Fail where the answer is not right."""
-        from rldrill.grading.reports.said import one_line, sentence
+        from rldrill.grading.reports.said import located, one_line
 
         if self._part is None:
             raise WrongAnswer(one_line(self._says))
         if not self._part.judged.accepted:
-            raise WrongAnswer(f"{one_line(self._part.typed)!r}: {one_line(sentence(self._part, 'reason'))}")
+            raise WrongAnswer(f"{one_line(self._part.typed)!r}: {one_line(located(self._part, 'reason'))}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """The sentence alone; a traceback where it is no wrong answer."""
@@ -62,4 +62,5 @@ class Answer(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """Where it stands."""
-        return self.path, None, self.name
+        line = None if self._part is None or self._part.line is None else self._part.line - 1
+        return self.path, line, self.name

@@ -2,17 +2,20 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from rldrill.diagnosis import Diagnosis
-from rldrill.grading.answers_file import Refusal
+from rldrill.grading.answers_file import Refusal, placed
 from rldrill.problems.errors import FileError, NothingToGrade
-from rldrill.problems.fractions import Fraction
 
 #: The version of the JSON that ``Report.to_json`` gives.
 FORMAT = 2
-#: The verdict on a part that was not answered; all others are values of ``Outcome``.
+#: The verdicts on a part that was not answered, and on one that could not be graded; all others are of ``Outcome``.
 MISSING = "missing"
+NOT_GRADED = "not graded"
+#: What is said of somebody on the roster without any answers.
+NOTHING = "handed in nothing"
 #: How much of the judgement a report tells, the least first.
 FEEDBACK = ("none", "verdict", "reason", "key")
 
@@ -33,6 +36,10 @@ class Score:
         """The share of the points that was earned; all of nothing is nothing."""
         return self.points / self.of if self.of else Fraction(0)
 
+    def scaled(self, of: int) -> "Score":
+        """The same share of another total."""
+        return Score(self.share * of, of)
+
 
 @dataclass(frozen=True, slots=True)
 class Judged:
@@ -40,7 +47,7 @@ class Judged:
 
     Args:
         read: how it was read; empty if it was not.
-        verdict: a value of ``Outcome``, or ``missing``.
+        verdict: a value of ``Outcome``, ``missing`` or ``not graded``.
         accepted: whether the part is right, or follows rightly from an earlier answer.
         reason: one or two sentences to the person.
         score: what the answer earns, and what a right one would.
@@ -69,8 +76,8 @@ class MarkedPart:
         typed: what was typed.
         judged: what was found out about it.
         path: the file of answers; empty for what was not answered.
-        line: the line of the file, where its format has one for every answer.
-        column: the field of the line, in a spreadsheet.
+        line: the line of the file.
+        column: the field of the line in a spreadsheet, else the sign where the answer begins.
         slot: the problem's place in the blueprint, which versions have in common, from 1; 0 without an exam.
     """
 
@@ -87,6 +94,11 @@ class MarkedPart:
     def score(self) -> Score:
         """What it earns, of how much."""
         return self.judged.score
+
+    @property
+    def place(self) -> str:
+        """Where the answer stands; empty for what was not answered."""
+        return placed(self.path, self.line, self.column) if self.path else ""
 
     @property
     def name(self) -> str:
@@ -115,9 +127,11 @@ class StudentReport:
         student: the name, or the matriculation number where there is no name.
         number: the matriculation number, where it is known.
         version: the version of the exam; empty without one.
-        paths: the files that hold the answers, as they are shown.
+        paths: the files that hold the answers, as they are shown; none for somebody who handed in nothing.
         parts: every part of every problem.
-        extra: problems that were answered and are not in this student's exam, with why they earn nothing.
+        extra: problems that were answered and are not in this student's exam, with why they earn nothing; and what else
+            somebody should look at.
+        others: their other hand-ins, which do not count.
     """
 
     student: str
@@ -126,6 +140,14 @@ class StudentReport:
     version: str = ""
     paths: tuple[str, ...] = ()
     extra: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
+
+    @property
+    def remark(self) -> str:
+        """What a list of students says beside the points: that somebody handed in nothing, or more than once."""
+        if not self.paths:
+            return NOTHING
+        return f"1 of {len(self.others) + 1} hand-ins" if self.others else ""
 
     @property
     def score(self) -> Score:
@@ -139,6 +161,8 @@ class StudentReport:
             "number": self.number or None,
             "version": self.version or None,
             "files": list(self.paths),
+            "other_files": list(self.others),
+            "handed_in": bool(self.paths),
             "points": self.score.to_json(),
             "answers": [part.to_json(feedback) for part in self.parts],
             "not_marked": list(self.extra),
@@ -155,6 +179,7 @@ class Report:
         notes: by problem file, what was read in it otherwise than it is written, such as 0.3333333333333333 as 1/3.
         title: of the exam; empty without one.
         needed: the share of the points that every student must reach; without it every part must be right.
+        scale: as how many points the exam tells its whole; None for its own.
     """
 
     students: tuple[StudentReport, ...]
@@ -162,6 +187,7 @@ class Report:
     notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     title: str = ""
     needed: Fraction | None = None
+    scale: int | None = None
 
     @property
     def parts(self) -> tuple[MarkedPart, ...]:
@@ -189,12 +215,21 @@ class Report:
             return all(part.judged.accepted for part in student.parts)
         return student.score.share >= self.needed
 
+    def scaled(self, student: StudentReport) -> Score | None:
+        """A student's points on the exam's scale, if it has one."""
+        return None if self.scale is None else student.score.scaled(self.scale)
+
+    def _student(self, student: StudentReport, feedback: str) -> dict[str, Any]:
+        scaled = self.scaled(student)
+        more = {"scaled": scaled and scaled.to_json(), "passed": self.passed(student)}
+        return student.to_json(feedback) | more
+
     def to_json(self, feedback: str = "reason") -> dict[str, Any]:
         """The report as versioned JSON; the right answers are in it only if they are asked for."""
         return {
             "format": FORMAT,
             "title": self.title or None,
-            "students": [student.to_json(feedback) | {"passed": self.passed(student)} for student in self.students],
+            "students": [self._student(student, feedback) for student in self.students],
             "refused": [
                 {
                     "file": refusal.path,

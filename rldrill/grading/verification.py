@@ -3,17 +3,18 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 
+from rldrill.exam.manifest import Printed
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
 from rldrill.grading.assignment import Assignment, Sitting, folded
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
-from rldrill.grading.report import MarkedPart, Report, StudentReport
+from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.identity import looks_like_id, split_id
 
 #: How long the grading of one student may take, and that of a run, in seconds.
@@ -38,6 +39,7 @@ class Settings:
         needed: the share of the points that every student must reach.
         rules: how single answers are marked.
         student: how many seconds the grading of one student may take.
+        absent: whether people on the roster who handed in nothing are reported, too.
     """
 
     assignment: Assignment | None = None
@@ -48,6 +50,7 @@ class Settings:
     needed: Fraction | None = None
     rules: Rules = field(default_factory=Rules)
     student: float = STUDENT
+    absent: bool = True
 
 
 def verify(
@@ -82,10 +85,11 @@ def verify(
                 reports.append(report)
             if advance is not None:
                 advance(count, len(students))
-    title = "" if settings.assignment is None else settings.assignment.title
     if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
         reports = []
-    return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed)
+    exam = settings.assignment
+    title, scale = ("", None) if exam is None else (exam.title, exam.scale)
+    return Report(tuple(reports), tuple(refused), run.notes, title, settings.needed, scale)
 
 
 @dataclass(slots=True)
@@ -94,6 +98,20 @@ class _Student:
 
     sitting: Sitting
     hand_ins: dict[Path, list[Entry]] = field(default_factory=dict)
+    said: dict[str, None] = field(default_factory=dict)
+
+
+class _Clock:
+    """The time that one student has; solving the problems of an exam, which everybody has, is not counted."""
+
+    def __init__(self, seconds: float, desk: Marker | None) -> None:
+        self._seconds, self._desk, self._begun = seconds, desk, perf_counter()
+        self._loaded = 0.0 if desk is None else desk.loading
+
+    def left(self) -> float:
+        """How many seconds are left."""
+        loading = 0.0 if self._desk is None else self._desk.loading - self._loaded
+        return self._seconds - (perf_counter() - self._begun - loading)
 
 
 class _Run:
@@ -114,7 +132,7 @@ class _Run:
         return rules if self._assignment is None else replace(rules, partial=self._assignment.partial)
 
     def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
-        """Who answered, in the order of the files."""
+        """Who answered, in the order of the files; then who is on the roster and did not."""
         found: dict[tuple[str, ...], _Student] = {}
         unknown: set[str] = set()
         for each in handed:
@@ -131,45 +149,60 @@ class _Run:
                 key = (who,) if self._hand_ins and who else (who, str(entry.path))
                 student = found.setdefault(key, _Student(sitting))
                 student.hand_ins.setdefault(entry.path, []).append(entry)
+                if entry.number and sitting.number and folded(entry.student) not in ("", folded(sitting.student)):
+                    whose = f"number {sitting.number} is {sitting.student}'s, and beside it stands {entry.student!r}"
+                    student.said[f"{shown(entry.path)}: {whose}; it is marked as {sitting.student}'s."] = None
         yield from found.values()
+        if self._assignment is not None and self._settings.absent:
+            people = ((folded(each.number or each.student), each) for each in self._assignment.people)
+            yield from (_Student(each) for who, each in people if (who,) not in found)
 
     def report(self, student: _Student, desk: Marker) -> StudentReport | None:
         """One student's report; None where nothing of it could be graded."""
-        chosen = list(student.hand_ins.values())
+        chosen = list(student.hand_ins.values()) or [[]]
         if self._hand_ins == "last":
             chosen = chosen[-1:]
         elif self._hand_ins == "first":
             chosen = chosen[:1]
-        left = self._settings.student
-        reports = []
-        for entries in chosen:
-            begun = perf_counter()
-            reports.append(self._graded(student.sitting, entries, desk, left))
-            left -= perf_counter() - begun
+        clock = _Clock(self._settings.student, desk if self._assignment is not None else None)
+        reports = [self._graded(student.sitting, entries, desk, clock) for entries in chosen]
         found = [report for report in reports if report is not None]
-        return max(found, key=lambda report: report.score.points, default=None)  # the first of the best
+        best = max(found, key=lambda report: report.score.points, default=None)  # the first of the best
+        if best is None:
+            return None
+        others = tuple(path for path in map(shown, student.hand_ins) if path not in best.paths)
+        return replace(best, extra=(*best.extra, *student.said), others=others)
 
-    def _graded(self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, seconds: float) -> StudentReport | None:
+    def _graded(
+        self, sitting: Sitting, entries: Sequence[Entry], desk: Marker, clock: "_Clock"
+    ) -> StudentReport | None:
         tasks, extra = self._tasks(sitting, entries)
         parts: list[MarkedPart] = []
         for slot, task in tasks:
-            begun = perf_counter()
-            parts += self._parts(slot, task, desk, seconds)
-            seconds = max(0.0, seconds - (perf_counter() - begun))
+            parts += self._parts(slot, task, desk, clock, sitting.version)
         if not parts and not extra:
             return None
         version = "" if sitting.version is None else sitting.version.code
         paths = dict.fromkeys(shown(entry.path) for entry in entries)
         return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
 
-    def _parts(self, slot: int, task: Task, desk: Marker, seconds: float) -> Iterator[MarkedPart]:
+    def _parts(
+        self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: Printed | None
+    ) -> Iterator[MarkedPart]:
         try:
             if perf_counter() - self._begun > RUN:
                 raise FileError(f"the run took more than {RUN:g} seconds; grade the rest in another one.")
-            marked = desk.mark(task, seconds)
+            if (left := clock.left()) <= 0:
+                limit = self._settings.student
+                raise FileError(f"grading this student took more than {limit:g} seconds; {task.name} is not graded.")
+            marked = desk.mark(task, left)
         except UserError as error:
             whose = [refusal(entry, str(error), task.name) for entry in task.entries[:1]]
             self._refused += whose or [Refusal("", None, "", str(error), problem=task.name)]
+            if version is not None and not isinstance(task.ref, str):  # what an exam asks counts, whatever happens
+                for label, of in version.worth[task.ref[1]].items():
+                    judged = Judged("", NOT_GRADED, False, str(error), Score(Fraction(0), of), "")
+                    yield MarkedPart(task.name, label, "", judged, slot=slot)
             return
         self._refused += marked.refused
         if marked.notes:

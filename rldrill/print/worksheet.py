@@ -1,6 +1,7 @@
 """The worksheet that is handed out: problems with room for working and answers."""
 
 import math
+from fractions import Fraction
 
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
@@ -8,7 +9,6 @@ from rldrill.print.exam_page import broken, ending, front, heading, label, setup
 from rldrill.print.solved import solved_part
 from rldrill.print.words import Words, words
 from rldrill.problems import parts
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part
 from rldrill.render.mathematics.typst import equation, plain, text
 from rldrill.render.typst import document
@@ -30,7 +30,8 @@ def worksheet_source(exam: Exam, version: Version) -> str:
     what = f"{told.version} {version.code}"
     problems = "".join(_problem(exam, index, item) for index, item in enumerate(version.exercises, 1))
     lines = f"{_points_tables(version, told)}#par[{_instructions(exam, version, told)}]\n"
-    return f"{setup(exam, version, what)}{front(exam, what, lines)}{problems}{ending(exam, told)}"
+    head = setup(exam, version, what, to_fill_in=True)
+    return f"{head}{front(exam, what, lines)}{problems}{ending(exam, told)}"
 
 
 def _instructions(exam: Exam, version: Version, told: Words) -> str:

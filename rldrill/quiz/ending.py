@@ -40,14 +40,8 @@ class Weak:
 
 
 def mistakes(session: Session) -> Counter[str]:
-    """The typical mistakes that were made, and how often."""
-    return Counter(
-        mistake.says
-        for part in session.parts
-        for answer in part.counted
-        if answer.verdict is not None
-        for mistake in answer.verdict.told
-    )
+    """The mistakes that were made, and how often."""
+    return Counter(mistake.says for part in session.parts for made in part.made for mistake in made)
 
 
 def weakest(session: Session) -> Weak | None:

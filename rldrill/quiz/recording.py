@@ -7,7 +7,6 @@ from datetime import UTC, datetime
 
 from rldrill.history.attempts import Attempt
 from rldrill.quiz.session import PartRecord, Record, State
-from rldrill.solutions.answers.judging import Verdict
 
 
 def _nowhere(_: Attempt) -> None:
@@ -67,7 +66,7 @@ class Recorder:
             parts=len(record.parts),
             typed="" if last is None else last.typed,
             outcome=part.state.value if verdict is None else verdict.outcome.value,
-            misconceptions=() if verdict is None else _mistakes(record, part, verdict),
+            misconceptions=() if verdict is None else tuple(mistake.name for mistake in part.made[-1]),
             hints=part.hints,
             retries=part.tries if given_up else part.tries - 1,
             seconds=round(self._clock() - self._since, 3),
@@ -76,11 +75,3 @@ class Recorder:
         self._since = self._clock()
         self.attempts.append(attempt)
         self._keep(attempt)
-
-
-def _mistakes(record: Record, part: PartRecord, verdict: Verdict) -> tuple[str, ...]:
-    """The names of the typical mistakes that give the answer; else the kind of cause that was found for it."""
-    if verdict.told:
-        return tuple(mistake.name for mistake in verdict.told)
-    found = record.diagnosis(part)
-    return (found.kind,) if found is not None and found.explains else ()

@@ -20,12 +20,13 @@ from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
-from rldrill.quiz.shapes import how_to_type
-from rldrill.render.compact import Compact
+from rldrill.quiz.shapes import by_name, how_to_type
+from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
+from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
 
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
@@ -38,13 +39,14 @@ _STYLES = {
     Outcome.WRONG: "red",
     Outcome.UNREADABLE: "yellow",
 }
+#: The sign of a verdict, and what is said before its sentence.
 _WORDS = {
-    Outcome.RIGHT: "✓",
-    Outcome.FOLLOW_THROUGH: "✓",
-    Outcome.CLOSE: "≈",
-    Outcome.MISCONCEPTION: "✗ A typical mistake:",
-    Outcome.WRONG: "✗",
-    Outcome.UNREADABLE: "? Not understood, and not counted:",
+    Outcome.RIGHT: ("✓", ""),
+    Outcome.FOLLOW_THROUGH: ("✓", ""),
+    Outcome.CLOSE: ("≈", ""),
+    Outcome.MISCONCEPTION: ("✗", "A typical mistake: "),
+    Outcome.WRONG: ("✗", ""),
+    Outcome.UNREADABLE: ("?", "Not understood, and not counted: "),
 }
 #: How a line of somebody's own working is marked.
 _STANDINGS = {
@@ -165,7 +167,7 @@ class Screen:
         for part in shown.parts:
             self._print(asked(part, only=len(shown.parts) == 1))
             self._indented(render(shown.working(part.label)))
-            self._indented(renderable(shown.answer(part)))
+            self._signed(("The answer:", "dim"), renderable(shown.answer(part)))
             self._print()
         wanted = self._line("Enter: your turn > ").strip().lower()
         self._print()
@@ -189,18 +191,18 @@ class Screen:
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
-        line = Text(f"Problem {number}", style="bold")
+        line = [(f"Problem {number}", "bold")]
         if session.total is not None:
             bar = session.total <= 40 and not self._plain
             done = "━" * number + "─" * (session.total - number) if bar else ""
-            line.append(f" of {session.total}").append(f"  {done}", style="cyan")
+            line += [(f" of {session.total}", ""), (f"  {done}" if done else "", "cyan")]
         elif session.minutes is not None:
-            line.append(f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}")
+            line.append((f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}", ""))
+        line.append((f"  {family.title}{level}", ""))
         named = f"  {exercise.id or 'your own problem'}"
-        line.append(f"  {family.title}{level}")
-        if len(line) + len(named) < self._console.width:
-            line.append(named, style="dim")
-        self._print(line)
+        if sum(len(text) for text, _ in line) + len(named) < self._console.width:
+            line.append((named, "dim"))
+        self._print(words(*line))
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
@@ -214,14 +216,15 @@ class Screen:
             Text(f"  {how_to_type(first.kind, exercise.problem.parameters)}"),
             *map(Text, (*exercise.notes, *(self._keys or (SHORT_KEYS,)))),
         )
-        taken = sum(len(self._console.render_lines(other)) for other in others)
+        options = self._console.options.update(width=min(self._console.width, WIDEST))
+        taken = sum(len(self._console.render_lines(other, options)) for other in others)
         self._print(Compact(tuple(exercise.question()), besides=_BESIDES + taken))
         self._print()
         self._notes(exercise)
 
     def _notes(self, exercise: Exercise) -> None:
         for note in exercise.notes:
-            self._print(Text(f"({note})", style="dim"))
+            self._print(words((f"({note})", "dim")))
 
     def _parts(self, record: Record) -> Then:
         only = len(record.parts) == 1
@@ -243,7 +246,7 @@ class Screen:
         shape = how_to_type(part.part.kind, record.exercise.problem.parameters)
         keys, self._keys = self._keys, ()
         for line in (shape, *keys) if keys else (f"{shape}  ({SHORT_KEYS})",):
-            self._print(words((f"  {line}", "dim")))
+            self._indented(words((line, "dim")))
 
     def _typed(self, prompt: str, kind: Kind) -> str:
         """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
@@ -347,13 +350,21 @@ class Screen:
         explained = diagnosis is not None and diagnosis.explains and diagnosis.kind != "listed"
         outcome = Outcome.WRONG if explained else verdict.outcome
         says = diagnosis.of(verdict) if diagnosis is not None and explained else verdict.says
+        says = by_name(says, part.part.kind)
+        sign, before = _WORDS[outcome]
+        style = f"bold {_STYLES[outcome]}"
         read = _read_otherwise(verdict, part)
-        self._print(words("  ", (_WORDS[outcome], f"bold {_STYLES[outcome]}"), f" {says}", (read, "dim")))
+        kind = part.part.kind
+        drawn = bool(read) and isinstance(kind, Matrix) and kind.rows > 1
+        told = f"  (read as {read})" if read and not drawn else ""
+        self._signed((sign, style), words((before, style), says, (told, "dim")))
+        if drawn:
+            self._signed(("read as", "dim"), renderable(answer_block(part.part, verdict.value)))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
             self._print(compared(diagnosis.wrong, diagnosis.right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
         if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
-            self._print(words((f"  {_OR_ELSE if part.tries == 1 else _FIRST_LINE}", "dim")))
+            self._indented(words((_OR_ELSE if part.tries == 1 else _FIRST_LINE, "dim")))
 
     def _hint(self, record: Record, part: PartRecord) -> None:
         rungs = ladder(record.exercise, part.part.label)
@@ -364,7 +375,7 @@ class Screen:
             part.hints = max(part.hints, next((n for n, rung in enumerate(rungs) if rung.is_working), part.hints))
         rung = rungs[part.hints]
         part.hints += 1
-        self._print(Text(f"  Hint {part.hints} of {len(rungs)}: {rung.says}", style="dim"))
+        self._print(words((f"  Hint {part.hints} of {len(rungs)}: {rung.says}", "dim")))
         self._indented(Group(*map(renderable, rung.blocks)))
         if part.hints == len(rungs):
             self._print(Text("  That is the whole working.", style="dim"))
@@ -374,8 +385,7 @@ class Screen:
         self._answer(record, part)
 
     def _answer(self, record: Record, part: PartRecord) -> None:
-        self._print(Text("  The answer:", style="dim"))
-        self._indented(renderable(record.exercise.answer(part.part)))
+        self._signed(("The answer:", "dim"), renderable(record.exercise.answer(part.part)))
 
     def _own_working(self, record: Record) -> None:
         """Ask for the person's own working, and say where it goes wrong."""
@@ -388,18 +398,18 @@ class Screen:
         followed = record.exercise.follow(lines)
         for step in followed.lines:
             mark, style = _STANDINGS[step.standing]
-            self._print(words("  ", (mark, f"bold {style}"), f" {step.text}"))
+            self._signed((mark, f"bold {style}"), words(step.text))
             if step.sentence:
-                self._print(words("    ", (step.sentence, style)))
+                self._signed((" " * len(mark), ""), words((step.sentence, style)))
         if followed.first is None:
-            self._print(words("  ", followed.sentence))
+            self._indented(words(followed.sentence))
 
     def _help(self) -> None:
         grid = Table.grid(padding=(0, 2))
         for key, meaning in HELP:
-            grid.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+            grid.add_row(Text(f"  {key}", style="bold"), words(meaning))
         self._print(grid)
-        self._print(Text(f"  Right is {RULE}. {COUNTS}", style="dim"))
+        self._indented(Text(f"Right is {RULE}. {COUNTS}", style="dim"))
 
     def summary(self, session: Session, seconds: float) -> None:
         """Print what was answered, and how."""
@@ -413,8 +423,16 @@ class Screen:
     def _indented(self, content: RenderableType) -> None:
         self._print(Padding(content, (0, 0, 0, 2), expand=False))
 
+    def _signed(self, sign: tuple[str, str], content: RenderableType) -> None:
+        """A sign or word, with its style, and what it is about, whose further lines stand under the first."""
+        grid = Table.grid(padding=(0, 1, 0, 0))
+        grid.add_column(no_wrap=True)
+        grid.add_column(overflow="fold")
+        grid.add_row(words(sign), content)
+        self._indented(grid)
+
     def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content)
+        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _how(part: PartRecord) -> str:
@@ -428,7 +446,7 @@ def _how(part: PartRecord) -> str:
 def _read_otherwise(verdict: Verdict, part: PartRecord) -> str:
     """How an answer was read, where that is not how it was typed."""
     read = _PLACES.sub("", verdict.read)
-    return f"  (read as {read})" if read and _signs(read) != _signs(part.answers[-1].typed) else ""
+    return read if _signs(read) != _signs(part.answers[-1].typed) else ""
 
 
 def _signs(text: str) -> str:

@@ -3,13 +3,14 @@
 import secrets
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from itertools import takewhile
 
 from rldrill.diagnosis import AT_THE_PROMPT, Diagnosis
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part, YesNo
+from rldrill.quiz.mistakes import called
 from rldrill.solutions.answers.judging import Outcome
 
 #: What a wrong answer before, or a hint, takes from what the right answer earns, and what it leaves at least.
@@ -26,11 +27,20 @@ class State(Enum):
     SHOWN = "working shown"
 
 
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """What a wrong answer comes from: its name in the history, and words for it."""
+
+    name: str
+    says: str
+
+
 @dataclass
 class PartRecord:
     """One part: what was tried, and how it ended.
 
-    ``before`` counts the tries before the problem was begun again; ``given_up`` says that its answer was seen then.
+    ``made`` holds the mistakes that every answer comes from; ``before`` counts the tries before the problem was begun
+    again; ``given_up`` says that its answer was seen then.
     """
 
     part: Part
@@ -39,6 +49,7 @@ class PartRecord:
     hints: int = 0
     before: int = 0
     given_up: bool = False
+    made: list[tuple[Mistake, ...]] = field(default_factory=list)
 
     @property
     def counted(self) -> list[GradedPart]:
@@ -106,11 +117,24 @@ class Record:
         texts = {record.part.label: record.counted[-1].typed for record in before if record.counted}
         graded = self.exercise.grade({**texts, current.part.label: text})[current.part.label]
         current.answers.append(graded)
+        current.made.append(self._mistakes(current, graded))
         if graded.accepted:
             current.state = State.DONE
         elif isinstance(current.part.kind, YesNo) and current.counted[-1:] == [graded]:
             current.state = State.MISSED  # there is only one other answer
         return graded
+
+    def _mistakes(self, current: PartRecord, graded: GradedPart) -> tuple[Mistake, ...]:
+        """The typical mistakes that give the answer; else the kind of cause that is found for it."""
+        if graded.verdict is None or graded.accepted:
+            return ()
+        if graded.verdict.told:
+            return tuple(Mistake(mistake.name, mistake.says) for mistake in graded.verdict.told)
+        found = self.diagnosis(current)
+        if found is None or not found.explains:
+            return ()
+        title = self.exercise.problem.family.title
+        return (Mistake(found.kind, f"{title}: {called(found.kind)}."),)
 
     def diagnosis(self, current: PartRecord) -> Diagnosis | None:
         """What the last answer to a part comes from, if it counts and is wrong."""

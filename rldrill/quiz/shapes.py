@@ -1,5 +1,6 @@
 """What is said of how to type an answer: an example of the very shape that a part asks for."""
 
+import re
 from collections.abc import Iterable, Sequence
 from itertools import cycle, islice
 
@@ -12,6 +13,7 @@ from rldrill.solutions.answers.rule import DIGITS
 #: So many entries are written out in an example.
 _MANY = 4
 _EXAMPLES = ("3/4", "0.5", "2", "-1")
+_ENTRY = re.compile(r"\bentry (\d+)\b")
 
 
 def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
@@ -40,6 +42,13 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
             return f"an action for every state, such as {_shortened(pairs, len(actions))}"
         case _:
             return answer_kind(kind).how_to_type()
+
+
+def by_name(says: str, kind: Kind) -> str:
+    """A sentence in which the entries of a vector have the names that the question gives them, not their numbers."""
+    if not isinstance(kind, Numbers):
+        return says
+    return _ENTRY.sub(lambda found: _written(kind.entries[int(found[1]) - 1]), says)
 
 
 def _exact(parameters: Sequence[str]) -> str:

@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,6 @@ from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.graded import Graded
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Part
 from rldrill.writing import write_bytes_atomically
 
@@ -50,6 +50,8 @@ class Sitting:
     manifest: Path | None = None
     answers: dict[Place, str] = field(default_factory=dict)
     handed_in: datetime | None = None
+    _kept: str | None = None
+    _changed: set[Place] = field(default_factory=set)
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -80,6 +82,7 @@ class Sitting:
 
     def answer(self, place: Place, text: str) -> None:
         """Take in what was typed; an empty text takes the answer back."""
+        self._changed.add(place)
         if text.strip():
             # What no text holds (half a pair of surrogates, pasted) cannot be in the file, and must not count.
             self.answers[place] = text.encode("utf-8", "replace").decode("utf-8")
@@ -87,11 +90,12 @@ class Sitting:
             self.answers.pop(place, None)
 
     def save(self) -> None:
-        """Write the file of answers, whole or not at all.
+        """Write the file of answers, whole or not at all; what another terminal wrote there meanwhile stays.
 
         Raises:
             OSError: it cannot be written.
         """
+        self._take_in_others()
         lines = [f"# {' '.join(self.exam.head.title.split())}, version {self.version.code}"]
         lines.append(f"{_BEGUN}{self.begun.isoformat()}")
         if self.handed_in is not None:
@@ -103,7 +107,24 @@ class Sitting:
                 for index, part in enumerate(exercise.parts)
                 if (text := self.answers.get(Place(number, index))) is not None
             ]
-        write_bytes_atomically(self.path, ("\n".join(lines) + "\n").encode())
+        text = "\n".join(lines) + "\n"
+        write_bytes_atomically(self.path, text.encode())
+        self._kept = text
+        self._changed.clear()
+
+    def _take_in_others(self) -> None:
+        """Take in what another terminal wrote since this one last did; of one part the later answer stays."""
+        if self._kept is None or not self.path.exists():
+            return
+        mine = {place: self.answers.get(place) for place in self._changed}
+        try:
+            if (text := self._text()) == self._kept:
+                return
+            self._take_in(text)
+        except FileError:  # spoilt meanwhile; nobody's answers may be lost over that, so it is written anew
+            return
+        if self.handed_in is None:
+            self.answers = {place: typed for place, typed in (self.answers | mine).items() if typed is not None}
 
     def _name(self, problem: int) -> str:
         """What the file calls a problem: its ID, or its number where it has none."""
@@ -115,21 +136,31 @@ class Sitting:
         Raises:
             FileError: it is not the file of a sitting of this version.
         """
+        self._take_in(text := self._text())
+        self._kept = text
+
+    def _text(self) -> str:
         try:
-            text = self.path.read_text(encoding="utf-8")
+            return self.path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            raise self._no_sitting() from None
+
+    def _no_sitting(self) -> FileError:
+        return FileError(f"{self.path} is not the file of a sitting; name another with --answers.")
+
+    def _take_in(self, text: str) -> None:
+        try:
             data: Mapping[str, Any] = tomllib.loads(text)
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError):
-            raise FileError(f"{self.path} is not the file of a sitting; name another with --answers.") from None
+        except tomllib.TOMLDecodeError:
+            raise self._no_sitting() from None
         moments = [_moment(found) for found in _MOMENT.findall(text)]
         names = [self._name(number) for number in range(len(self.version.exercises))]
         if not moments or None in moments or list(data) != names:
             raise FileError(f"{self.path} holds answers to other problems; name another file with --answers.")
         self.begun = moments[0] or self.begun
         self.handed_in = moments[1] if _HANDED_IN in text and len(moments) > 1 else None
-        for place in self.places:
-            typed = data[self._name(place.problem)].get(self.part(place).label)
-            if typed is not None:
-                self.answers[place] = str(typed)
+        found = {place: data[self._name(place.problem)].get(self.part(place).label) for place in self.places}
+        self.answers = {place: str(typed) for place, typed in found.items() if typed is not None}
 
     def graded(self) -> tuple[Graded, ...]:
         """The judgement of every problem, with follow-through and the exam's points."""

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
+from fractions import Fraction
 
 from rich.console import Console, RenderableType
 from rich.padding import Padding
@@ -11,12 +12,11 @@ from rich.text import Text
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
-from rldrill.problems.fractions import Fraction
-from rldrill.problems.parts import Part
+from rldrill.problems.parts import Kind, Part
 from rldrill.quiz.prompt import Ask
-from rldrill.quiz.shapes import how_to_type
+from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
-from rldrill.render.compact import Compact
+from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.linear import linear
 from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.judging import read_answer
@@ -71,10 +71,11 @@ class SittingScreen:
             self._keep(sitting)  # from now on the time is known, whatever happens
             if not self._parts(sitting):
                 sitting.save()
-                self._print(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
+                self._whole(words("Kept in ", (str(sitting.path), "bold"), "; the same command goes on."))
                 return False
-            sitting.handed_in = self._now()
-            self._keep(sitting)
+            if sitting.handed_in is None:
+                sitting.handed_in = self._now()
+                self._keep(sitting)
         self._report(sitting)
         return True
 
@@ -109,7 +110,7 @@ class SittingScreen:
         places = sitting.places
         at = next((index for index, place in enumerate(places) if place not in sitting.answers), 0)
         shown: int | None = None
-        while not self._is_over(sitting):
+        while sitting.handed_in is None and not self._is_over(sitting):
             if at == len(places):
                 at, over = self._at_the_end(sitting)
                 if over is not None:
@@ -153,7 +154,10 @@ class SittingScreen:
                 sitting.answer(place, text)
                 self._keep(sitting)
                 at += self._is_read(sitting, place, text)
-        self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
+        if sitting.handed_in is not None:
+            self._print(words(("Handed in. ", "bold"), "That was done in another terminal; what it wrote counts."))
+        else:
+            self._print(words(("Time is up. ", "bold"), "What was typed after that does not count."))
         return True
 
     def _is_over(self, sitting: Sitting) -> bool:
@@ -240,7 +244,7 @@ class SittingScreen:
     def _help(self) -> None:
         table = Table.grid(padding=(0, 2))
         for key, meaning in _HELP:
-            table.add_row(Text(f"  {key}", style="bold"), Text(meaning))
+            table.add_row(Text(f"  {key}", style="bold"), words(meaning))
         self._print(table)
 
     def _report(self, sitting: Sitting) -> None:
@@ -254,21 +258,21 @@ class SittingScreen:
         self._print(table)
         for number, (exercise, result) in enumerate(zip(sitting.version.exercises, graded, strict=True), 1):
             for part in result.parts:
-                self._graded(f"{number}{part.part}", part)
+                own = next(each for each in exercise.parts if each.label == part.part)
+                self._graded(f"{number}{part.part}", part, own.kind)
                 if not part.accepted:
-                    own = next(each for each in exercise.parts if each.label == part.part)
                     self._indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
                     self._indented(renderable(exercise.answer(own)))
         if not self._kept:
-            self._print(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
+            self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
             return
         exam = "" if sitting.manifest is None else f"--for {sitting.manifest} "
         again = f"rldrill verify {exam}{sitting.path}"
-        self._print(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))
+        self._whole(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))
 
-    def _graded(self, name: str, part: GradedPart) -> None:
-        says = "not answered" if part.verdict is None else part.verdict.says
+    def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
+        says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)
         mark, style = ("✓", "green") if part.accepted else ("✗", "red")
         typed = "" if part.verdict is None else f"{' '.join(part.typed.split())[:60]}  "
         points = f"{_number(part.points)} of {part.of}"
@@ -277,8 +281,12 @@ class SittingScreen:
     def _indented(self, content: RenderableType) -> None:
         self._print(Padding(content, (0, 0, 0, 2), expand=False))
 
+    def _whole(self, content: RenderableType) -> None:
+        """A line with a path or a command, which is not broken, so that it can be copied."""
+        self._console.print(content, soft_wrap=True)
+
     def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content)
+        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:

@@ -16,10 +16,12 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
+from rldrill.problems.mathematics import EMPTY, Math, Row
 from rldrill.problems.parts import Choice, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.differences import differences
 from rldrill.render.encodable import Spelling
+from rldrill.render.mathematics.breaking import broken, is_sign
 from rldrill.render.mathematics.unicode import GLUE
 
 #: How wide output is when nobody's terminal says: wide enough that nothing is cut.
@@ -86,7 +88,8 @@ def renderable(block: Block) -> RenderableType:
         case Table():
             return _indented(_Spelled(lambda spelling, width: _table(block, spelling, width)))
         case Equation():
-            return _indented(_Spelled(lambda spelling, _: _equation(block, spelling)))
+            equation = _Spelled(lambda spelling, width: _equation(block, spelling, width))
+            return _indented(equation) if _is_named(block) else equation
         case Beside(blocks):
             return _Beside(blocks)
         case Picture():
@@ -230,20 +233,42 @@ def _paragraph(header: list[Text], line: list[Text]) -> Text:
     return Text(", ").join(told)
 
 
-def _equation(equation: Equation, spelling: Spelling) -> RenderableType:
-    grid = RichTable.grid(padding=(0, 1, 0, 0))
-    grid.add_column(no_wrap=True)
-    grid.add_column(no_wrap=True)
-    grid.add_column(overflow="fold")
+def _is_named(equation: Equation) -> bool:
+    """Whether it says itself what it is worth; else it is the lines of an answer."""
+    return equation.left != EMPTY or any(equation.signs)
+
+
+def _equation(equation: Equation, spelling: Spelling, width: int) -> RenderableType:
     left = "\n".join(spelling.stacked(equation.left))
-    for index, (sign, right) in enumerate(zip(equation.signs, equation.rights, strict=True)):
-        lines = spelling.stacked(right)
-        middle = len(lines) // 2
-        shift = "\n" * middle
-        grid.add_row(
-            Text(shift + left if index == 0 else ""), Text(shift + spelling.plain(sign)), Text("\n".join(lines))
-        )
+    signs = [spelling.plain(sign) for sign in equation.signs]
+    named = _is_named(equation)
+    room = width - (_wide(left.split("\n")) + _wide(signs) + 2 if named else 0)
+    grid = RichTable.grid(padding=(0, 1, 0, 0))
+    if named:
+        grid.add_column(no_wrap=True)
+        grid.add_column(no_wrap=True)
+    grid.add_column(overflow="fold")
+    for index, (sign, right) in enumerate(zip(signs, equation.rights, strict=True)):
+        for row, part in enumerate(broken(right, lambda math, further: _wide(_line(math, further, spelling)), room)):
+            lines = _line(part, row > 0, spelling)
+            shift = "\n" * (len(lines) // 2)
+            first = index == row == 0
+            before = (Text(shift + left if first else ""), Text(shift + sign if row == 0 else ""))
+            grid.add_row(*(before if named else ()), Text("\n".join(lines)))
     return grid
+
+
+def _line(math: Math, further: bool, spelling: Spelling) -> list[str]:
+    """One line of an equation; of a further one the sign has a space behind it."""
+    if not further or not isinstance(math, Row) or not is_sign(sign := math.items[0]):
+        return spelling.stacked(math)
+    lines = spelling.stacked(Row(math.items[1:]))
+    before = spelling.stacked(sign)[0].strip()
+    return [f"{before if index == len(lines) // 2 else ' ' * len(before)} {line}" for index, line in enumerate(lines)]
+
+
+def _wide(lines: Iterable[str]) -> int:
+    return max(map(len, lines), default=0)
 
 
 def compared(wrong: Equation, right: Equation) -> RenderableType:

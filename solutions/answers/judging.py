@@ -4,10 +4,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from typing import Any
 
 from rldrill.problems.expressions import GREEK
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Choice, Kind, Number, Part, Policy, YesNo
 from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
@@ -21,7 +21,7 @@ from rldrill.solutions.solution import Solution
 _ROOM = 4
 _CUT_OFF = "The digits are right, but the last one is cut off: round it, do not cut it off, or give an exact value."
 #: A line of a working that says what it works out: the head of the name, V of V(s) = 2.
-_NAMED_LINE = re.compile(r"\s*([^\W\d_]+)[^=:≈\n]*[=:≈]")
+_NAMED_LINE = re.compile(r"\s*+([^\W\d_]++)[^=:≈\n]*+[=:≈]")
 
 
 class Outcome(Enum):
@@ -98,7 +98,7 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
         Unreadable: it cannot be understood.
     """
     kind, problem = answer_kind(part.kind), solution.problem
-    if isinstance(part.kind, Number):
+    if isinstance(part.kind, Number) and len(text) <= LONGEST:
         _refuse_other_quantity(text, part.ask)
     longest = LONGEST
     if len(text) > LONGEST:  # to write the right answer takes its time

@@ -61,6 +61,10 @@ _ROUNDED = re.compile(r"(?<=≈)\s*[-+]?[0-9]+$")  # 11, for 11.004
 _SAID = re.compile(r"(?:answer|option|antwort)\b\s*[:=]?\s*(?=\S)", re.IGNORECASE)
 _BOTH = re.compile(r"\(?([A-Za-z])[).:]\s*(\S.*)", re.DOTALL)
 _BARS = re.compile(r"\|([^\s|](?:[^|\n]*[^\s|])?)\|")  # a cell of a table has spaces at its edges
+#: What is said before a number: R_0: 1/4, answer: 1/4, the answer is 1/4.
+_SAID_FIRST = re.compile(
+    r"(?:the\s+)?(?:answer|result|solution)\s+is\s+(?=\S)|[^\W\d][^:=\n]{0,30}:\s*(?=[^\s:=])", re.IGNORECASE
+)
 _ENTRIES = 200
 _FORMS = 30
 
@@ -76,7 +80,7 @@ def read_number(text: str, parameters: Sequence[str] = (), longest: int = LONGES
     Raises:
         Unreadable: it is not one number.
     """
-    reading = plain(text) or _number(clean(text, longest), parameters, Arithmetic())
+    reading = plain(text) or _number(_unsaid(clean(text, longest)), parameters, Arithmetic())
     bars = _BARS.fullmatch(text.strip())
     if bars and (parameters_of(reading.value) or sign(reading.value) < 0):
         raise Unreadable(
@@ -385,6 +389,12 @@ def read_yes_no(text: str) -> bool:
     if word in _YES or word in _NO:
         return word in _YES
     raise source.unreadable(f"{quoted(source.text)} is neither yes nor no; type one of them.")
+
+
+def _unsaid(source: Source) -> Source:
+    """A number without the words before it."""
+    said = _SAID_FIRST.match(source.text)
+    return source.part(said.end(), len(source.text)) if said else source
 
 
 def _right_side(source: Source) -> Source:

@@ -45,7 +45,9 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
             )
         )
     values |= work.answer(of_states(mdp, values))
-    greedy = {state: work.step(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
+    greedy = {state: work.value(GREEDY_FROM_V, s=state, V=values, **known) for state in mdp.states}
+    told = joined([f"{joined(list(actions))} in {state}" for state, actions in greedy.items()])
+    work.say(f"The maxima of the optimality equation are reached by {told}.")
     best.tell(work)
     work.answer(best.among(greedy))
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})

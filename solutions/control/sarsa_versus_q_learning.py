@@ -56,12 +56,13 @@ def _targets(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
 
 
 def _along(given: Given, work: Work, formula: Formula) -> list[tuple[dict[str, Any], Value]]:
-    """What is known at every transition, and the target; the table is moved in between, but not after the last."""
+    """What is known at every transition, and the target; of the table is moved what a later target may read."""
     known = knowns.action_run(given)
     run = given.trajectory
     found = [(known, work.step(formula, t=0, **known))]
     for time, pair in enumerate(zip(run.states[:-2], run.actions, strict=False)):
-        known = known | {"Q": known["Q"] | {pair: _moved(work, time, *found[-1])}}
+        if pair[0] in run.states[time + 2 :]:
+            known = known | {"Q": known["Q"] | {pair: _moved(work, time, *found[-1])}}
         found.append((known, work.step(formula, t=time + 1, **known)))
     return found
 

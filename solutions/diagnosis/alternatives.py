@@ -14,9 +14,9 @@ from rldrill.solutions.diagnosis.replay import UNDONE, Application
 from rldrill.solutions.diagnosis.typed import approximate
 from rldrill.solutions.exact import is_rational
 from rldrill.solutions.formula.compiling import value_of
-from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, probes
+from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, Edit, Probe, edits, element, flat, probes
 from rldrill.solutions.formula.nodes.sets import Over
-from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.formula.notation import Quantity, SumOver
 from rldrill.solutions.matrices import is_matrix, matrix
 from rldrill.solutions.vector import Vector
 
@@ -51,6 +51,9 @@ def at_one(application: Application) -> Iterator[Cause]:
                 if other is not None and same_form(other, value):
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
                     yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
+    if (crosswise := _crosswise(flat(right), known)) is not None:
+        whole = Probe(right, right)
+        yield replace(base, kind="crosswise", weight=weights.INSIDE["crosswise"], probe=whole, became=crosswise)
     for probe in probes(right):
         for cause, letters in at_place(application, probe):
             other = value_or_none(probe.right, {**known, **letters})
@@ -88,8 +91,12 @@ def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, di
 
 def _others(part: Expr, was: Any, known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     leaf = isinstance(part, Quantity) or part.is_Symbol
-    if part.is_Add and len(part.args) == 2 and (crosswise := _crosswise(part, known)) is not None:
+    if (crosswise := _crosswise(part, known)) is not None:
         yield "crosswise", crosswise
+    if isinstance(part, SumOver):
+        return
+    if part.is_Pow and is_rational(was) and 0 < was < 1 and was.q != 2:
+        yield "complement", 1 - was
     slipped = list(slips(was))
     for kind, other in slipped:
         lost = kind == "sign" and leaf and is_rational(was) and was < 0
@@ -118,10 +125,18 @@ def likely(right: Expr, known: Mapping[str, Any], value: Any) -> Iterator[tuple[
 
 def _crosswise(part: Expr, known: Mapping[str, Any]) -> fmpq | None:
     """Two fractions added top to top and bottom to bottom."""
-    one, two = (value_or_none(term, known) for term in part.args)
-    if not is_rational(one) or not is_rational(two) or 1 in (one.q, two.q) or one.q == two.q:
+    values = []
+    if part.is_Add and len(part.args) == 2:
+        values = [value_or_none(term, known) for term in part.args]
+    elif isinstance(part, SumOver):
+        domain = value_or_none(part.domain, known)
+        short = domain if isinstance(domain, Sequence) and len(domain) <= TERMS else ()
+        values = [value_or_none(part.body, {**known, part.index.name: item}) for item in short]
+        values = [value for value in values if value != 0]
+    if len(values) != 2 or not all(map(is_rational, values)):
         return None
-    return fmpq(one.p + two.p, one.q + two.q)
+    one, two = values
+    return None if 1 in (one.q, two.q) or one.q == two.q else fmpq(one.p + two.p, one.q + two.q)
 
 
 def value_or_none(right: Expr, known: Mapping[str, Any]) -> Any:

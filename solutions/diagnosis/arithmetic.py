@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 
 from rldrill.solutions.exact import is_rational, is_zero
 from rldrill.solutions.matrices import is_matrix, matrix
+from rldrill.solutions.rational import RationalFunction, quotient
 from rldrill.solutions.vector import Vector
 
 Slip = tuple[str, Any]
@@ -28,6 +29,20 @@ def slips(value: Any) -> Iterator[Slip]:
         yield "one-off", value - 1
         yield "doubled", value * 2
         yield "halved", value / 2
+        if isinstance(value, RationalFunction):
+            yield from _in_terms(value)
+
+
+def _in_terms(value: RationalFunction) -> Iterator[Slip]:
+    """Slips in one term of what has an open parameter."""
+    coefficients = list(value.top.coeffs())
+    if sum(each != 0 for each in coefficients) < 2:
+        return
+    for power, each in enumerate(coefficients):
+        for kind, other in (("lost-term", fmpq(0)), ("term-sign", -each), ("term-tenfold", each / 10)):
+            if each != 0:
+                top = fmpq_poly([*coefficients[:power], other, *coefficients[power + 1 :]])
+                yield kind, quotient(value.parameter, top, value.bottom)
 
 
 def _of_rational(value: fmpq) -> Iterator[Slip]:

@@ -27,6 +27,7 @@ class Cause:
         became: the value that came out of the application.
         what: of what else is said what it was.
         mistake: the listed mistake that it is, if it is one.
+        on_paper: whether it was done to the answer, behind the working.
         then: what was done besides.
     """
 
@@ -43,6 +44,7 @@ class Cause:
     what: str = ""
     nth: int | None = None
     mistake: Misconception | None = None
+    on_paper: bool = False
     then: "Cause | None" = None
 
 

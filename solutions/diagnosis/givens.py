@@ -102,7 +102,11 @@ def _of_list(value: tuple[Any, ...], name: str) -> Changed:
             swapped = (*value[:place], value[place + 1], value[place], *value[place + 2 :])
             yield "entries-exchanged", swapped, f"{name}, {_ordinal(place)} and {_ordinal(place + 1)}"
         if _number(value[place]) and value[place] < 0:
-            yield "minus-lost", (*value[:place], -value[place], *value[place + 1 :]), f"{_ordinal(place)} of the {name}"
+            yield (
+                "minus-lost",
+                (*value[:place], -value[place], *value[place + 1 :]),
+                f"the {_ordinal(place)} of the {name}",
+            )
         if isinstance(value[place], tuple | BaseModel):
             for kind, changed, what in _row(value[place], name, place):
                 yield kind, (*value[:place], changed, *value[place + 1 :]), what
@@ -124,7 +128,7 @@ def _row(row: Any, name: str, place: int) -> Changed:
     numbers = [column for column, entry in enumerate(entries) if _number(entry)]
     for column in numbers:
         if entries[column] < 0:
-            yield "minus-lost", changed({column: -entries[column]}), f"{_ordinal(place)} row of {name}"
+            yield "minus-lost", changed({column: -entries[column]}), f"the {_ordinal(place)} row of {name}"
     for one, two in combinations(numbers, 2):
         if entries[one] != entries[two]:
             update = {one: entries[two], two: entries[one]}

@@ -1,6 +1,7 @@
 """The working of a problem taken down, and gone through again with something changed in it."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -14,8 +15,8 @@ from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.solution import solver
 from rldrill.solutions.work import Step, Work
 
-#: Numbers with more binary digits than this come from no slip that anybody makes.
-_LONGEST = 2000
+#: Numbers with more binary digits than this come from no slip that anybody makes; what is only compared may be longer.
+_LONGEST, _LONGEST_COMPARED = 2000, 40_000
 #: A changed working is given up when it has so many times the steps of the right one, and a hundred more.
 _LONGER = 3
 #: What a changed problem, which need not be one, may lead to.
@@ -183,7 +184,7 @@ class Replay(Work):
         same = _same(formula, known)
         if same in self._again:
             return self._again[same]
-        return _bounded(super().value(formula, **known, **self._letters(known)))
+        return _bounded(super().value(formula, **known, **self._letters(known)), _LONGEST_COMPARED)
 
     def system(
         self, formula: Formula, unknown: type[Quantity], cases: Iterable[Mapping[str, Any]], **named: Any
@@ -217,8 +218,8 @@ def _same(formula: Formula, known: Mapping[str, Any]) -> Any:
     return formula, tuple((name, value) for name, value in known.items() if isinstance(value, str | int))
 
 
-def _bounded(value: Any) -> Any:
-    if length(value) > _LONGEST:
+def _bounded(value: Any, longest: int = _LONGEST) -> Any:
+    if length(value) > longest:
         raise NoSolution("the numbers get too long")
     return value
 
@@ -260,8 +261,6 @@ def with_givens(problem: Problem, given: Any, carried: Mapping[str, Any], steps:
 
 
 def _answers(problem: Problem, work: Replay) -> Mapping[str, Any] | None:
-    try:
+    with suppress(*UNDONE):  # the parts before stand
         solver(problem.family).solve(problem.given, work)
-    except UNDONE:
-        return None
-    return work.answers
+    return work.answers or None

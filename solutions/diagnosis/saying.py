@@ -13,6 +13,7 @@ from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.formula.edits import IN_ONE_TERM
 from rldrill.solutions.formula.letters import GLYPHS
 from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.putting_in import indexed
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.vector import Vector
@@ -53,6 +54,8 @@ _EDITS = {
     "function": "{instead} stands where {part} belongs",
     "summand-left-out": "a term of the sum is missing",
     "summand-sign": "a term of the sum has the wrong sign",
+    "factor-for-one": "what stands before the sum is applied to one of its terms only",
+    "factor-for-all": "the factor of one term of the sum multiplies all of it",
     "smallest": "the smallest is taken instead of the greatest",
     "other-taken": "the value of another action than the best is taken",
     "mean-for-max": "the mean is taken instead of the maximum",
@@ -77,6 +80,7 @@ _INSIDE = {
     "elsewhere": "{became} is put in for {part}, which is {was}",
     "digits": "the digits of {part} = {was} are exchanged: {became}",
     "inverse": "{part} = {was} is upside down",
+    "complement": "{became}, 1 minus it, is put in for {part}, which is {was}",
     "crosswise": "the fractions of {part} are added top to top and bottom to bottom",
     "": "{became} is put in for {part}, which is {was}",
 }
@@ -136,7 +140,7 @@ def _what(cause: Cause) -> Words:
         return _filled(template, part=_short(cause.edit.part) if "{part}" in template else None, instead=instead)
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
-        part = _short(cause.probe.part)
+        part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
         return _filled(template, part=part, was=_number(cause.was), became=_number(cause.other))
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
@@ -145,7 +149,8 @@ def _what(cause: Cause) -> Words:
     template = _WHOLE.get(cause.kind, _WHOLE[""])
     left = None if cause.application is None else typeset(cause.application.step.left)
     was = None if cause.was is None else _number(cause.was)
-    return _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+    words = _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+    return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
 
 
 def _filled(template: str, **values: Any) -> Words:
@@ -216,13 +221,23 @@ def place(application: Application, applications: Sequence[Application]) -> Word
 GLYPHS_T = next((glyph for symbol, glyph in GLYPHS.items() if symbol.name == "t"), name("t"))
 
 
+def _in_its_term(cause: Cause) -> Expr | None:
+    """What was put in for, by the name it has in one term of a sum: V(warm) for V(s′); None if that is the same."""
+    if cause.probe is None or not cause.term:
+        return None
+    own = {over.index.name: item for over, item in zip(cause.probe.within, cause.term, strict=True)}
+    known = {} if cause.application is None else cause.application.known
+    named = indexed(cause.probe.part, {**known, **own})
+    return None if named == cause.probe.part else named
+
+
 def _term(cause: Cause) -> Words:
     within = cause.edit.within if cause.edit is not None else cause.probe.within if cause.probe is not None else ()
     own = cause.kind in IN_ONE_TERM
     if not cause.term and cause.nth is not None:
         nth = _ordinal(cause.nth)
         return (f" (the {nth} one)" if own else f" in the {nth} term of the sum",)
-    if not cause.term:
+    if not cause.term or _in_its_term(cause) is not None:
         return ()
     pairs = [
         row(typeset(over.index), relation("="), name(str(item))) for over, item in zip(within, cause.term, strict=True)

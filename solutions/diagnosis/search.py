@@ -9,24 +9,19 @@ from typing import Any
 import sympy
 from sympy import Expr
 
-from rldrill.solutions.answers.judging import matches
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.alternatives import (
-    LIKELY,
     at_one,
     at_place,
     hashable,
-    likely,
     numbers,
     of_numbers,
-    plain,
     terms,
 )
 from rldrill.solutions.diagnosis.causes import Candidate, Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.givens import misread
 from rldrill.solutions.diagnosis.replay import (
-    UNDONE,
     Application,
     Change,
     Recorder,
@@ -36,32 +31,16 @@ from rldrill.solutions.diagnosis.replay import (
     replayed,
     with_givens,
 )
-from rldrill.solutions.diagnosis.typed import Typed, approximate, equal, near
-from rldrill.solutions.diagnosis.written_down import written_down
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.solution import Solution
 
-#: Two slips: the first is one of so many.
-_FIRST = 12
-#: So many pairs of places are tried.
-_TRIES = 100
-#: So many other values of one application are gone on from, for one answer.
-_REPLAYS = 30
 #: A value of more numbers than this is not taken apart; a straight line is checked at so many other values.
 _NUMBERS, _CHECKS = 9, 2
 #: So many causes of the same value are told apart.
 _ALIKE = 4
-
-
-#: What wrong cells come to, for another value of an application.
-Predict = Callable[[Any], dict[str, float]]
-
-
-#: How likely a cause is, and what it makes of the wrong cells; None where that is not known.
-Rival = tuple[float, tuple[float, ...] | None]
 
 
 class Search:
@@ -72,9 +51,8 @@ class Search:
         self.problem = solution.problem
         self.carried = dict(carried or {})
         self._whole: list[Candidate] = []
-        self._unfinished: Iterator[Candidate] | None = None
+        self._unfinished: Iterator[Candidate | None] | None = None
         self._alternatives: dict[int, list[Cause]] = {}
-        self._rivals: dict[Any, list[Rival]] = {}
         self._responses: dict[int, list[tuple[list[Any] | None, Mapping[str, Any] | None]]] = {}
 
     @cached_property
@@ -97,14 +75,18 @@ class Search:
         if self._unfinished is None:
             self._unfinished = self._all()
         while not clock.over:
-            candidate = next(self._unfinished, None)
-            if candidate is None:
+            try:
+                candidate = next(self._unfinished)
+            except StopIteration:
                 break
-            self._whole.append(candidate)
+            if candidate is not None:
+                self._whole.append(candidate)
         return self._whole
 
-    def _all(self) -> Iterator[Candidate]:
-        for mistake, answers in self.solution.mistaken(self.carried):
+    def _all(self) -> Iterator[Candidate | None]:
+        """Every candidate; None where something else took time."""
+        mistakes = self.solution.mistaken(self.carried) if self.carried else self.solution.mistakes
+        for mistake, answers in mistakes:
             yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers)
         yield from self._ideas()
         yield from self._habits()
@@ -116,7 +98,7 @@ class Search:
         if answers is not None:
             yield Candidate(cause, answers)
 
-    def _ideas(self) -> Iterator[Candidate]:
+    def _ideas(self) -> Iterator[Candidate | None]:
         """Every edit of every formula, wherever it is read; an edit that several formulas have, in all of them."""
         uses: dict[Expr, list[Application]] = defaultdict(list)
         for application in self.applications:
@@ -130,6 +112,7 @@ class Search:
                 key = edit.kind, edit.part, edit.instead
                 alike[key, seen[key]].append((right, edit))
                 seen[key] += 1
+            yield None
         groups = sorted(alike.values(), key=lambda group: -weights.IDEAS[group[0][1].kind])
         for group in groups:
             for chosen in [group] if len(group) == 1 else [group, *([one] for one in group)]:
@@ -232,25 +215,29 @@ class Search:
             for cause, letters_ in at_place(application, probe):
                 yield cause, changed, {**case, **letters_}
 
-    @property
-    def known_alternatives(self) -> Mapping[int, list[Cause]]:
-        """The alternatives that were looked at, by the numbers of their applications."""
-        return self._alternatives
-
     # One application --------------------------------------------------------------------------------
     def alternatives(self, application: Application) -> list[Cause]:
         """What may come out of one application instead of its value, the likeliest first."""
-        number = application.number
-        if number not in self._alternatives:
-            found: dict[Any, list[Cause]] = defaultdict(list)
-            for cause in sorted(at_one(application), key=lambda cause: -cause.weight):
-                alike = found[hashable(cause.became)]
-                if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
-                    alike.append(cause)
-            found.pop(hashable(application.value), None)
-            every = (cause for alike in found.values() for cause in alike)
-            self._alternatives[number] = sorted(every, key=lambda cause: -cause.weight)
-        return self._alternatives[number]
+        for _ in self.working_out(application):
+            pass
+        return self._alternatives[application.number]
+
+    def working_out(self, application: Application) -> Iterator[None]:
+        """Work that out piece by piece, for who has little time."""
+        if application.number in self._alternatives:
+            return
+        every = []
+        for cause in at_one(application):
+            every.append(cause)
+            yield
+        found: dict[Any, list[Cause]] = defaultdict(list)
+        for cause in sorted(every, key=lambda cause: -cause.weight):
+            alike = found[hashable(cause.became)]
+            if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
+                alike.append(cause)
+        found.pop(hashable(application.value), None)
+        apart = (cause for alike in found.values() for cause in alike)
+        self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
 
     # How answers depend on one value ----------------------------------------------------------------
     def responses(self, application: Application) -> list[tuple[list[Any] | None, Mapping[str, Any] | None]]:
@@ -267,170 +254,6 @@ class Search:
                 others = [(each, of_numbers(value, each)) for each in (*one_more, *checks)]
             self._responses[number] = [(each, self.replay(Change(values={number: other}))) for each, other in others]
         return self._responses[number]
-
-    def local(self, typed: Typed, clock: Clock, within: Callable[[set[str]], bool]) -> Iterator[Candidate]:
-        """What can be done at one application so that some of the wrong cells, those that depend on it, come out.
-
-        Args:
-            typed: what was typed.
-            clock: the time there is.
-            within: whether a cause that changes these cells is of interest.
-        """
-        for application in self.applications:
-            if clock.over:
-                return
-            predicted = self._predicted(application, typed)
-            if predicted is None:
-                continue
-            changed, predict = predicted
-            if not within(changed):
-                continue
-            done: dict[Any, Mapping[str, Any] | None] = {}
-            for cause in self.alternatives(application):
-                if clock.over:
-                    return
-                if len(done) >= _REPLAYS:
-                    break
-                if predict is not None and not all(
-                    near(size, typed.sizes[name]) for name, size in predict(cause.became).items()
-                ):
-                    continue
-                same = hashable(cause.became)
-                if same not in done:
-                    done[same] = self.replay(Change(values={application.number: cause.became}))
-                answers = done[same]
-                cells = typed.cells_of(answers)
-                if answers is None or cells is None:
-                    continue
-                if all(near(approximate(cells[name]), typed.sizes[name]) for name in changed & set(typed.sizes)):
-                    yield Candidate(cause, answers)
-
-    def _predicted(self, application: Application, typed: Typed) -> tuple[set[str], Predict | None] | None:
-        """The cells that depend on a value, and how, where it is a straight line; None where none of them is wrong."""
-        answered = [
-            (other, cells)
-            for other, answers in self.responses(application)
-            if (cells := typed.cells_of(answers)) is not None
-        ]
-        changed = {name for name in typed.key for _, cells in answered if not equal(cells.get(name), typed.key[name])}
-        if answered and not changed & set(typed.wrong):
-            return None
-        own = numbers(application.value)
-        if own is None or len(answered) != len(own) + _CHECKS or set(typed.sizes) != set(typed.key):
-            return changed or set(typed.wrong), None
-        start = list(map(approximate, own))
-        points = [
-            [approximate(each) - at for each, at in zip(other or [], start, strict=True)] for other, _ in answered
-        ]
-        lines: dict[str, tuple[float, list[float]]] = {}
-        for name in changed:
-            base, *heights = (approximate(cells[name]) for cells in (typed.key, *(cells for _, cells in answered)))
-            slopes = [height - base for height in heights[: len(own)]]
-            for by, height in zip(points[len(own) :], heights[len(own) :], strict=True):
-                if not abs(base + _along(slopes, by) - height) <= 1e-9 * (abs(height) + 1):
-                    return changed, None
-            lines[name] = base, slopes
-
-        def predict(value: Any) -> dict[str, float]:
-            others = numbers(value) or []
-            by = [approximate(other) - at for other, at in zip(others, start, strict=True)]
-            return {name: base + _along(slopes, by) for name, (base, slopes) in lines.items()}
-
-        return changed, predict
-
-    def in_turn(self, typed: Typed, clock: Clock) -> Iterator[Candidate]:
-        """Two slips, the second one in a working that goes on from the first."""
-        bearing = [each for each in self.applications if self._predicted(each, typed) is not None]
-        places = {each.number for each in bearing}
-        tries = _TRIES
-        for application in bearing:
-            for first in self.alternatives(application)[:_FIRST]:
-                if clock.over or tries < 0:
-                    return
-                if first.weight < LIKELY:
-                    break
-                trace: list[Traced] = []
-                if self.replay(Change(values={application.number: first.became}), trace) is None:
-                    continue
-                for traced in trace:
-                    if traced[0] > application.number and traced[0] in places and plain(traced[3]):
-                        tries -= 1
-                        yield from self._then(typed, application, first, traced)
-
-    def _then(self, typed: Typed, application: Application, first: Cause, traced: Traced) -> Iterator[Candidate]:
-        number, right, known, value = traced
-        values = {application.number: first.became}
-        wanted = self._wanted(typed, values, number, value)
-        if wanted is None:
-            return
-        second = self.applications[number] if number < len(self.applications) else None
-        for kind, weight, edit, other in likely(right, known, value):
-            if near(approximate(other), wanted):
-                answers = self.replay(Change(values={**values, number: other}))
-                if answers is not None:
-                    formula = second.formula if second else None
-                    then = Cause(kind, weight, second, formula, edit, was=value, became=other)
-                    yield Candidate(replace(first, weight=first.weight * weight / 100, then=then), answers)
-
-    def _wanted(self, typed: Typed, values: Mapping[int, Any], number: int, value: Any) -> float | None:
-        """What a later value would have to be for the typed answer to come out, if a straight line leads there."""
-        heights = []
-        for other in (value, value + 1, value - 3):
-            cells = typed.cells_of(self.replay(Change(values={**values, number: other})))
-            if cells is None:
-                return None
-            heights.append({name: approximate(cells[name]) for name in typed.sizes})
-        wanted: float | None = None
-        for name, size in typed.sizes.items():
-            at, one, minus = (height[name] for height in heights)
-            slope = one - at
-            if not abs(at - 3 * slope - minus) <= 1e-9 * (abs(minus) + 1):
-                return None
-            if slope == 0:
-                if not near(at, size):
-                    return None
-            elif wanted is None:
-                wanted = (size - at) / slope
-            elif not near(at + slope * wanted, size):
-                return None
-        return None if wanted is None else approximate(value) + wanted
-
-    def rivals(self, typed: Typed) -> list[Rival]:
-        """What the causes make of the wrong cells, those that spoil just these."""
-        spoilt = frozenset(typed.wrong)
-        key = typed.part.label, spoilt
-        if key not in self._rivals:
-            candidates = [*self._whole, *written_down(typed, self.applications)]
-            found: list[Rival] = []
-            for candidate in candidates:
-                cells = typed.cells_of(candidate.answers)
-                if cells is not None and typed.differing(cells) == spoilt:
-                    found.append((candidate.cause.weight, tuple(approximate(cells[name]) for name in typed.wrong)))
-            for application in self.applications:
-                predicted = self._predicted(application, typed)
-                if predicted is not None and predicted[0] == spoilt and application.number in self._alternatives:
-                    found += self._rivals_at(application, typed.wrong, predicted[1])
-            self._rivals[key] = found
-        return self._rivals[key]
-
-    def _rivals_at(self, application: Application, wrong: Sequence[str], predict: Predict | None) -> Iterator[Rival]:
-        for cause in self.alternatives(application):
-            sizes = None if predict is None else predict(cause.became)
-            yield cause.weight, None if sizes is None else tuple(sizes[name] for name in wrong)
-
-    def fits(self, typed: Typed, answers: Mapping[str, Any]) -> bool:
-        """Whether these answers are what was typed."""
-        cells = typed.cells_of(answers)
-        if cells is None or not typed.near(cells):
-            return False
-        try:
-            return matches(typed.part, typed.cells, answers)
-        except UNDONE:
-            return False
-
-
-def _along(slopes: Sequence[float], by: Sequence[float]) -> float:
-    return sum(slope * way for slope, way in zip(slopes, by, strict=True))
 
 
 def _nth(within: Sequence[Over], nth: int) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:

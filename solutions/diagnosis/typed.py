@@ -39,23 +39,22 @@ class Typed:
         """What the typed cells are worth, roughly; words are left out."""
         return {name: approximate(cell.value) for name, cell in self.cells.items() if isinstance(cell, Reading)}
 
-    def cells_of(self, answers: Mapping[str, Any] | None) -> dict[str, Any] | None:
-        """The cells of this part among some answers; None where they have no such part, or another one."""
-        if answers is None or self.part.label not in answers:
-            return None
-        try:
-            cells = answer_kind(self.part.kind).cells(answers[self.part.label])
-        except UNDONE:
-            return None
-        return cells if cells.keys() == self.key.keys() else None
 
-    def differing(self, cells: Mapping[str, Any]) -> set[str]:
-        """The cells that are not those of the key."""
-        return {name for name, right in self.key.items() if not equal(cells[name], right)}
+def cells_of(part: Part, key: Mapping[str, Any], answers: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    """The cells of a part among some answers; None where they have no such part, or one of other cells than the key."""
+    if answers is None or part.label not in answers:
+        return None
+    try:
+        cells = answer_kind(part.kind).cells(answers[part.label])
+    except UNDONE:
+        return None
+    return cells if cells.keys() == key.keys() else None
 
-    def near(self, values: Mapping[str, Any]) -> bool:
-        """Whether an answer is roughly what was typed, so that it is worth a proof."""
-        return all(near(approximate(values[name]), size) for name, size in self.sizes.items())
+
+def reach(size: float) -> tuple[float, float]:
+    """Between which numbers all lie that are near one."""
+    way = 1.02 * (_NEAR * abs(size) + _NEAR_ZERO)
+    return size - way, size + way
 
 
 def near(one: float, two: float) -> bool:

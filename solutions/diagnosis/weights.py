@@ -34,6 +34,8 @@ IDEAS = {
     "bracket-left-out": 1.7,
     "summand-left-out": 14.0,
     "summand-sign": 8.0,
+    "factor-for-one": 8.0,
+    "factor-for-all": 5.0,
     "squared": 1.6,
     "only-factor-left-out": 1.5,
     "twice": 1.4,
@@ -80,11 +82,15 @@ VALUES = {
     "doubled": 1.0,
     "halved": 1.0,
     "repeated": 1.5,
+    "lost-term": 1.5,
+    "term-sign": 1.5,
+    "term-tenfold": 0.5,
 }
 #: Slips in a value that is put in, or found on the way.
 INSIDE = {
-    "crosswise": 1.5, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5, "digits": 0.6, "one-off": 0.5,
-    "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
+    "crosswise": 1.5, "complement": 1.0, "minus-lost": 4.0, "sign": 1.0, "tenfold": 1.0, "elsewhere": 1.5,
+    "digits": 0.6, "one-off": 0.5, "numerator": 0.3, "denominator": 0.3, "inverse": 0.8, "doubled": 0.4, "halved": 0.4,
+    "lost-term": 1.0, "term-sign": 1.0, "term-tenfold": 0.5,
 }  # fmt: skip
 
 #: What is done with the whole procedure.
@@ -121,6 +127,9 @@ ANSWERS = {
     "doubled": 0.8,
     "halved": 0.8,
     "percent": 2.0,
+    "lost-term": 1.5,
+    "term-sign": 2.0,
+    "term-tenfold": 0.5,
 }
 
 #: How much less likely it is that a number that is typed with more digits than needed has wrong ones behind the third.

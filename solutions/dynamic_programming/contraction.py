@@ -14,10 +14,9 @@ from rldrill.solutions.sheet.dynamic_programming import (
     ERROR_FROM_CHANGE,
     FORGOT_DISTANCE,
     MAX_NORM,
+    MAX_NORM_OF_SWEEP,
     ONE_POWER_SHORT,
     SUM_FOR_MAX,
-    StartNorm,
-    SweepNorm,
 )
 from rldrill.solutions.work import Work
 
@@ -36,20 +35,16 @@ def solve(given: Given, work: Work) -> None:
     if enough > WRITTEN_OUT:
         work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
     _explain(work, known, accuracy, enough)
+    work.say(f"So the smallest number of sweeps is $k = {enough}$.")
     work.answer(enough)
 
 
 def _bounds(given: Given, work: Work) -> dict[str, Any]:
     """The parts before the last; what the bound of any number of sweeps is made of."""
     gamma = exact(given.gamma)
-    distance = work.step(
-        MAX_NORM,
-        into=StartNorm if given.optimum is not None else SweepNorm,
-        states=tuple(given.start),
-        V=knowns.values(given.other),
-        V1=knowns.values(given.start),
-    )
-    distance = work.answer(distance)
+    values = {"V0": knowns.values(given.start), "V" if given.first is None else "V1": knowns.values(given.other)}
+    norm = MAX_NORM if given.first is None else MAX_NORM_OF_SWEEP
+    distance = work.answer(work.step(norm, states=tuple(given.start), **values))
     if given.first is not None:
         distance = work.answer(work.step(ERROR_FROM_CHANGE, change={0: distance}, gamma=gamma))
     known = {"distance": {0: distance}, "gamma": gamma}
@@ -68,7 +63,12 @@ def _explain(work: Work, known: dict[str, Any], accuracy: Value, enough: int) ->
             work.say(f"That is {relation} {limit}.")
         else:  # the fraction has more digits than anybody reads
             value = work.value(CONTRACTION, k=k, **known)
-            work.say(f"After {k} sweeps the bound is about ${decimal(value, 4)}$, {relation} {limit}.")
+            power = f"{_power(known['gamma'], k)}·{text_of(known['distance'][0])}"
+            work.say(f"After {k} sweeps the bound is ${power} ≈ {decimal(value, 4)}$, {relation} {limit}.")
+
+
+def _power(gamma: Value, k: int) -> str:
+    return f"({text_of(gamma)})^{{{k}}}"
 
 
 def _sweeps(work: Work, known: dict[str, Any], accuracy: Value) -> int:

@@ -15,13 +15,16 @@ from rldrill.solutions.sheet.bellman import OWN_VALUE, Q_FORGOT_GAMMA, Q_STAR_FR
 from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_BY_REWARD,
     GREEDY_BY_VALUE,
+    GREEDY_FROM_Q,
     GREEDY_FROM_V,
+    SMALLEST_Q,
 )
 from rldrill.solutions.work import Work
 
 MISCONCEPTIONS = (
     GREEDY_BY_VALUE,
     GREEDY_BY_REWARD,
+    SMALLEST_Q,
     replace(Q_FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.missing is None),
     replace(OWN_VALUE, when=lambda given: given.missing is None),
 )
@@ -35,8 +38,10 @@ def solve(given: Given, work: Work) -> None:
         V[given.missing] = work.answer(_missing(given, given.missing, work, known | {"V": V}))
     known |= {"V": V}
     if given.action_values:
-        work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
-    greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
+        Q = work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
+        greedy = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, **known) for state in given.mdp.states}
+    else:
+        greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
     if given.gamma != 1:
         work.answer(greedy)
         return
@@ -51,7 +56,9 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Val
     An action that may lead back to the state gives an equation for the value.
     """
     x = generator("x")
-    work.say(f'Let $x = V^*("{state}")$. Then the actions in {state} have these values:')
+    back = any(row.next == state for row in given.mdp.transitions if row.state == state)
+    letter = f'Let $x = V^*("{state}")$. Then the' if back else "The"
+    work.say(f"{letter} actions in {state} have these values:")
     values = {}
     for action in given.mdp.actions[state]:
         worth = work.step(Q_STAR_FROM_V, s=state, a=action, **{**known, "V": {**known["V"], state: x}})

@@ -23,6 +23,7 @@ from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V, Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
+    IMPROVEMENT_FROM_Q,
     POLICY_IMPROVEMENT,
 )
 from rldrill.solutions.work import Work
@@ -41,8 +42,11 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     else:
         values = knowns.state_values(given.values, mdp.terminal)
     if given.action_values:
-        work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
-    greedy = work.answer({s: work.step(POLICY_IMPROVEMENT, s=s, V=values, into=_Improved, **known) for s in mdp.states})
+        Q = work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+        best = {s: work.step(IMPROVEMENT_FROM_Q, s=s, Q=Q, into=_Improved, **known) for s in mdp.states}
+    else:
+        best = {s: work.step(POLICY_IMPROVEMENT, s=s, V=values, into=_Improved, **known) for s in mdp.states}
+    greedy = work.answer(best)
     taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
     better = [state for state in mdp.states if not set(taken[state]) <= set(greedy[state])]
     stable = not better

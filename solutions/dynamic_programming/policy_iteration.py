@@ -48,6 +48,9 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         best = {
             state: work.step(POLICY_IMPROVEMENT, s=state, V=values, into=improved_to, **known) for state in mdp.states
         }
+        for state, actions in best.items():
+            if policy[state] in actions and len(actions) > 1:
+                work.say(f"In {state} there is a tie: the old action, {policy[state]}, is kept.")
         improved = work.answer(_improved(policy, best))
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before

@@ -14,7 +14,6 @@ from rldrill.solutions.formula.notation import V, numbered, pi
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.bellman import (
-    BELLMAN_OPTIMALITY_Q,
     FORGOT_GAMMA,
     OPTIMAL_Q_BY_REWARD,
 )
@@ -23,6 +22,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     GREEDY_FROM_V,
     MEAN_FOR_MAX,
     Q_OF_VALUES,
+    SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
 )
 from rldrill.solutions.work import Work
@@ -76,10 +76,10 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
     known["actions"] = mdp.actions | dict.fromkeys(mdp.terminal, (knowns.NO_ACTION,))
     Q = dict.fromkeys(mdp.pairs, ZERO) | {(state, knowns.NO_ACTION): value for state, value in ends.items()}
     for sweep in range(1, given.sweeps + 1):
-        work.say(f"Sweep {sweep}, with $Q_{{{sweep - 1}}}$ in place of $Q^*$ on the right side:")
+        work.say(f"Sweep {sweep}:")
         name, before = numbered(ActionValue, sweep), Q
         Q = before | {
-            (s, a): work.step(BELLMAN_OPTIMALITY_Q, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
+            (s, a): work.step(SWEEP_OVER_ACTIONS, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")

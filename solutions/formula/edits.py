@@ -35,7 +35,7 @@ COUNTING = frozenset("tnkiTj")
 #: Letters that are easily taken for one another.
 TWINS = {"s": "s1", "s1": "s", "a": "a1", "a1": "a", "h": "h1", "h1": "h"}
 #: Edits that are made in one term of a sum, or for one element of a set, or not at all.
-IN_ONE_TERM = frozenset(("other-taken", "summand-left-out", "summand-sign"))
+IN_ONE_TERM = frozenset(("other-taken", "summand-left-out", "summand-sign", "factor-for-one", "factor-for-all"))
 #: What a place is multiplied with, and what is added to it, when its value is another one.
 SCALE, SHIFT = sympy.Symbol("scale_"), sympy.Symbol("shift_")
 
@@ -84,11 +84,10 @@ def edits(right: Expr) -> tuple[Edit, ...]:
     found: dict[Expr, Edit] = {}
     right = flat(right)
     for path, part, within in _places(right):
+        for kind, over, new in _in_one_term(part, sympy.Symbol(element(len(within)))):
+            once = _replaced(right, path, Cases(_here(within), new, part) if within else new)
+            found[once] = Edit(kind, right, part, None, (*within, over), once)
         for kind, new, changed, instead in _changes(part):
-            if kind in IN_ONE_TERM:
-                at = _in_one_term(right, path, part, within, kind)
-                found[at.once] = at
-                continue
             edited = _replaced(right, path, new)
             if edited == right or edited in found:
                 continue
@@ -100,17 +99,28 @@ def edits(right: Expr) -> tuple[Edit, ...]:
     return tuple(found.values())
 
 
-def _in_one_term(right: Expr, path: tuple[int, ...], part: Over, within: tuple[Over, ...], kind: str) -> Edit:
-    """What is done to one element of a set alone: which one depends on the application."""
-    inside = (*within, part)
-    if kind == "other-taken":  # not the greatest is taken, but that of a certain element
-        body = _with(part.body, {part.index: sympy.Symbol(element(len(within)))})
-        new = Cases(_here(within), body, part) if within else body
-    else:
-        factor = sympy.S.Zero if kind == "summand-left-out" else sympy.S.NegativeOne
-        changed = Cases(_here(inside), Mul(factor, part.body, evaluate=False), part.body)
-        new = part.func(changed, part.index, part.domain)
-    return Edit(kind, right, part, None, inside, _replaced(right, path, new))
+def _in_one_term(part: Expr, at: sympy.Symbol) -> Iterator[tuple[str, Over, Expr]]:
+    """What is done to one element of a set alone, and the part that comes out: which one depends on the application."""
+    if isinstance(part, MaxOver):  # not the greatest is taken, but that of a certain element
+        yield "other-taken", part, _with(part.body, {part.index: at})
+    elif isinstance(part, SumOver):
+        body = part.body
+        yield "summand-left-out", part, _but_one(part, at, Mul(sympy.S.Zero, body, evaluate=False))
+        yield "summand-sign", part, _but_one(part, at, Mul(sympy.S.NegativeOne, body, evaluate=False))
+        if body.is_Mul and all(factor.is_commutative is not False for factor in body.args):
+            for last in range(1, len(body.args)):
+                factors = [_with(factor, {part.index: at}) for factor in body.args[:last]]
+                yield "factor-for-all", part, _product([*factors, _but_one(part, at, _product(body.args[last:]))])
+    elif part.is_Mul:
+        for place, over in enumerate(part.args):
+            if isinstance(over, SumOver):
+                before, behind = part.args[:place], part.args[place + 1 :]
+                yield "factor-for-one", over, _but_one(over, at, _product([*before, over.body, *behind]))
+
+
+def _but_one(over: Over, at: sympy.Symbol, instead: Expr) -> Over:
+    """A sum with another term for one of its elements."""
+    return over.func(Cases(Indicator(over.index, at), instead, over.body), over.index, over.domain)
 
 
 @cache
@@ -119,7 +129,9 @@ def probes(right: Expr) -> tuple[Probe, ...]:
     found = []
     right = flat(right)
     for path, part, within in _places(right):
-        if not path or part.is_commutative is False or part.is_Number or isinstance(part, Over | Condition):
+        if not path or part.is_commutative is False or part.is_Number:
+            continue
+        if isinstance(part, Over | Condition) and not isinstance(part, SumOver):
             continue
         other = Add(Mul(part, SCALE, evaluate=False), SHIFT, evaluate=False)
         changed = Cases(_here(within), other, part) if within else other
@@ -299,6 +311,13 @@ def _of_product(part: Expr) -> Iterator[Change]:
                 for inner in factor.args[1:]:
                     rest = [each for each in factor.args if each is not inner]
                     yield "bracket", _sum([_product([*outside, _sum(rest)]), inner]), part, None
+        if isinstance(factor, SumOver) and factor.body.is_Mul and all(scalar):  # π Σ P(r + γV) as Σ (πPr + γV)
+            for inside, bracket in enumerate(factor.body.args):
+                if bracket.is_Add:
+                    others = [*_others(factors, place), *_others(factor.body.args, inside)]
+                    first, *rest = bracket.args
+                    body = _sum([_product([*others, first]), *rest])
+                    yield "bracket", factor.func(body, factor.index, factor.domain), part, None
     if any(factor.is_Pow and factor.args[1] == -1 for factor in factors) and all(scalar):
         yield "upside-down", Pow(part, sympy.S.NegativeOne, evaluate=False), part, None
     for place in range(len(factors) - 1):
@@ -363,11 +382,6 @@ def _of_set(part: Over) -> Iterator[Change]:
     for name, other in others.items():
         if name != mine.get(type(part)):
             yield f"{name}-for-{mine.get(type(part), 'sum')}", other, part, other
-    if isinstance(part, MaxOver):
-        yield "other-taken", part, part, None
-    elif isinstance(part, SumOver):
-        yield "summand-left-out", part, part, None
-        yield "summand-sign", part, part, None
 
 
 def _of_choice(part: Node) -> Iterator[Change]:

@@ -30,6 +30,7 @@ from rldrill.solutions.formula.nodes.choices import Least as Least
 from rldrill.solutions.formula.nodes.conditions import Cases as Cases
 from rldrill.solutions.formula.nodes.conditions import Indicator as Indicator
 from rldrill.solutions.formula.nodes.conditions import Member as Member
+from rldrill.solutions.formula.nodes.conditions import Visited as Visited
 from rldrill.solutions.formula.nodes.leaves import Negative as Negative
 from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks as Blocks

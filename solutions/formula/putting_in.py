@@ -201,15 +201,43 @@ def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:
-        return Add(*map(_inner, expression.args), evaluate=False)
+        return Add(*map(_term, expression.args), evaluate=False)
     return _inner(expression)
+
+
+def _term(term: Expr) -> Expr:
+    """A term of a sum; a product of matrices is multiplied out."""
+    factors = [factor for factor in Mul.make_args(term) if factor != -1]
+    if not _of_matrices(term) or any(factor.is_Add for factor in factors):
+        return _inner(term)
+    value = evaluated(Mul(*factors, evaluate=False))
+    if not isinstance(value, sympy.MatrixBase):
+        return _inner(term)
+    value = value.applyfunc(sympy.expand)
+    product = computed(ordered(value[0, 0]) if value.shape == (1, 1) else value)
+    return product if len(factors) == len(Mul.make_args(term)) else Mul(-1, product, evaluate=False)
+
+
+def _of_matrices(term: Expr) -> bool:
+    """Whether a term is a product of several matrices."""
+    factors = Mul.make_args(term)
+    return sum(factor.is_commutative is False and not getattr(factor, "scalar", False) for factor in factors) > 1
 
 
 def _inner(term: Expr) -> Expr:
     if isinstance(term, Node):
         return term._inner(_worked_out)
     if term.is_Mul:
-        return Mul(*_without_ones([_inner(factor) for factor in term.args]), evaluate=False)
+        sign, *rest = term.args
+        if sign == -1 and len(rest) == 1 and rest[0].is_Add and any(map(_of_matrices, rest[0].args)):
+            terms = [_term(part) if _of_matrices(part) else _worked_out(part) for part in rest[0].args]
+            return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
+        factors = _without_ones([_inner(factor) for factor in term.args])
+        if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
+            return factors[1]
+        return Mul(*factors, evaluate=False)
+    if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
+        return Pow(_inner(term.args[0]), -1, evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term

@@ -37,6 +37,8 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _tail(given: Given, work: Work, read: Callable[[Scalar], Value]) -> Value:
+    n = len(given.repeated)
+    work.say(f"The rewards repeat after ${n}$ {'step' if n == 1 else 'steps'}, $n = {n}$: a geometric series.")
     return work.step(GEOMETRIC_SERIES, t=len(given.first), n=len(given.repeated), **_known(given, read))
 
 

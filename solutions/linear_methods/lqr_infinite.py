@@ -17,10 +17,8 @@ from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
     OTHER_ROOT,
     POSITIVE_S,
-    Quadratic,
     Stationary,
     back_from_modes,
-    quadratic,
 )
 from rldrill.solutions.sheet.linear_methods import stationary as stationary_formulas
 from rldrill.solutions.work import Equality, Work
@@ -30,19 +28,20 @@ def solve(given: Given, work: Work) -> None:
     """P, then the gain from it, then the closed loop, which shows that the root was the right one."""
     regulator = _regulator(given)
     added = {"discounted": given.gamma != 1, "crossed": given.N is not None}
-    lqr, formulas = quadratic(given.notation, **added), stationary_formulas(given.notation, **added)
+    formulas = stationary_formulas(given.notation, **added)
     if given.closed_loop is not None:
-        _price(given, work, lqr, formulas, regulator)
+        _price(given, work, formulas, regulator)
         return
     P = work.answer(_value(work, given, formulas, regulator))
-    by_time = {f"{name}t": {0: getattr(regulator, name)} for name in "ABRN"} | {"Pt": {1: P}, "gamma": regulator.gamma}
+    system = {f"{name}i": getattr(regulator, name) for name in "ABRN"} | {"gamma": regulator.gamma}
+    system |= {f"{given.notation.value}i": P}
     if all(is_rational(entry) and entry.q > _LONG for entry in P.entries()):
         work.say(f"The gain follows from this ${given.notation.value}$, and is rounded likewise.")
-        L = work.answer(_rounded(work.value(lqr.gain, t=0, **by_time)))
+        L = work.answer(_rounded(work.value(formulas.gain, **system)))
     elif (modes := _modes(regulator)) is not None and _is_diagonal(modes.in_modes(P)):
-        L = work.answer(_gain_by_modes(work, given, lqr, modes, P, regulator.gamma))
+        L = work.answer(_gain_by_modes(work, given, formulas, modes, P, regulator.gamma))
     else:
-        L = work.answer(work.step(lqr.gain, into=lqr.always, t=0, **by_time))
+        L = work.answer(work.step(formulas.gain, **system))
     letters = {f"{given.notation.gain}i": L}
     closed = work.step(formulas.closed_loop, Ai=regulator.A, Bi=regulator.B, **letters)
     if closed.nrows() == 1 and given.gamma == 1:
@@ -53,10 +52,10 @@ def solve(given: Given, work: Work) -> None:
     work.answer(closed)
 
 
-def _price(given: Given, work: Work, lqr: Quadratic, formulas: Stationary, regulator: Regulator) -> None:
+def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator) -> None:
     """The gain from the closed loop; P from that equation of the two which holds no price; the price from the other."""
     L, P = given.notation.gain, given.notation.value
-    system = {"Ai": regulator.A, "Bi": regulator.B, "Qi": regulator.Q, "gamma": regulator.gamma}
+    system = {f"{name}i": getattr(regulator, name) for name in "ABQR"} | {"gamma": regulator.gamma}
     loop = work.step(formulas.closed_loop, **system, **{f"{L}i": _single(generator(L))})
     gain = work.equate(L, loop[0, 0], exact(given.closed_loop or 0))
 
@@ -65,8 +64,7 @@ def _price(given: Given, work: Work, lqr: Quadratic, formulas: Stationary, regul
         return found[0, 0]
 
     def best(value: Value) -> Value:
-        by_time = {f"{name}t": {0: getattr(regulator, name)} for name in "ABR"} | {"gamma": regulator.gamma}
-        return work.step(lqr.gain, into=lqr.always, t=0, Pt={1: _single(value)}, **by_time)[0, 0]
+        return work.step(formulas.gain, **system, **{f"{P}i": _single(value)})[0, 0]
 
     unknown = generator(P)
     if given.unknown == "Q":
@@ -211,16 +209,16 @@ def _by_modes(work: Work, given: Given, formulas: Stationary, modes: _Modes) -> 
     return _back(work, modes, given.notation.value, roots)
 
 
-def _gain_by_modes(work: Work, given: Given, lqr: Quadratic, modes: _Modes, P: AnyMatrix, gamma: fmpq) -> AnyMatrix:
+def _gain_by_modes(
+    work: Work, given: Given, formulas: Stationary, modes: _Modes, P: AnyMatrix, gamma: fmpq
+) -> AnyMatrix:
     """The gain of every mode, then of the states."""
     gains, hat = [], modes.in_modes(P)
     for mode, what in enumerate(modes.names):
         work.say(f"Mode {mode + 1}, {what}:")
-        by_time = {
-            f"{name}t": {0: _single(matrix[mode, mode])} for name, matrix in zip("ABQRN", modes.split, strict=True)
-        }
-        value = {1: _single(hat[mode, mode])}
-        gains.append(work.step(lqr.gain, into=lqr.always, t=0, gamma=gamma, Pt=value, **by_time)[0, 0])
+        system = {f"{name}i": _single(matrix[mode, mode]) for name, matrix in zip("ABQRN", modes.split, strict=True)}
+        system |= {f"{given.notation.value}i": _single(hat[mode, mode]), "gamma": gamma}
+        gains.append(work.step(formulas.gain, **system)[0, 0])
     return _back(work, modes, given.notation.gain, gains)
 
 

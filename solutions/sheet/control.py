@@ -24,6 +24,7 @@ from rldrill.solutions.formula.notation import (
     Size,
     SumOver,
     T,
+    Visited,
     Vpi,
     a,
     a1,
@@ -172,14 +173,14 @@ with evaluate(False):
     ACTION_TRACE = Formula(
         "action-eligibility-trace",
         e(s, a),
-        gamma * lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+        gamma * lam * e(s, a) + Visited(s, S(t), a, A(t)),
         title="Eligibility trace of an action",
         source="Sutton & Barto 2018, section 12.7; 1998, section 7.5",
         hint="Let every trace decay by γλ, then add 1 to the trace of the pair just visited.",
         sign="←",
         misread={
-            TRACE_WITHOUT_LAMBDA: gamma * e(s, a) + Indicator(s, S(t), a, A(t)),
-            TRACE_WITHOUT_GAMMA: lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+            TRACE_WITHOUT_LAMBDA: gamma * e(s, a) + Visited(s, S(t), a, A(t)),
+            TRACE_WITHOUT_GAMMA: lam * e(s, a) + Visited(s, S(t), a, A(t)),
         },
     )
     ACCUMULATING_ACTION_TRACE = Misconception(
@@ -196,7 +197,7 @@ with evaluate(False):
         sign="←",
         place=Place.WORKING,
         misread={
-            ACCUMULATING_ACTION_TRACE: gamma * lam * e(s, a) + Indicator(s, S(t), a, A(t)),
+            ACCUMULATING_ACTION_TRACE: gamma * lam * e(s, a) + Visited(s, S(t), a, A(t)),
             TRACE_WITHOUT_LAMBDA: Cases(Indicator(s, S(t), a, A(t)), 1, gamma * e(s, a)),
             TRACE_WITHOUT_GAMMA: Cases(Indicator(s, S(t), a, A(t)), 1, lam * e(s, a)),
         },

@@ -19,6 +19,7 @@ from rldrill.solutions.formula.notation import (
     V,
     Vpi,
     a,
+    a1,
     called,
     gamma,
     letter,
@@ -33,6 +34,7 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_POLICY,
     LOOKAHEAD,
     MAX_FOR_MEAN,
+    OPTIMAL_Q_BY_REWARD,
     WITHOUT_GAMMA,
 )
 
@@ -51,10 +53,8 @@ _V_0, _V_1 = (_values(variable(number)) for number in "01")
 
 pi1 = quantity("pi1", called("π′"))
 pi_star = quantity("pi", called(Script(variable("π"), above=operator("*"))))
-#: Two value functions, and how far they are from each other.
-First = quantity("V", called("V"))
-Second = quantity("V1", called("V′"))
-Norm = quantity("norm", lambda: _distance(variable("V"), variable("V′")))
+#: The values before the first sweep, after it and in the end, and how far they are from each other.
+V_start, V_swept, V_end = (quantity(code, called(name)) for code, name in (("V0", _V_0), ("V1", _V_1), ("V", _V_STAR)))
 StartNorm = quantity("norm", lambda: _distance(_V_0, _V_STAR))
 SweepNorm = quantity("norm", lambda: _distance(_V_1, _V_0))
 #: ‖V_k − V*‖∞ and ‖V_{k+1} − V_k‖∞ by k.
@@ -166,6 +166,28 @@ with evaluate(False):
             GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
         },
     )
+    IMPROVEMENT_FROM_Q = Formula(
+        "policy-improvement-from-q",
+        pi(s),
+        ArgMaxOver(Qpi(s, a), a, Actions(s)),
+        title="Policy improvement from action values",
+        source="Sutton & Barto 2018, eq. 4.9",
+        hint="In every state take the action whose value under the old policy is greatest.",
+        place=Place.WORKING,
+    )
+    SWEEP_OVER_ACTIONS = Formula(
+        "value-iteration-over-actions",
+        Q(s, a),
+        SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * MaxOver(Q(s1, a1), a1, Actions(s1))), s1, Successors(s, a)),
+        title="Value iteration over action values",
+        source="Sutton & Barto 2018, section 4.4",
+        hint="The first action is fixed; from the next state on the best action is taken.",
+        sign="←",
+        place=Place.WORKING,
+        misread={
+            OPTIMAL_Q_BY_REWARD: _REWARD,
+        },
+    )
     SMALLEST_Q = Misconception("smallest-q", "Q is a return, so the greatest is best; only costs are minimised.")
     GREEDY_FROM_Q = Formula(
         "greedy-from-q",
@@ -186,14 +208,26 @@ with evaluate(False):
     )
     MAX_NORM = Formula(
         "max-norm",
-        Norm(),
-        MaxOver(Abs(First(s) - Second(s)), s, States),
-        title="Maximum norm",
+        StartNorm(),
+        MaxOver(Abs(V_start(s) - V_end(s)), s, States),
+        title="Distance from the optimal values in the maximum norm",
         source="Puterman 1994, chapter 6",
         hint="Take the greatest difference of all states, without its sign.",
         place=Place.WORKING,
         misread={
-            SUM_FOR_MAX: SumOver(Abs(First(s) - Second(s)), s, States),
+            SUM_FOR_MAX: SumOver(Abs(V_start(s) - V_end(s)), s, States),
+        },
+    )
+    MAX_NORM_OF_SWEEP = Formula(
+        "max-norm-of-sweep",
+        SweepNorm(),
+        MaxOver(Abs(V_swept(s) - V_start(s)), s, States),
+        title="Change in a sweep in the maximum norm",
+        source="Puterman 1994, chapter 6",
+        hint="Take the greatest difference of all states, without its sign.",
+        place=Place.WORKING,
+        misread={
+            SUM_FOR_MAX: SumOver(Abs(V_swept(s) - V_start(s)), s, States),
         },
     )
     FORGOT_DISTANCE = Misconception(

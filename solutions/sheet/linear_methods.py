@@ -164,8 +164,15 @@ with evaluate(False):
         hint="Work out Bᵀ P first.",
         place=Place.WORKING,
     )
-    #: The gain by these two.
-    LQR_SOLVED = Pow(Ht(t), -1) * Gt(t)
+    LQR_SOLVED = Formula(
+        "lqr-gain-solved",
+        Lt(t),
+        Pow(Ht(t), -1) * Gt(t),
+        title="LQR gain by these two matrices",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="Multiply by the inverse from the left.",
+        place=Place.WORKING,
+    )
     NO_TERMINAL = Misconception(
         "no-terminal-value", "The state at the last time T is rewarded too: P_T is −Q_T, not 0."
     )
@@ -231,11 +238,10 @@ class Quadratic(NamedTuple):
     gain: Formula
     riccati: Formula
     action: Formula
-    #: The gain that is the same at all times.
-    always: type[Quantity]
-    #: The matrix that is inverted for the gain, and the one behind it.
+    #: The matrix that is inverted for the gain, the one behind it, and the gain by these two.
     bracket: Formula
     product: Formula
+    solved: Formula
 
 
 @cache
@@ -245,9 +251,8 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
         quantity(code, subscripted(head), matrix=True)
         for code, head in zip(("St", "Ut", "Lt", "Pt"), notation[:4], strict=True)
     )
-    always = quantity("Lt", lambda _: variable(notation.gain), matrix=True)
     if not (notation.costs or discounted or crossed):
-        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, always, LQR_BRACKET, LQR_PRODUCT)
+        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, LQR_BRACKET, LQR_PRODUCT, LQR_SOLVED)
     with evaluate(False):
         A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
         ahead = (gamma,) if discounted else ()
@@ -279,9 +284,9 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
                 right=(Q if notation.costs else -Q) + Mul(*ahead, Transposed(A), after, A) - turned * gain(t),
             ),
             replace(LQR_ACTION, left=action(t), right=-gain(t) * state(t)),
-            always,
             replace(LQR_BRACKET, right=bracket),
             replace(LQR_PRODUCT, right=both),
+            replace(LQR_SOLVED, left=gain(t)),
         )
 
 
@@ -293,13 +298,12 @@ def _unit(size: int) -> tuple[tuple[int, ...], ...]:
 Ai = letter("Ai", "A", matrix=True)
 Bi = letter("Bi", "B", matrix=True)
 Qi = letter("Qi", "Q", matrix=True)
+Ri = letter("Ri", "R", matrix=True)
 Pi = letter("Pi", "P", matrix=True)
 Li = letter("Li", "L", matrix=True)
 Ni = letter("Ni", "N", matrix=True)
 modes = letter("modes", "T", matrix=True)
 Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
-#: The gain that is the same at all times.
-L_always = quantity("Lt", lambda _: variable("L"), matrix=True)
 closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
 a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
 n1 = letter("Nk", "N")
@@ -351,6 +355,18 @@ with evaluate(False):
         hint="Solve one scalar problem for each mode, and transform back.",
         place=Place.WORKING,
     )
+    LQR_STATIONARY_GAIN = Formula(
+        "lqr-stationary-gain",
+        Li,
+        Pow(Transposed(Bi) * Pi * Bi - Ri, -1) * Transposed(Bi) * Pi * Ai,
+        title="LQR gain, infinite horizon",
+        source="Bertsekas 2017, section 3.1, with P = −K",
+        hint="The gain of a step, with the same P before and after it.",
+        place=Place.WORKING,
+        misread={
+            POSITIVE_S: -Pow(-Transposed(Bi) * Pi * Bi - Ri, -1) * Transposed(Bi) * Pi * Ai,
+        },
+    )
     LQR_CLOSED_LOOP = Formula(
         "lqr-closed-loop",
         closed,
@@ -379,6 +395,7 @@ class Stationary(NamedTuple):
     equation: Formula
     beta: Formula
     root: Formula
+    gain: Formula
     closed_loop: Formula
 
 
@@ -386,15 +403,18 @@ class Stationary(NamedTuple):
 def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Stationary:
     """The infinite horizon as it is written in a convention; the sheet's own formulas, where nothing is added."""
     if not (notation.costs or discounted or crossed):
-        return Stationary(LQR_STATIONARY, LQR_BETA, LQR_ROOT, LQR_CLOSED_LOOP)
+        return Stationary(LQR_STATIONARY, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
     value, gain = letter(f"{notation.value}i", notation.value, matrix=True), letter(f"{notation.gain}i", notation.gain,
                                                                                     matrix=True)  # fmt: skip
     loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
     with evaluate(False):
         ahead = (gamma,) if discounted else ()
         turned = Mul(*ahead, Transposed(Ai), value, Bi)
+        square, both = Mul(*ahead, Transposed(Bi), value, Bi), Mul(*ahead, Transposed(Bi), value, Ai)
+        bracket = Ri + square if notation.costs else square - Ri
         if crossed:
             turned = turned + (Ni if notation.costs else -Ni)
+            both = both + Transposed(Ni) if notation.costs else both - Transposed(Ni)
         beta_right = Mul(*ahead, b1**2, q1) + (Mul(*ahead, a1**2) - 1) * r1
         product = q1 * r1
         if crossed:
@@ -414,6 +434,7 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 LQR_ROOT, left=scalar, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2), misread={},
                 note="",
             ),
+            replace(LQR_STATIONARY_GAIN, left=gain, right=Pow(bracket, -1) * both, misread={}),
             replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
         )  # fmt: skip
 

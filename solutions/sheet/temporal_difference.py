@@ -14,11 +14,11 @@ from rldrill.solutions.formula.notation import (
     Counting,
     G,
     Gn,
-    Indicator,
     S,
     SumOver,
     T,
     V,
+    Visited,
     alpha,
     called,
     gamma,
@@ -168,7 +168,7 @@ with evaluate(False):
     )
 
     _DECAYED = gamma * lam * e(s)
-    _VISIT = Indicator(s, S(t))
+    _VISIT = Visited(s, S(t))
 
     DECAY_WITHOUT_GAMMA = Misconception(
         "decay-without-gamma", "Traces decay by γλ, not by λ alone.", when=_given("gamma")

@@ -1,5 +1,6 @@
 """The rule for answers, and the verdicts that come of it."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -11,7 +12,6 @@ from hypothesis import strategies as st
 import rldrill
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Numbers, Policy, Values
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, judge

@@ -1,6 +1,7 @@
 """One number, in all the forms in which people write it: read as what it is, or refused with its readings named."""
 
 import time
+from fractions import Fraction
 
 import pytest
 from flint import fmpq
@@ -8,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from number_spellings import misread
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.numbers import plain
 from rldrill.solutions.answers.text import Unreadable, read_number
 

@@ -23,7 +23,7 @@ from rldrill.solutions.drawing import draw
 #: Enough that the answers fill several thousand characters, with numbers of some fifty digits.
 STATES = 30
 #: A number that is longer than a line of the terminal.
-TORN = re.compile(r"[0-9/]\n +[0-9/]")
+TORN = re.compile(r"[0-9/]\n *[0-9/]")
 SEEDS = (100, 101, 102)
 
 

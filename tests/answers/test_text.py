@@ -1,6 +1,7 @@
 """What is read from typed answers, what is refused and how, and that neither takes long."""
 
 import time
+from fractions import Fraction
 
 import pytest
 import sympy
@@ -8,7 +9,6 @@ from flint import fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.text import (
     Reading,
     Unreadable,
@@ -852,3 +852,13 @@ def test_entries_of_vectors_by_name(text, names):
 
 def test_an_entry_that_is_given_twice_is_refused():
     assert "Entry 1 is given twice" in refusal(read_vector, "x: 1, x: 2", 2, (), ["x", "y"]).message
+
+
+@pytest.mark.parametrize("text", ["R_0: .25", "answer: 1/4", "The answer is 1/4", "V(s): 0.25", "p(s|a): 25%"])
+def test_what_is_said_before_a_number_is_left_out(text):
+    assert read_number(text).value == fmpq(1, 4)
+
+
+@pytest.mark.parametrize("text", ["1:4", "2 V: 1/4", "a: b: 1/4"])
+def test_a_colon_elsewhere_is_not_understood(text):
+    assert "':'" in refusal(read_number, text).message

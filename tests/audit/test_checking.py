@@ -1,6 +1,7 @@
 """The audit notices what it is there to notice."""
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ from flint import fmpq
 from rldrill.audit import checking as audit
 from rldrill.audit.checking import Finding, agrees, examine
 from rldrill.problems.catalogue import family
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part, Policy
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw

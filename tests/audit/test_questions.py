@@ -1,5 +1,6 @@
 """What the audit says of questions: givens that do not matter, what guessing earns, minutes a point, variety."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -9,7 +10,6 @@ from rldrill.audit.givens import idle
 from rldrill.audit.guessing import Guesses
 from rldrill.problems.catalogue import family
 from rldrill.problems.family import Problem
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.effort import points
 from rldrill.solutions.solution import Solution, solve

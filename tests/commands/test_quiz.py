@@ -4,6 +4,7 @@ import os
 import sys
 import types
 from collections.abc import Iterator
+from fractions import Fraction
 from io import StringIO
 from pathlib import Path
 
@@ -14,7 +15,6 @@ from rich.console import Console
 import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.quiz.ahead import Ahead
 from rldrill.quiz.keys import HELP
 from rldrill.quiz.prompt import line_editor

@@ -21,11 +21,13 @@ from error_model import Erroneous, erroneous, numeric, random_wrong
 
 from rldrill.diagnosis import AT_THE_PROMPT
 from rldrill.problems.catalogue import selection
-from rldrill.solutions.answers.kinds import Allowed, answer_kind
+from rldrill.solutions.answers.judging import part_of, read_answer
+from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Unreadable
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.explaining import MOST, explained
+from rldrill.solutions.diagnosis.outcomes import Outcomes
 from rldrill.solutions.diagnosis.search import Search
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.drawing import draw
@@ -33,14 +35,14 @@ from rldrill.solutions.solution import Solution
 
 #: What may be said of an error, by the names of the program's causes.
 ACCEPTED_NAMES = {
-    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept range summand-left-out "
-    "term-left-out twin",
+    "term_lost": "bracket-left-out case choice confused elsewhere factor-left-out index kept lost-term range "
+    "summand-left-out term-left-out twin",
     "factor_lost": "bracket-left-out doubled elsewhere factor-left-out halved index inverse only-factor-left-out power "
     "sign tenfold term-left-out",
-    "sign_turned": "all-signs difference minus-lost sign summand-sign twice",
-    "bracket_lost": "bracket",
-    "bracket_widened": "bracket",
-    "minus_lost": "difference minus-lost sign summand-sign twice",
+    "sign_turned": "all-signs difference minus-lost sign summand-sign term-sign twice",
+    "bracket_lost": "bracket factor-for-one",
+    "bracket_widened": "bracket factor-for-all",
+    "minus_lost": "difference minus-lost sign summand-sign term-sign twice",
     "power_off": "factor-left-out index power squared squared-value",
     "power_as_product": "power-as-product",
     "square_forgotten": "factor-left-out index power squared squared-value",
@@ -56,7 +58,7 @@ ACCEPTED_NAMES = {
     "transposition_forgotten": "answer-transposed order-of-factors transposed",
     "matrices_exchanged": "order-of-factors transposed",
     "added_for_multiplied": "added",
-    "point_shifted": "tenfold",
+    "point_shifted": "tenfold term-tenfold",
     "fractions_added_crosswise": "crosswise",
     "numbers_exchanged": "all-signs difference exchanged sign summand-sign",
     "value_sign": "all-signs difference minus-lost sign",
@@ -87,22 +89,33 @@ class Measured:
         self.solution = solution
         self.seconds = seconds
         self.search = Search(solution)
+        self.outcomes: dict[str, Outcomes] = {}
         self.steps = [each.number for each in self.search.applications if not each.equation]
+
+    def typed(self, label: str, text: str) -> Typed | None:
+        """What was typed for a part; None where it is not wrong, or longer than anybody types."""
+        part = part_of(self.solution, label)
+        kind = answer_kind(part.kind)
+        try:
+            typed = Typed(part, read_answer(self.solution, part, text), kind.cells(self.solution.answers[label]))
+        except Unreadable:
+            return None
+        return typed if typed.wrong else None
+
+    def outcomes_of(self, typed: Typed) -> Outcomes:
+        """What causes make of the part that was answered."""
+        label = typed.part.label
+        if label not in self.outcomes:
+            self.outcomes[label] = Outcomes(self.search, typed.part, typed.key)
+        return self.outcomes[label]
 
     def causes(self, label: str, text: str) -> tuple[tuple[Cause, ...], float] | None:
         """What is said of a wrong answer, and the milliseconds that it took; None where it is not wrong."""
-        problem = self.solution.problem
-        part = next(part for part in problem.parts if part.label == label)
-        kind = answer_kind(part.kind)
-        try:
-            cells = kind.read(text, Allowed(problem.parameters, problem.given.terminal_states()))
-        except Unreadable:  # longer than anybody types
-            return None
-        typed = Typed(part, cells, kind.cells(self.solution.answers[label]))
-        if not typed.wrong:
+        typed = self.typed(label, text)
+        if typed is None:
             return None
         begun = time.process_time()
-        found = explained(self.search, typed, Clock(self.seconds)).causes
+        found = explained(self.outcomes_of(typed), typed, Clock(self.seconds)).causes
         return found, 1000 * (time.process_time() - begun)
 
     def verdict(self, error: Erroneous, causes: Sequence[Cause]) -> str:

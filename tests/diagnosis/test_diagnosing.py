@@ -29,9 +29,9 @@ def run() -> rldrill.Exercise:
     ("typed", "kind", "sentence"),
     [
         # 10 + 1/4·(−3 + 9 − 10) = 9
-        ("cave: 13/2, floor: 9", "factor-left-out", "It looks as if γ is missing in the second update (t = 1)."),
+        ("cave: 13/2, floor: 9", "factor-left-out", "It looks as if γ is missing in the second update (t = 1)"),
         # 9 + 1/4·(4 + 1/2·6 − 9) = 17/2
-        ("cave: 17/2, floor: 63/8", None, "third update (t = 2)"),
+        ("cave: 17/2, floor: 63/8", "minus-lost", "the minus of rₜ₊₁ = −4 is lost in the third update (t = 2)"),
         # the second update is left out: floor stays at 10
         ("cave: 13/2, floor: 10", None, "in the second update (t = 1)"),
         ("cave: 63/8, floor: 13/2", "exchanged-cells", "the answers for cave and floor are exchanged"),
@@ -91,5 +91,5 @@ def test_close_hides_no_wrong_idea() -> None:
     # 100 + 1/10·(15 + 9/10·110 − 100) = 101.4; without the update it is 100, within 2 % of that
     verdict = exercise.check("a: 100")
     assert verdict.outcome is not Outcome.CLOSE
-    assert "is missing in the update" in verdict.says
+    assert "the old value 100 is kept in the update" in verdict.says
     assert exercise.check("a: 100.7").outcome is Outcome.CLOSE

@@ -9,7 +9,8 @@ from rldrill.solutions.formula.edits import IN_ONE_TERM, SCALE, SHIFT, edits, pr
 from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BAYES
-from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V
+from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V, V_FROM_Q
+from rldrill.solutions.sheet.policy_gradient import SCORE_FUNCTION
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
 
 
@@ -58,6 +59,28 @@ def test_one_hypothesis_is_left_out_of_the_evidence() -> None:
     left_out = next(edit for edit in edits(BAYES.right) if edit.kind == "summand-left-out")
     assert value_of(left_out.once, {**known, "at_1": "b"}) == 1
     assert value_of(left_out.once, {**known, "at_1": "a"}) == exact(1) / 3
+
+
+def test_the_factor_of_one_term_multiplies_all() -> None:
+    # 1/4·8 + 3/4·4 = 5; with the 1/4 before all of it 1/4·(8 + 3/4·4) = 11/4, with the 3/4 3/4·(1/4·8 + 4) = 9/2
+    known = {
+        "s": "x", "actions": {"x": ("a", "b")}, "pi": {("a", "x"): exact(1) / 4, ("b", "x"): exact(3) / 4},
+        "Q": {("x", "a"): exact(8), ("x", "b"): exact(4)},
+    }  # fmt: skip
+    assert value_of(V_FROM_Q.right, known) == 5
+    for_all = next(edit for edit in edits(V_FROM_Q.right) if edit.kind == "factor-for-all")
+    assert value_of(for_all.once, {**known, "at_1": "a"}) == exact(11) / 4
+    assert value_of(for_all.once, {**known, "at_1": "b"}) == exact(9) / 2
+
+
+def test_what_stands_before_a_sum_is_applied_to_one_term_only() -> None:
+    # f(s, a) − Σ π f = 5 − (1/4·8 + 3/4·4) = 0; with the minus before the first term alone 5 − 2 + 3 = 6
+    known = {
+        "s": "x", "a": "a", "choices": ("b", "c"), "pi": {("b", "x"): exact(1) / 4, ("c", "x"): exact(3) / 4},
+        "f_vector": {("x", "a"): exact(5), ("x", "b"): exact(8), ("x", "c"): exact(4)},
+    }  # fmt: skip
+    one = next(edit for edit in edits(SCORE_FUNCTION.right) if edit.kind == "factor-for-one")
+    assert value_of(one.once, {**known, "at_1": "b"}) == 6
 
 
 def test_a_place_of_a_formula_takes_another_value() -> None:

@@ -15,6 +15,10 @@ def roster(folder: Path, text: str) -> Path:
     return path
 
 
+def test_a_roster_with_the_line_ends_of_old_macintoshes(tmp_path: Path) -> None:
+    assert read_roster(roster(tmp_path, "name,number\rAnn,1\r")) == (Person("Ann", "1"),)
+
+
 def test_people_in_their_order(tmp_path: Path) -> None:
     people = (Person("Lee, Ann", "17"), Person("Jürgen", "04"))
     assert read_roster(roster(tmp_path, 'name,number\n"Lee, Ann",17\n\nJürgen, 04\n')) == people
@@ -28,6 +32,7 @@ def test_people_in_their_order(tmp_path: Path) -> None:
         ("name,number\nAnn\n", "line 2: there are 1 cells under 2 names"),
         ("name,number\nAnn,\n", "line 2: the name or the number is missing"),
         ("name,number\nAnn,1\nBob,1\n", "line 3: the number 1 stands there twice"),
+        (f"name,number\nAnn,{'9' * 20_000_000}\n", "the file is larger than 10 MB"),
         ("name,number\n", "there are 0 people on it"),
         (f"name,number\n{'x' * 61},1\n", "line 2: the name or the number is too long"),
     ],

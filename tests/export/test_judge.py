@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -12,7 +13,6 @@ import rldrill
 from number_spellings import spellings
 from rldrill.export.html import task
 from rldrill.export.page import beside
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Unreadable, read_number

@@ -1,6 +1,7 @@
 """A node says itself all that is to be known of it: one class, named nowhere else, has every reading."""
 
 from collections.abc import Callable
+from fractions import Fraction
 
 import pytest
 import sympy
@@ -9,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Expr, Integer, Pow, S, evaluate
 
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import Fence, Math, listed, row, word
 from rldrill.render.unicode import unicode
 from rldrill.solutions.effort import seconds_of

@@ -166,13 +166,13 @@ def test_a_maximum_over_one_action_and_a_negative_number_alone_stand_bare() -> N
     model = {"successors": {("cool", "fast"): ("warm",)}, "P": {("cool", "fast", "warm"): fmpq(1)}}
     rewards = {("cool", "fast", "warm"): fmpq(3)}
     work.step(BELLMAN_OPTIMALITY_Q, s="cool", a="fast", R=rewards, **model, **known)
-    work.step(MAX_NORM, states=("cool",), V={"cool": fmpq(1)}, V1={"cool": fmpq(4)})
+    work.step(MAX_NORM, states=("cool",), V0={"cool": fmpq(1)}, V={"cool": fmpq(4)})
     fails = {"s": "cool", "V": {"cool": fmpq(-2)}, "pi1": {"cool": "fast"}}
     work.step(POLICY_IMPROVEMENT_THEOREM, sign="<", **fails)
     lines = [" ".join(unicode_text(line.equation()).split()) for line in work.lines if isinstance(line, Step)]
     assert lines == [
         "Q*(cool, fast) = 1·(3 + 1/2·(−4)) = 3 + 1/2·(−4) = 1",
-        "‖V − V′‖_∞ = |1 − 4| = 3",
+        "‖V₀ − V*‖_∞ = |1 − 4| = 3",
         "Q^π(cool, fast) < −2",
     ]
 

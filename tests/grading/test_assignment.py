@@ -1,7 +1,9 @@
 """An exam is graded as it was given out: exactly its problems, all of them, whatever a file of answers says."""
 
 import json
+import os
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +14,14 @@ from rldrill.exam.blueprint import Entry as Asked
 from rldrill.exam.exam import Layout, Person
 from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
+from rldrill.grading import marking
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.marking import Rules
 from rldrill.grading.report import Report, StudentReport
+from rldrill.grading.reports import github, gradescope, junit, page, tables, text
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import UsageError
-from rldrill.problems.fractions import Fraction
+from rldrill.solutions.answers.judging import judge
 
 HEAD = "student,number,problem,part,answer\n"
 
@@ -131,9 +135,9 @@ def test_of_several_hand_ins_one_counts(tmp_path: Path, which: str, points: int)
     path, made = exam(tmp_path)
     worth = made.versions[0].exercises[0].parts[0].points
     files = []
-    for number, text in enumerate((keys(made.versions[0])["1", "a"], "1000")):
+    for number, typed in enumerate((keys(made.versions[0])["1", "a"], "1000")):
         files.append(tmp_path / f"{number}.csv")
-        files[-1].write_text(f'{HEAD}Ann,,1,a,"{text}"\n')
+        files[-1].write_text(f'{HEAD}Ann,,1,a,"{typed}"\n')
     report = verify(files, Settings(assignment=Assignment(path), hand_ins=which))
     assert [each.score.points for each in report.students] == [points * worth]
 
@@ -191,3 +195,134 @@ def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, an
     rules = Settings(rules=Rules(partial="all"))
     (part,) = [part for part in verify([path], rules).parts if part.part == "b"]
     assert part.score.points == (part.score.of if share == 1 else 0)
+
+
+def test_whoever_is_on_the_roster_and_handed_in_nothing_counts(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    of = made.versions[0].points
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student,number\nAnn,1\nBen,2\nCem,3\n", encoding="utf-8")  # one version: no column for it
+    rows = [("Ann", "", *key, text) for key, text in keys(made.versions[0]).items()]
+    report = graded(tmp_path, rows, Assignment(path, roster=roster))
+    assert [(each.student, each.score.points, each.score.of) for each in report.students] == [
+        ("Ann", of, of),
+        ("Ben", 0, of),
+        ("Cem", 0, of),
+    ]
+    assert (report.score.points, report.score.of) == (of, 3 * of)
+    assert report.exit_code == 1
+    told = {
+        "text": text.written(report, "reason"),
+        "html": page.written(report, "reason"),
+        "github": github.written(report, "reason"),
+        "summary": github.summary(report, "reason"),
+        "junit": junit.written(report, "reason"),
+        "csv": tables.totals(report),
+    }
+    for form, said in told.items():
+        assert said.count("handed in nothing") >= (1 if form == "html" else 2), form
+        assert "Ben" in said
+        assert "Cem" in said
+    assert [each["handed_in"] for each in report.to_json()["students"]] == [True, False, False]
+    # A submission to Gradescope is one student's: what others did not hand in is no business of theirs.
+    assert "Ben" not in gradescope.written(report, "reason")
+    assert len(json.loads(gradescope.written(report, "reason"))["tests"]) == len(rows)
+    alone = graded(tmp_path, rows, Assignment(path, roster=roster), absent=False)
+    assert [each.student for each in alone.students] == ["Ann"]
+    assert alone.exit_code == 0
+
+
+def test_a_problem_that_cannot_be_graded_stays_in_what_there_is_to_earn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, made = exam(tmp_path)
+    right = keys(made.versions[0])
+    rows = [("Eve", "", "1", "a", right["1", "a"]), ("Eve", "", "2", "a", "13")]
+
+    def judged(solution: Any, label: str, text: str, earlier: Any = None) -> Any:
+        if text == "13":
+            os._exit(139)
+        return judge(solution, label, text, earlier)
+
+    monkeypatch.setattr(marking, "judge", judged)
+    report = graded(tmp_path, rows, Assignment(path), isolated=True, needed=Fraction(1, 2))
+    (eve,) = report.students
+    assert [part.judged.verdict for part in eve.parts] == ["right", "not graded", "not graded"]
+    assert eve.score.of == made.versions[0].points
+    assert not report.passed(eve)  # whoever breaks the grading of what they cannot do has not passed by the rest
+    assert report.exit_code == 3
+
+
+def test_every_report_tells_the_points_on_the_exams_scale(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    data = json.loads(path.read_text())
+    data["scale"] = 100
+    worth = {("1", "a"): 2, ("2", "a"): 0, ("2", "b"): 3}  # weights set after the exam: (2a) does not count any more
+    for (number, label), points in worth.items():
+        parts = data["versions"][0]["problems"][int(number) - 1]["parts"]
+        next(part for part in parts if part["part"] == label)["points"] = points
+    path.write_text(json.dumps(data))
+    right = keys(made.versions[0])
+    report = graded(tmp_path, [("Ann", "", "1", "a", right["1", "a"])], Assignment(path))
+    (ann,) = report.students
+    # 2 of 2 + 0 + 3 points are 40 of 100.
+    assert (ann.score.points, ann.score.of) == (2, 5)
+    assert report.to_json()["students"][0]["scaled"] == {"exact": "40", "decimal": "40", "of": 100}
+    assert "2 of 5 (40 %), 40 of 100" in text.written(report, "reason")
+    assert "40 of 100" in page.written(report, "reason")
+    assert "2 of 5 points, 40 of 100" in github.summary(report, "reason")
+    assert "2,5,40,40,100,no" in tables.totals(report)
+    assert '<property name="scaled" value="40" />' in junit.written(report, "reason")
+    results = json.loads(gradescope.written(report, "reason"))
+    assert results["score"] == 40
+    assert [(test["score"], test["max_score"]) for test in results["tests"]] == [(40, 40), (0, 0), (0, 60)]
+
+
+def test_what_is_handed_in_in_somebody_elses_name_is_seen(tmp_path: Path) -> None:
+    path, made = exam(tmp_path, roster=(Person("Ann Lee", "8"), Person("Ben Ali", "9")))
+    right = {version.person.name: keys(version)["1", "a"] for version in made.versions}
+    for name, row in {
+        "ann": ("Ann Lee", "8", "1", "a", right["Ann Lee"]),
+        "ben": ("Ben Ali", "9", "1", "a", right["Ben Ali"]),
+        "mallory": ("Mallory", "9", "1", "a", "1000"),
+    }.items():
+        (tmp_path / f"{name}.csv").write_text(HEAD + ",".join(f'"{cell}"' for cell in row) + "\n")
+    report = verify([tmp_path / f"{name}.csv" for name in ("ann", "ben", "mallory")], Settings(Assignment(path)))
+    ann, ben = report.students
+    assert (ann.extra, ann.others, ann.remark) == ((), (), "")
+    assert ben.others == (str(tmp_path / "ben.csv"),)
+    assert ben.remark == "1 of 2 hand-ins"
+    (said,) = ben.extra
+    assert "number 9 is Ben Ali's, and beside it stands 'Mallory'" in said
+    assert "1 of 2 hand-ins" in tables.totals(report)
+    assert "1 of 2 hand-ins" in page.written(report, "reason")
+
+
+def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
+    path, made = exam(tmp_path)
+    right = keys(made.versions[0])["2", "a"]
+    tricks = [
+        "V(s)", "R_1", "x", "0/0", "1/0", "NaN", f"1 or {right}", f"{right} or 1", f"{right}; 1", f"[0, {right}]",
+        f"{right} ± 9", f"0..{right}", f"a: 1, a: {right}", f"{{1, {right}}}", "key", "?", f"{right}\u200b", "9^9^9",
+    ]  # fmt: skip
+    for trick in tricks:
+        (ann,) = graded(tmp_path, [("Ann", "", "2", "a", trick)], Assignment(path)).students
+        assert ann.score.points == 0, trick
+        assert ann.parts[1].judged.verdict in ("unreadable", "missing"), trick
+
+
+def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
+    # linearise-affine/1/7 (b) is [0 −9; 0 1], see above; its last row is the same in every draw.
+    asked = (
+        Asked(id="linearise-affine/1/7", partial="entries"),
+        Asked(id="linearise-affine/1/7", partial=("entries", "all", "entries")),
+        Asked(id="linearise-affine/1/7"),
+    )
+    path = tmp_path / "exam.json"
+    path.write_bytes(written(manifest(plan(Blueprint(problems=asked, seed=7)))))
+    rows = [("Ann", "", number, "b", "0, 2; 0, 1") for number in "123"]
+    (ann,) = graded(tmp_path, rows, Assignment(path)).students
+    shares = [part.score.share for part in ann.parts if part.part == "b"]
+    assert shares == [Fraction(1, 2), 0, 0]
+    with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
+        plan(Blueprint(problems=(Asked(id="linearise-affine/1/7", partial=("all",)),), seed=7))

@@ -12,11 +12,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from rldrill.exam.manifest import printed
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables, text
 from rldrill.grading.verification import Settings, verify
-from rldrill.problems.errors import UserError
+from rldrill.problems.errors import FileError, UserError
 
 HEAD = "student,problem,part,answer\n"
 
@@ -110,6 +111,14 @@ def test_paths_in_a_manifest_open_nothing(tmp_path: Path) -> None:
     assert "passwd.csv: there is no such file" not in str(report.refused)
 
 
+@pytest.mark.parametrize("code", ["../x", "/etc/x", "A\n", "a b", "", "\x1b[31m", "A" * 9])
+def test_the_code_of_a_version_leads_nowhere(tmp_path: Path, code: str) -> None:
+    problem = {"id": "td-zero/1/7@3", "parts": [{"part": "a", "points": 1}], "problem": {}}
+    data = {"format": 2, "rldrill": "0", "title": "t", "seed": 1, "versions": [{"code": code, "problems": [problem]}]}
+    with pytest.raises(FileError, match=r"the manifest is damaged at versions\.1\.code"):
+        printed(written(tmp_path, "exam.json", json.dumps(data)))
+
+
 def test_a_closed_output_is_no_reason_to_fail(tmp_path: Path) -> None:
     path = written(tmp_path, "a.csv", HEAD + "Ann,td-zero/1/7,a,5.25\n")
     for streams in (">&- 2>&-",):
@@ -150,3 +159,60 @@ def test_any_manifest_is_read_or_refused(tmp_path: Path, content: object) -> Non
     with contextlib.suppress(UserError):
         printed(path)
         Assignment(path, "A")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.toml", '"td-zero/1/7".' + "a." * 100_000 + "b = 1"),  # the library takes 5 GB for it
+        ("a.toml", '["td-zero/1/7" .' + " '' . " * 100_000 + "b]"),
+        ("a.toml", "x = {" + '"\\"" . ' * 50_000 + "b = 1}"),
+        ("a.toml", "\n" * 900_000 + "="),
+        ("a.toml", '"td-zero/1/7" = "' + '\\"' * 400_000 + '"'),
+        ("a.toml", '"td-zero/1/7" = [' + "1," * 2_000_000 + "]"),
+        ("a.json", '{"td-zero/1/7": [' + "1," * 2_000_000 + "1]}"),
+        ("a.csv", "problem,answer" + ",x" * 100_000 + "\ntd-zero/1/7,1" + "," * 100_000 + "\n"),
+        ("a.csv", HEAD + "A" + "\u0301\u0316" * 500_000 + ",td-zero/1/7,a,1\n"),
+        ("a.csv", HEAD + 'A,td-zero/1/7,a,"\n' * 10_000),
+    ],
+)
+def test_no_small_file_takes_long(tmp_path: Path, name: str, content: str) -> None:
+    path = written(tmp_path, name, content)
+    begun = time.process_time()
+    verify([path])
+    assert time.process_time() - begun < 3
+
+
+def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
+    long = "".join(f"{name},td-zero/1/7,a,{'9' * 200_000}\n" for name in "ABCDEFGHIJKLMNOPQRSTUVWXY")
+    found = verdicts(written(tmp_path, "a.csv", f"{HEAD}{long}Zoe,td-zero/1/7,a,5.25\n"))
+    assert found.pop("Zoe") == "right"
+    assert set(found.values()) == {"unreadable"}
+
+
+PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61)
+
+
+@pytest.mark.parametrize("problem", ["return/1/7", "td-zero/1/7"])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "a" * 300_000,
+        "a=\n" * 100_000,
+        "²" * 1999,
+        "(" * 990 + "1" + ")" * 990,
+        "(((9^64)^64)^64)^64",
+        "sqrt(" * 330 + "2" + ")" * 330,
+        "/".join(["3"] * 900),
+        "+".join(f"1/{number}" for number in range(1001, 1250)),
+        "1/(" + "+".join(f"sqrt({prime})" for prime in PRIMES) + ")",
+        "(" + "+".join(f"exp({number}/7)" for number in range(1, 60)) + ")^64",
+        "\\frac{1}{" * 180 + "2" + "}" * 180,
+    ],
+)
+def test_no_answer_takes_long(problem: str, answer: str) -> None:
+    exercise = rldrill.load(problem)
+    exercise.check("1")  # what is worked out once for a problem is no answer's doing
+    begun = time.process_time()
+    assert not exercise.check(answer).accepted
+    assert time.process_time() - begun < 0.4  # 0.05 s on a machine that does nothing else

@@ -5,10 +5,17 @@ import os
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from rldrill.grading import marking
+from rldrill.exam.blueprint import Blueprint
+from rldrill.exam.blueprint import Entry as Asked
+from rldrill.exam.manifest import manifest, written
+from rldrill.exam.planning import plan
+from rldrill.grading import isolation, marking, verification
+from rldrill.grading.assignment import Assignment
+from rldrill.grading.marking import Desk
 from rldrill.grading.report import Score
 from rldrill.grading.verification import Settings, verify
 from rldrill.solutions.answers.judging import Verdict, judge
@@ -105,3 +112,60 @@ def test_memory_that_the_caller_holds_is_not_counted(tmp_path: Path) -> None:
         held.close()
     assert not report.refused
     assert report.score.points == 1
+
+
+def test_whoever_names_problem_after_problem_spends_their_own_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    load = marking.load
+    monkeypatch.setattr(marking, "load", lambda name: (time.sleep(0.2 if "bayes" in name else 0), load(name))[1])
+    path = tmp_path / "a.csv"
+    rows = [f"Eve,bayes-rule/1/{seed},a,1\n" for seed in range(500)]
+    path.write_text(HEAD + "".join(rows) + f"Ann,td-zero/1/7,a,{RIGHT}\n")
+    begun = time.perf_counter()
+    report = verify([path], Settings(isolated=True, student=1.0))
+    assert time.perf_counter() - begun < 10
+    assert len(report.refused) > 480
+    assert "grading this student took more than 1 seconds" in report.refused[-1].says
+    (ann,) = [student for student in report.students if student.student == "Ann"]
+    assert ann.score.points == 1
+
+
+def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    exam = plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/7")), seed=7))
+    manifest_path = tmp_path / "exam.json"
+    manifest_path.write_bytes(written(manifest(exam)))
+    problem = Desk.problem
+
+    def slow(desk: Desk, ref: Any) -> Any:
+        if ref not in desk._problems:
+            time.sleep(0.5)
+        return problem(desk, ref)
+
+    monkeypatch.setattr(Desk, "problem", slow)
+    path = tmp_path / "a.csv"
+    path.write_text(f"{HEAD}Ann,1,a,{RIGHT}\nAnn,2,a,2\nAnn,2,b,29/3\n")
+    report = verify([path], Settings(assignment=Assignment(manifest_path), isolated=True, student=0.9))
+    assert not report.refused
+    assert report.score.points == report.score.of
+
+
+def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rldrill.grading.verification.RUN", 1.0)
+    hostile(monkeypatch, lambda: time.sleep(0.7))
+    path = tmp_path / "a.csv"
+    path.write_text(HEAD + "".join(f"{number},td-zero/1/7,a,{13}\n" for number in range(3)))
+    monkeypatch.setattr(marking, "_KEPT", -1)  # nothing is remembered, so that every answer takes its time
+    begun = time.perf_counter()
+    report = verify([path], Settings(isolated=True))
+    assert time.perf_counter() - begun < 4
+    assert len(report.students) == 2
+    assert "the run took more than 1 seconds; grade the rest in another one" in report.refused[0].says
+
+
+def test_the_bounds_are_those_that_are_told() -> None:
+    told = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
+    assert f"| solving one problem | {isolation.LOADING:g} s;" in told
+    assert f"| grading one student | `--seconds`, {verification.STUDENT:g};" in told
+    assert (verification.RUN, "| the whole run | one hour;" in told) == (3600, True)
+    assert f"| memory of marking | {isolation.MEMORY // 2**30} GB," in told

@@ -67,6 +67,14 @@ def test_the_pipelines_fit_the_schemas_of_their_services(schema: str, files: lis
     assert done.exit_code == 0, done.output
 
 
+def test_the_workflows_are_safe() -> None:
+    files = [ROOT / "action.yml", ROOT / ".github" / "workflows", CI / "github" / "rldrill.yml"]
+    settings = ["--offline", "--no-progress", "--config", str(ROOT / ".github" / "zizmor.yml")]
+    command = [str(Path(sys.executable).with_name("zizmor")), *settings, *map(str, files)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 0, done.stdout
+
+
 def test_the_action_annotates_and_writes_its_summary(course: Path) -> None:
     action = YAML(typ="safe").load(ROOT / "action.yml")
     (step,) = [step for step in action["runs"]["steps"] if step.get("name") == "Verify"]
@@ -81,7 +89,7 @@ def test_the_action_annotates_and_writes_its_summary(course: Path) -> None:
     assert set(environment) == set(step["env"])
     done = run(step["run"], course, **environment, GITHUB_STEP_SUMMARY=str(course / "summary.md"))
     assert done.returncode == 1, done.stderr
-    assert done.stdout.startswith("::error file=ann.answers.toml,title=problem 2")
+    assert done.stdout.startswith("::error file=ann.answers.toml,line=3,title=problem 2")
     assert (course / "summary.md").read_text().count("\n| ") == 4
 
 

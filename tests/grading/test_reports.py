@@ -5,6 +5,7 @@ import io
 import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 from xml.etree import ElementTree
 
 import jsonschema
@@ -30,32 +31,8 @@ ROWS = [
     (EVIL, "return/1/7", "b", "=1+1\n::error::mine"),
     ("Cem", "td-zero/9/7", "a", "1"),
 ]
-#: The schema that Jenkins reads JUnit's XML by, as far as our report goes.
-JUNIT = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="qualified">
-<xs:element name="testsuites"><xs:complexType>
- <xs:sequence><xs:element ref="testsuite" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
- <xs:attribute name="name" type="xs:string"/><xs:attribute name="time" type="xs:decimal"/>
- <xs:attribute name="tests" type="xs:nonNegativeInteger"/><xs:attribute name="failures" type="xs:nonNegativeInteger"/>
- <xs:attribute name="errors" type="xs:nonNegativeInteger"/></xs:complexType></xs:element>
-<xs:element name="testsuite"><xs:complexType>
- <xs:sequence><xs:element ref="properties" minOccurs="0"/>
-  <xs:element ref="testcase" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
- <xs:attribute name="name" type="xs:string" use="required"/><xs:attribute name="time" type="xs:decimal"/>
- <xs:attribute name="tests" type="xs:nonNegativeInteger" use="required"/>
- <xs:attribute name="failures" type="xs:nonNegativeInteger"/><xs:attribute name="errors" type="xs:nonNegativeInteger"/>
- <xs:attribute name="skipped" type="xs:nonNegativeInteger"/></xs:complexType></xs:element>
-<xs:element name="properties"><xs:complexType><xs:sequence>
- <xs:element name="property" maxOccurs="unbounded"><xs:complexType>
-  <xs:attribute name="name" type="xs:string" use="required"/>
-  <xs:attribute name="value" type="xs:string" use="required"/>
- </xs:complexType></xs:element></xs:sequence></xs:complexType></xs:element>
-<xs:complexType name="said" mixed="true">
- <xs:attribute name="message" type="xs:string"/><xs:attribute name="type" type="xs:string"/></xs:complexType>
-<xs:element name="testcase"><xs:complexType>
- <xs:choice minOccurs="0"><xs:element name="failure" type="said"/><xs:element name="error" type="said"/></xs:choice>
- <xs:attribute name="name" type="xs:string" use="required"/><xs:attribute name="classname" type="xs:string"/>
- <xs:attribute name="time" type="xs:decimal"/></xs:complexType></xs:element>
-</xs:schema>"""
+#: The schema by which Jenkins reads it.
+JUNIT = Path(__file__).parent / "schemas" / "junit-10.xsd"
 #: https://gradescope-autograders.readthedocs.io/en/latest/specs/
 GRADESCOPE = {
     "type": "object",
@@ -67,6 +44,7 @@ GRADESCOPE = {
         "visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
         "stdout_visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
         "extra_data": {"type": "object"},
+        "leaderboard": {"type": "array"},
         "tests": {
             "type": "array",
             "items": {
@@ -77,11 +55,24 @@ GRADESCOPE = {
                     "status": {"enum": ["passed", "failed"]},
                     "name": {"type": "string"}, "number": {"type": "string"}, "output": {"type": "string"},
                     "output_format": {"const": "text"}, "tags": {"type": "array"},
+                    "extra_data": {"type": "object"},
                     "visibility": {"enum": ["hidden", "after_due_date", "after_published", "visible"]},
                 },
             },
         },
     },
+}  # fmt: skip
+#: The example in Gradescope's own specification, without its comments.
+DOCUMENTED = {
+    "score": 44.0, "execution_time": 136, "output": "Text relevant to the entire submission",
+    "visibility": "after_due_date", "stdout_visibility": "visible", "extra_data": {},
+    "tests": [
+        {
+            "score": 2.0, "max_score": 2.0, "name": "Your name here", "number": "1.1", "output": "Giant string",
+            "tags": ["tag1", "tag2", "tag3"], "visibility": "visible", "extra_data": {},
+        }
+    ],
+    "leaderboard": [{"name": "Accuracy", "value": 0.926}, {"name": "Time", "value": 15.1, "order": "asc"}],
 }  # fmt: skip
 
 
@@ -113,6 +104,7 @@ def test_the_junit_report_fits_its_schema_and_is_read_by_others(report: Report, 
 
 @pytest.mark.parametrize("feedback", FEEDBACK)
 def test_the_gradescope_results_fit_their_specification(report: Report, feedback: str) -> None:
+    jsonschema.validate(DOCUMENTED, GRADESCOPE)
     results = json.loads(gradescope.written(report, feedback))
     jsonschema.validate(results, GRADESCOPE)
     assert bool(results["tests"]) == (feedback != "none")
@@ -126,7 +118,7 @@ def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: 
     assert any("line=8," in line and "neither a problem ID" in line for line in lines)
     table = github.summary(report, "reason")
     assert "<script" not in table
-    assert table.count("\n| ") == 1 + len(report.parts)
+    assert table.count("\n| ") == 1 + len(report.students) + 1 + len(report.parts)
 
 
 def test_no_cell_of_a_table_is_a_formula(report: Report) -> None:

@@ -3,6 +3,7 @@
 import json
 import typing
 from collections.abc import Iterator
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,6 @@ from limits import limits
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Givens
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 
 

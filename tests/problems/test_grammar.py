@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from fractions import Fraction
 from random import Random
 
 import pytest
@@ -11,7 +12,6 @@ from hypothesis import strategies as st
 
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.expressions import letters, parsed, worked_out, written
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
 from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, nodes, rank

@@ -79,6 +79,21 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
         "lqr-infinite", lambda size: {"A": unit(size), "B": unit(size), "Q": unit(size), "R": unit(size)}, 6,
         "A has 7 rows; 6 are the most",
     ),
+    "actions of a softmax": (
+        "linear-policy",
+        lambda size: {"features": {"cool": {f"a{number}": [number] for number in range(size)}}, "theta": [1]},
+        100,
+        "given.features.cool: has 101 entries; it may have at most 100",
+    ),
+    "arms with preferences": (
+        "bandit",
+        lambda size: {
+            "pulls": [["a0", 1]], "preferences": {f"a{number}": 0 for number in range(size)}, "alpha": "1/2",
+            "pulled": ["a1", 2],
+        },
+        100,
+        "given.preferences: has 101 entries; it may have at most 100",
+    ),
 }  # fmt: skip
 
 

@@ -1,8 +1,9 @@
 """What a quiz keeps of the answers to a problem: R₁ = 4 and R₀ = 1 + 1/2·4 = 3."""
 
+from fractions import Fraction
+
 import rldrill
 from rldrill.history.attempts import Attempt
-from rldrill.problems.fractions import Fraction
 from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,6 @@ from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
-from rldrill.problems.fractions import Fraction
 from rldrill.quiz.sitting import Place, Sitting, by_topic, version_of
 from rldrill.quiz.sitting_screen import SittingScreen
 
@@ -221,3 +221,46 @@ def test_the_file_of_something_else_is_refused(sitting: Sitting) -> None:
             sitting.resume()
     with pytest.raises(UsageError, match="The exam has no version 'Z'; it has A"):
         version_of(sitting.exam, "Z")
+
+
+def test_two_terminals_in_one_exam_keep_what_was_typed_in_either(tmp_path: Path) -> None:
+    planned, path = exam(), tmp_path / "answers.toml"
+    first = Sitting(planned, version_of(planned, None), path, START)
+    first.answer(Place(0, 0), "1")
+    first.save()
+    second = Sitting(planned, version_of(planned, None), path, START)
+    second.resume()
+    first.answer(Place(0, 1), "2")
+    first.save()
+    second.answer(Place(1, 0), "3")
+    second.answer(Place(0, 0), "4")
+    second.save()
+    first.answer(Place(1, 0), "")
+    first.save()
+    third = Sitting(planned, version_of(planned, None), path, START)
+    third.resume()
+    assert third.answers == {Place(0, 0): "4", Place(0, 1): "2"}  # of one part the later; what was cleared is gone
+
+
+def test_what_is_handed_in_elsewhere_is_over_here(sitting: Sitting) -> None:
+    sitting.save()
+    other = Sitting(sitting.exam, sitting.version, sitting.path, START)
+    other.resume()
+    other.answer(Place(0, 0), "1")
+    other.handed_in = START + timedelta(minutes=1)
+    other.save()
+    handed_in, text, _ = sit(sitting, "5", "6")
+    assert handed_in
+    assert "done in another terminal" in text
+    assert sitting.answers == {Place(0, 0): "1"}
+
+
+def test_a_file_that_was_spoilt_meanwhile_costs_no_answer(sitting: Sitting) -> None:
+    sitting.answer(Place(0, 0), "1")
+    sitting.save()
+    sitting.path.write_bytes(b"\xff\xfe")
+    sitting.answer(Place(0, 1), "2")
+    sitting.save()
+    again = Sitting(sitting.exam, sitting.version, sitting.path, START)
+    again.resume()
+    assert again.answers == {Place(0, 0): "1", Place(0, 1): "2"}

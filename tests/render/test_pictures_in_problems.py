@@ -1,6 +1,7 @@
 """Which problems are drawn, and that what is drawn is what is given or computed."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import product
 
 import pytest
@@ -9,7 +10,6 @@ from flint import fmpq
 from rldrill.exercise import draw, read
 from rldrill.problems.document import Beside, Document
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.pictures import Arm, Bars, Bumps, Pendulum, Picture
 
 

@@ -6,9 +6,8 @@ Run as a script, it holds many of them against what is read: ``python tests/shar
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from random import Random
-
-from rldrill.problems.fractions import Fraction
 
 Spelling = tuple[str, Fraction]
 

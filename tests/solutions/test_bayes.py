@@ -1,5 +1,6 @@
 """Identities of Bayesian methods, and one sentence for what does not fit."""
 
+from fractions import Fraction
 from json import dumps, loads
 from math import comb
 from typing import Any
@@ -14,7 +15,6 @@ import rldrill
 from asking import solved
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 

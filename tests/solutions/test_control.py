@@ -1,5 +1,6 @@
 """Identities between the rules of TD control, how closed forms are judged, and what wrong givens are told."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -10,7 +11,6 @@ import rldrill
 from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.solution import solver

@@ -1,6 +1,7 @@
 """Identities between sweeps, improvement, policy iteration and the error bounds of dynamic programming."""
 
 from collections.abc import Mapping
+from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -11,7 +12,6 @@ from hypothesis import strategies as st
 
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.problems.valued import worth
 from rldrill.solutions.answers.judging import Outcome, judge

@@ -1,5 +1,6 @@
 """How long it takes by hand: the seconds of small workings, added up by hand."""
 
+from fractions import Fraction
 from types import SimpleNamespace
 from typing import Any
 
@@ -7,7 +8,6 @@ import pytest
 from flint import fmpq, fmpq_mat
 from sympy import Expr, Pow, S, evaluate, exp, sqrt
 
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part
 from rldrill.solutions.effort import minutes, minutes_of, seconds_of, whole, whole_points
 from rldrill.solutions.formula.formula import Formula

@@ -2,6 +2,7 @@
 
 import operator
 from collections.abc import Callable
+from fractions import Fraction
 
 import pytest
 import sympy
@@ -11,7 +12,6 @@ from hypothesis import strategies as st
 from sympy import E, Rational, exp, log, pi, sqrt
 
 from rldrill.problems.exact import Logarithm, Parameter
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions import surds
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.answers.rule import equivalent

@@ -1,5 +1,6 @@
 """Identities between returns, expectations and the Markov property."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -11,7 +12,6 @@ import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import Parameter
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import YesNo
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.formula.compiling import value_of

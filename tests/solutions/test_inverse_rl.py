@@ -1,5 +1,6 @@
 """Identities of inverse reinforcement learning, and one sentence for what does not fit."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -9,7 +10,6 @@ from hypothesis import strategies as st
 
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign
 from rldrill.solutions.rational import generator

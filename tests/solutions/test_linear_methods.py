@@ -1,5 +1,6 @@
 """Identities between the linear methods: LQR, its horizon, its linearisation, DDP."""
 
+from fractions import Fraction
 from json import dumps, loads
 from typing import Any
 
@@ -15,7 +16,6 @@ from asking import solved
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.expressions import parsed, worked_out
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.robots import robots
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import dynamics, matrices, surds

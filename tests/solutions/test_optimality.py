@@ -1,6 +1,7 @@
 """Optimal values of larger models, exactly, and what happens where there are none."""
 
 import random
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,6 @@ from flint import fmpq
 
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import optimal_values, tensors

@@ -1,5 +1,6 @@
 """Questions the other way round: the letter that is found makes what comes out what is known."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -8,7 +9,6 @@ from flint import fmpq
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.reversible import with_letter

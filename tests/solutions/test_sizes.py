@@ -1,5 +1,6 @@
 """Large problems: what is solved in seconds, what is refused, and how long workings and numbers are shortened."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -8,7 +9,6 @@ from flint import fmpq
 import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.exact import decimal
 from rldrill.solutions.formula.typesetting import typeset_answer, typeset_value

@@ -1,5 +1,6 @@
 """Identities between the rules of temporal difference learning, and what is refused."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -10,7 +11,6 @@ from hypothesis import strategies as st
 import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.solutions.rational import RationalFunction
 
 numbers = st.fractions(-5, 5, max_denominator=4).map(str)

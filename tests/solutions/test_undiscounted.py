@@ -5,6 +5,7 @@ import math
 import random
 import re
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ from hypothesis import strategies as st
 import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model
 from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.optimality import optimum

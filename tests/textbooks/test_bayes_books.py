@@ -1,5 +1,6 @@
 """Numbers of Bayesian methods from books, as literals; where a book rounds, the fraction is worked out here."""
 
+from fractions import Fraction
 from math import factorial
 from typing import Any
 
@@ -10,7 +11,6 @@ from flint import fmpq
 
 from asking import rounded, solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 
 
 def test_the_pushed_door_of_probabilistic_robotics() -> None:

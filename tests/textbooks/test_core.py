@@ -1,5 +1,6 @@
 """Numbers from books, as literals; the problem files of the examples among them."""
 
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,6 @@ from flint import fmpq
 
 import rldrill
 from asking import solved
-from rldrill.problems.fractions import Fraction
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 

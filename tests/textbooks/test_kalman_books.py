@@ -1,5 +1,6 @@
 """Kalman filters of books, courses and tutorials, to the digits they print."""
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -8,7 +9,6 @@ from flint import fmpq
 import rldrill
 from asking import rounded, solved
 from rldrill.problems.errors import FileError
-from rldrill.problems.fractions import Fraction
 
 ONE_METRE = {"A": [[1, 1], [0, 1]], "C": [[1, 0]]}
 

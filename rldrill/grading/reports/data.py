@@ -4,7 +4,7 @@ import json
 import re
 from typing import Any
 
-from rldrill.grading.report import FEEDBACK, FORMAT, MISSING, Report
+from rldrill.grading.report import FEEDBACK, FORMAT, MISSING, NOT_GRADED, Report
 from rldrill.solutions.answers.judging import Outcome
 
 #: What JSON leaves as it is, and terminals obey: the second set of control characters, and changes of direction.
@@ -32,7 +32,7 @@ def schema() -> dict[str, Any]:
             "line": _LINE, "column": _LINE, "typed": _TEXT, "points": points,
         },
         {
-            "verdict": {"enum": [*(outcome.value for outcome in Outcome), MISSING]},
+            "verdict": {"enum": [*(outcome.value for outcome in Outcome), MISSING, NOT_GRADED]},
             "accepted": {"type": "boolean"}, "read": _TEXT, "reason": _TEXT, "diagnosis": {"type": ["object", "null"]},
             "key": _TEXT,
         },
@@ -40,7 +40,9 @@ def schema() -> dict[str, Any]:
     student = _table(
         {
             "student": _TEXT, "number": _TEXT_OR_NOTHING, "version": _TEXT_OR_NOTHING, "files": _list(_TEXT),
-            "points": points, "answers": _list(answer), "not_marked": _list(_TEXT), "passed": {"type": "boolean"},
+            "other_files": _list(_TEXT), "handed_in": {"type": "boolean"}, "points": points,
+            "scaled": {"anyOf": [points, {"type": "null"}]}, "answers": _list(answer),
+            "not_marked": _list(_TEXT), "passed": {"type": "boolean"},
         }
     )  # fmt: skip
     refused = _table(

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from rldrill.grading.report import MarkedPart, Report
+from rldrill.grading.report import MarkedPart, Report, StudentReport
 from rldrill.grading.reports.said import one_line, sentence
 
 #: GitHub shows no more annotations of a step.
@@ -24,13 +24,19 @@ def summary(report: Report, feedback: str) -> str:
     """The table for ``$GITHUB_STEP_SUMMARY``, as Markdown."""
     score, tells = report.score, feedback != "none"
     earned = f": {float(score.points):g} of {score.of} points" if tells else ""
+    if tells and report.scale is not None and len(report.students) == 1:
+        scaled = score.scaled(report.scale)
+        earned += f", {float(scaled.points):.6g} of {scaled.of}"
     lines = [f"### {_cell(report.title or 'rldrill')}{earned}\n", ""]
+    if tells and len(report.students) > 1:
+        lines += ["| Student | Points | Of | Remark |", "|---|---:|---:|---|"]
+        lines += [_totals(report, student) for student in report.students] + [""]
     lines += ["| Student | Problem | Part | Verdict | Points |", "|---|---|---|---|---:|"] if tells else []
     lines += [
         f"| {_cell(student.student or ', '.join(student.paths))} | {_cell(part.problem)} | {part.part} "
         f"| {_cell(sentence(part, feedback))} | {float(part.score.points):g} of {part.score.of} |"
         for student in report.students
-        for part in student.parts
+        for part in (student.parts if student.paths else ())
         if tells
     ]
     lines += [""] + [f"- {_cell(refusal.says)}" for refusal in report.refused]
@@ -44,6 +50,12 @@ def summary(report: Report, feedback: str) -> str:
     return text
 
 
+def _totals(report: Report, student: StudentReport) -> str:
+    score = report.scaled(student) or student.score
+    name = _cell(student.student or ", ".join(student.paths))
+    return f"| {name} | {float(score.points):.6g} | {score.of} | {student.remark} |"
+
+
 def _refused(report: Report) -> Iterator[str]:
     for refusal in report.refused:
         yield _annotation("error", refusal.path, refusal.line, "not graded", refusal.says)
@@ -53,6 +65,9 @@ def _wrong(report: Report, feedback: str) -> Iterator[str]:
     if feedback == "none":
         return
     for student in report.students:
+        if not student.paths:
+            yield _annotation("error", "", None, student.remark, student.student)
+            continue
         for part in student.parts:
             if not part.judged.accepted:
                 title = f"{part.problem} ({part.part})"

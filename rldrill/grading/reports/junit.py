@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from rldrill.grading.report import MarkedPart, Report, StudentReport
+from rldrill.grading.report import NOT_GRADED, MarkedPart, Report, StudentReport
 from rldrill.grading.reports.said import one_line, sentence
 
 
@@ -12,7 +12,7 @@ def written(report: Report, feedback: str) -> str:
     """The report as JUnit's XML, as continuous integration reads it."""
     suites = Element("testsuites", name="rldrill")
     for student in report.students:
-        _suite(suites, student, feedback)
+        _suite(suites, report, student, feedback)
     if report.refused:
         suite = SubElement(suites, "testsuite", name="not graded")
         for refusal in report.refused:
@@ -26,21 +26,26 @@ def written(report: Report, feedback: str) -> str:
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suites, encoding="unicode") + "\n"
 
 
-def _suite(suites: Element, student: StudentReport, feedback: str) -> None:
+def _suite(suites: Element, report: Report, student: StudentReport, feedback: str) -> None:
     name = one_line(student.student or ", ".join(student.paths) or "answers")
     suite = SubElement(suites, "testsuite", name=name)
     if feedback != "none":
         properties = SubElement(suite, "properties")
-        for key, value in _properties(student):
+        for key, value in _properties(report, student):
             SubElement(properties, "property", name=key, value=value)
     for part in student.parts:
         suite.append(_case(name, part, feedback))
     _counted(suite)
 
 
-def _properties(student: StudentReport) -> Iterator[tuple[str, str]]:
+def _properties(report: Report, student: StudentReport) -> Iterator[tuple[str, str]]:
     yield "points", f"{float(student.score.points):g}"
     yield "of", str(student.score.of)
+    if (scaled := report.scaled(student)) is not None:
+        yield "scaled", f"{float(scaled.points):g}"
+        yield "scaled of", str(scaled.of)
+    if student.remark:
+        yield "remark", student.remark
     if student.version:
         yield "version", student.version
 
@@ -49,10 +54,10 @@ def _case(student: str, part: MarkedPart, feedback: str) -> Element:
     case = Element("testcase", classname=student, name=f"{part.problem} ({part.part})")
     case.set("time", "0")
     if not part.judged.accepted and feedback != "none":
-        failure = SubElement(case, "failure", message=one_line(sentence(part, feedback)), type=part.judged.verdict)
+        kind = "error" if part.judged.verdict == NOT_GRADED else "failure"
+        failure = SubElement(case, kind, message=one_line(sentence(part, feedback)), type=part.judged.verdict)
         earned = f"{float(part.score.points):g} of {part.score.of}"
-        where = part.path if part.line is None else f"{part.path}, line {part.line}"
-        failure.text = one_line(f"{earned} points; {where or 'no answer'}")
+        failure.text = one_line(f"{earned} points; {part.place or 'no answer'}")
     return case
 
 

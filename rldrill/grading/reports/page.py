@@ -4,7 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from rldrill.grading.report import MarkedPart, Report
+from rldrill.grading.report import MISSING, NOT_GRADED, NOTHING, MarkedPart, Report
 from rldrill.grading.reports.said import one_line
 
 _BARS = 10
@@ -27,13 +27,16 @@ def written(report: Report, feedback: str) -> str:
     middle = float(100 * shares[len(shares) // 2]) if shares else 0.0
     passed = sum(map(report.passed, students))
     points = f"{float(score.points):g} of {score.of} points"
+    absent = sum(not student.paths for student in students)
     head = f"{len(students)} students, {points}, median {middle:.3g} %, {passed} passed"
+    head += f", {absent} {NOTHING}" if absent else ""
     body = [f"<h1>{_text(title)}</h1>", f"<p>{head}.</p>"]
     body += ["<h2>Points</h2>", _histogram([float(share) for share in shares])]
     body += ["<h2>Parts</h2>", _parts(report, feedback)]
     if mistakes := _mistakes(report.parts):
         body += ["<h2>Mistakes</h2>", _table(("Part", "What it looks like", "Students"), mistakes)]
-    body += ["<h2>Students</h2>", _table(("Student", "Number", "Version", "Points", "%"), _totals(report))]
+    columns = ("Student", "Number", "Version", "Points", "%", *(("Scaled",) if report.scale else ()), "Remark")
+    body += ["<h2>Students</h2>", _table(columns, _totals(report))]
     if said := [refusal.says for refusal in report.refused] + [each for s in students for each in s.extra]:
         body += ["<h2>Not graded</h2>", "<ul>", *(f"<li>{_text(each)}</li>" for each in said), "</ul>"]
     return (
@@ -92,7 +95,7 @@ def _parts(report: Report, feedback: str) -> str:
 def _fate(part: MarkedPart) -> str:
     if part.judged.accepted:
         return "right"
-    return "missing" if part.judged.verdict == "missing" else "partly" if part.score.points else "wrong"
+    return "missing" if part.judged.verdict in (MISSING, NOT_GRADED) else "partly" if part.score.points else "wrong"
 
 
 def _mistakes(parts: Iterable[MarkedPart]) -> list[tuple[str, str, str]]:
@@ -105,11 +108,14 @@ def _totals(report: Report) -> Iterable[tuple[str, ...]]:
     for student in report.students:
         score = student.score
         points = f"{float(score.points):g} of {score.of}"
-        yield student.student, student.number, student.version, points, f"{float(100 * score.share):.3g}"
+        scaled = report.scaled(student)
+        more = () if scaled is None else (f"{float(scaled.points):.6g} of {scaled.of}",)
+        share = f"{float(100 * score.share):.3g}"
+        yield (student.student, student.number, student.version, points, share, *more, student.remark)
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    numbers = {"Students", "Points", "%"}
+    numbers = {"Students", "Points", "%", "Scaled"}
     kind = ['class="n"' if name in numbers else "" for name in head]
     lines = [[f"<td {k}>{_text(cell)}</td>" for k, cell in zip(kind, row, strict=True)] for row in rows]
     top = "".join(f"<th {k}>{name}</th>" for k, name in zip(kind, head, strict=True))

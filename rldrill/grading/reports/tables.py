@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
-from rldrill.grading.report import FEEDBACK, Report
+from rldrill.grading.report import FEEDBACK, Report, StudentReport
 from rldrill.grading.reports.said import one_line
 
 #: What a spreadsheet takes for the beginning of a formula.
@@ -13,7 +13,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 def written(report: Report, feedback: str) -> str:
     """A row for every student and part."""
-    head = ["student", "number", "version", "problem", "part", "points", "of"]
+    head = ["student", "number", "version", "problem", "part", "file", "line", "column", "points", "of"]
     amount = FEEDBACK.index(feedback)
     head += ["typed", "verdict"] if amount >= 1 else []
     head += ["reason"] if amount >= 2 else []
@@ -21,6 +21,7 @@ def written(report: Report, feedback: str) -> str:
     rows = (
         [
             student.student, student.number, student.version, part.problem, part.part,
+            part.path, str(part.line or ""), str(part.column or ""),
             f"{float(part.score.points):.6g}", str(part.score.of), part.typed, part.judged.verdict, part.judged.reason,
             part.judged.key,
         ][: len(head)]
@@ -35,11 +36,18 @@ def totals(report: Report) -> str:
     rows = (
         [
             student.student, student.number, student.version, f"{float(student.score.points):.6g}",
-            str(student.score.of), f"{float(100 * student.score.share):.4g}", "yes" if report.passed(student) else "no",
+            str(student.score.of), f"{float(100 * student.score.share):.4g}", *_scaled(report, student),
+            "yes" if report.passed(student) else "no", student.remark,
         ]
         for student in report.students
     )  # fmt: skip
-    return _csv([["student", "number", "version", "points", "of", "percent", "passed"], *rows])
+    scaled = [] if report.scale is None else ["scaled", "scaled of"]
+    return _csv([["student", "number", "version", "points", "of", "percent", *scaled, "passed", "remark"], *rows])
+
+
+def _scaled(report: Report, student: StudentReport) -> Sequence[str]:
+    scaled = report.scaled(student)
+    return () if scaled is None else (f"{float(scaled.points):.6g}", str(scaled.of))
 
 
 def _csv(rows: Iterable[Sequence[str]]) -> str:

@@ -8,6 +8,7 @@ from sympy import Expr
 from rldrill.problems.mathematics import Fence, Glyph, Math, Tabular, listed, relation, row, word
 from rldrill.solutions.formula.compiling import Compiler
 from rldrill.solutions.formula.node import Node, Typeset
+from rldrill.solutions.formula.nodes.leaves import Slot
 from rldrill.solutions.formula.putting_in import PutIn
 
 
@@ -33,6 +34,13 @@ class Indicator(Condition):
 
     def _put_in(self, put_in: PutIn) -> Expr:
         return sympy.Integer(put_in.value(self))
+
+
+class Visited(Indicator):
+    """An indicator that is a term of its own: its 0 or 1 keeps the place in the rule until the next line."""
+
+    def _put_in(self, put_in: PutIn) -> Expr:
+        return Slot(super()._put_in(put_in))
 
 
 class Member(Condition):
