@@ -8,7 +8,7 @@ from numbers import Rational
 from operator import mul
 from typing import Annotated, Any
 
-from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, ValidationInfo, WithJsonSchema
 
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import DIGITS, read
@@ -246,7 +246,7 @@ def _field(read: Any, *checks: Any) -> Any:
             result = check(result)
         return result
 
-    return PlainValidator(validate)
+    return BeforeValidator(validate)
 
 
 _OR_OPEN = " or a parameter left open"
@@ -268,7 +268,7 @@ Discount = Annotated[OpenProbability, Field(description="The discount.", example
 #: A discount for the whole run, or a list with one for each of its steps.
 Discounts = Annotated[
     Fraction | Parameter | tuple[Fraction | Parameter, ...],
-    PlainValidator(_discounts),
+    BeforeValidator(_discounts),
     PlainSerializer(lambda value: [*map(write, value)] if isinstance(value, tuple) else write(value)),
     WithJsonSchema(
         {"type": ["string", "number", "array"], "title": f"a number from 0 to 1{_OR_OPEN}, or a list of these"}
