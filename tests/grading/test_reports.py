@@ -18,6 +18,7 @@ from rldrill.cli import app
 from rldrill.grading.marking import Rules
 from rldrill.grading.report import FEEDBACK, Report
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables
+from rldrill.grading.reports import text as text_report
 from rldrill.grading.verification import Settings, verify
 
 #: Ann is right, Ben misread the decimal comma, the third one tries what can be tried.
@@ -169,5 +170,6 @@ def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> Non
     assert ("29/3" in text) == (feedback == "key")  # the key of (b)
     assert ("misconception" in text) == (feedback != "none")
     seen = github.summary(report, feedback) + junit.written(report, feedback)
+    assert bool(re.search(r"\d of \d", text_report.written(report, feedback))) == (feedback != "none")
     assert ("points" in seen) == (feedback != "none")
     assert ("first reward" in text) == (feedback in ("reason", "key"))
