@@ -67,7 +67,7 @@ def use(name: str) -> None:
     Raises:
         UsageError: there is none of that name.
     """
-    _in_use.set(_known(name))
+    _in_use.set(known(name))
 
 
 @contextmanager
@@ -77,14 +77,19 @@ def used(name: str) -> Iterator[None]:
     Raises:
         UsageError: there is none of that name.
     """
-    token = _in_use.set(_known(name))
+    token = _in_use.set(known(name))
     try:
         yield
     finally:
         _in_use.reset(token)
 
 
-def _known(name: str) -> str:
+def known(name: str) -> str:
+    """The notation of that name, as it is spelled.
+
+    Raises:
+        UsageError: there is none.
+    """
     wanted = name.strip().lower()
     if wanted != LECTURE and wanted not in notations():
         raise UsageError(f"There is no notation {name[:40]!r}; there are {LECTURE}, {', '.join(notations())}.")

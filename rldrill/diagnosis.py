@@ -86,6 +86,12 @@ class Diagnosis:
             return self.sentence
         return f"{verdict.says} {self.sentence}"
 
+    def without_lines(self) -> "Diagnosis":
+        """The same without the step as it should be, which may hold the key."""
+        return replace(
+            self, wrong=None, right=None, alternatives=tuple(each.without_lines() for each in self.alternatives)
+        )
+
     def to_json(self) -> dict[str, Any]:
         """The diagnosis as JSON has it."""
         where = None if self.place is None else {"formula": self.place.formula, "step": self.place.step}

@@ -19,8 +19,8 @@ from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
 from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
-from rldrill.render.markdown import markdown
-from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.markdown import markdown, markdown_text
+from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.page import Page
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions import drawing
@@ -264,22 +264,23 @@ class Exercise:
             )
         return Page(block for formula in formulas for block in (formula.equation(), Paragraph(formula.hint)))
 
-    def data(self, *, answers: bool = True, mistakes: int = 0) -> dict[str, Any]:
+    def data(self, *, answers: bool = True, mistakes: int = 0, latex: bool = False) -> dict[str, Any]:
         """The problem as JSON has it.
 
         Args:
             answers: with the exact answers and the steps.
             mistakes: with so many wrong answers to every part, each with what it comes from.
+            latex: the question, and what is asked, as Markdown with LaTeX.
         """
         result: dict[str, Any] = {"format": FORMAT, "id": self.id, **self.problem.data()}
         result["level"] = self.problem.level
-        result["question"] = [unicode_text(block) for block in self.question()]
+        result["question"] = markdown(self.question()) if latex else [unicode_text(block) for block in self.question()]
         result["parts"] = []
         for part in self.parts:
-            entry: dict[str, Any] = {"part": part.label, "ask": unicode_text(Paragraph(part.ask))}
+            entry: dict[str, Any] = {"part": part.label, "ask": (markdown_text if latex else inline)(part.ask)}
             entry |= {"kind": part.kind.name, "points": part.points}
             if isinstance(part.kind, Choice):
-                entry["options"] = {letter: unicode_text(Paragraph(text)) for letter, text in part.kind.options.items()}
+                entry["options"] = {letter: inline(text) for letter, text in part.kind.options.items()}
             if answers:
                 kind, value = answer_kind(part.kind), self.solution.answers[part.label]
                 entry["answer"] = {"exact": kind.data(value), "decimal": kind.decimals(value)}

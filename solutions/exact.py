@@ -318,7 +318,10 @@ def largest(values: Iterable[Value]) -> Value:
     Raises:
         NoSolution: which it is depends on what is left open.
     """
-    best, *rest = values
+    every: list[Any] = list(values)
+    if {*map(type, every)} == {fmpq}:
+        return max(every)
+    best, *rest = every
     for value in rest:
         try:
             if sign(value - best) > 0:

@@ -1,12 +1,16 @@
 """Hypothesis profiles: ``--hypothesis-profile=quick`` reports a failing case at once, without making it smaller.
 
+No case has a deadline: a busy machine is no fault of the program.
+
 And a history of the tests' own: none of them writes into that of whoever runs them.
 """
 
 import pytest
 from hypothesis import Phase, settings
 
-settings.register_profile("quick", phases=[Phase.explicit, Phase.generate])
+settings.register_profile("patient", deadline=None)
+settings.register_profile("quick", deadline=None, phases=[Phase.explicit, Phase.generate])
+settings.load_profile("patient")
 
 
 @pytest.fixture(autouse=True)

@@ -101,6 +101,18 @@ def test_the_key_has_the_questions_the_answers_and_the_points(exam: Exam, key: P
     assert "Typical wrong answers" in text
 
 
+def test_a_key_has_no_room_for_a_name(sheet: Path, key: Path) -> None:
+    assert "Name:" in text_of(sheet)
+    assert "Name:" not in text_of(key)
+
+
+def test_a_key_goes_without_a_mistake_that_gives_no_number() -> None:
+    """Without exp the probability of h = 0 is 0, and 0 ln 0 is nothing that anybody writes down."""
+    exercise = load("softmax-policy/3/493395")
+    exam = Exam(Head(), 1, (Version("A", (exercise,), (0,)),))
+    assert "nan" not in key_source(exam, exam.versions[0])
+
+
 def test_the_key_of_a_choice_says_its_text() -> None:
     exercise = draw("backup-diagram-name", 1, 3)
     (part,) = exercise.parts

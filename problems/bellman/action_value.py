@@ -54,9 +54,8 @@ def draw(level: int, rng: Draws) -> Given:
         if any(old.probability == Fraction(1, 2) != new.probability for old, new in zip(rows, opened, strict=True)):
             return draw(level, rng)  # a half would be guessed
         return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
-    if level == 2 and rng.chance(Fraction(1, 2)):
+    if level == 2 and rng.chance(Fraction(1, 2)) and (worths := averaging(rng, rng.split(2, (4, 5)), values[state])):
         shape = Shape(states=4, actions=2, branches=2)
-        worths = averaging(rng, rng.split(2, (4, 5)), values[state]) or []
         rows = [
             row
             for action, number in zip(setting.actions, worths, strict=False)

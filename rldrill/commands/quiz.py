@@ -127,6 +127,7 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     from rldrill.exam.manifest import manifest, read_manifest, written
     from rldrill.exam.planning import plan
     from rldrill.problems.errors import UsageError
+    from rldrill.problems.notations import LECTURE, in_use, use
     from rldrill.quiz.prompt import line_editor
     from rldrill.quiz.recording import utc_now
     from rldrill.quiz.sitting import Sitting, version_of
@@ -145,6 +146,8 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     else:
         planned = plan(read_blueprint(source).but(seed=seed, versions=1))
         write_bytes_atomically(saved, written(manifest(planned)))
+    if in_use() == LECTURE:
+        use(planned.layout.notation)
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():
         sitting.resume()

@@ -88,7 +88,7 @@ def command(
     ] = None,
     format_: Annotated[
         str | None,
-        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, anki, latex, markdown or json."),
+        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, qti, anki, latex, markdown, json."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", "-f", help="Replace what an earlier run has written.")] = False,
     init: Annotated[
@@ -99,7 +99,7 @@ def command(
     ] = None,
     key: Annotated[bool, typer.Option("--key", help="Print keys alone.")] = False,
     as_json: Json = False,
-    notation: NotationOption = None,  # noqa: ARG001 - its callback sets it
+    notation: NotationOption = None,
 ) -> None:
     """Typeset a worksheet or an exam as PDF, with a key for each version.
 
@@ -124,6 +124,7 @@ def command(
         "solutions": solutions and solutions.value,
         "ids": ids,
         "duplex": duplex,
+        "notation": notation,
     }
     if init is not None:
         _write_template(init, force=force)
@@ -155,7 +156,6 @@ def _is_blueprint_file(names: list[str], blueprint: "Blueprint") -> bool:
 
 
 def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None) -> "Exam":
-    from rldrill.exam.fairness import fairness
     from rldrill.exam.planning import plan
     from rldrill.exam.roster import read_roster
 
@@ -163,8 +163,7 @@ def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
         exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    if len(exam.versions) > 1:
-        typer.echo(f"{len(exam.versions)} versions: {fairness(exam).says()}", err=True)
+    _tell_fairness(exam)
     return exam
 
 
@@ -177,6 +176,17 @@ def _secret(path: Path | None) -> "Secret | None":
     if is_new:
         typer.echo(f"rldrill: {path} is a new secret; keep it, and the manifest, from everybody else", err=True)
     return secret
+
+
+def _tell_fairness(exam: "Exam") -> None:
+    from rldrill.exam.fairness import fairness
+
+    if (number := len(exam.versions)) == 1:
+        return
+    figures = fairness(exam)
+    typer.echo(f"{number} versions: {figures.says()}", err=True)
+    if scarce := figures.says_what_is_scarce(number):
+        typer.echo(f"rldrill: {scarce}", err=True)
 
 
 def _from(source: Path, changes: dict[str, Any]) -> "Exam":
@@ -204,7 +214,9 @@ def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool =
 
     target = named(output, format_)
     check(exam, target, format_, force=force)
-    return list(map(str, export(exam, target, format_, practice=practice or exam.layout.solutions == "inline")))
+    practice = practice or exam.layout.solutions == "inline"
+    with _progress("Writing", len(exam.versions)) as advance:
+        return list(map(str, export(exam, target, format_, practice=practice, advance=advance)))
 
 
 def _paper(name: str) -> str:
@@ -255,7 +267,6 @@ def _is_problem(name: str) -> bool:
 def _printed(
     blueprint: "Blueprint", output: Path, roster: Path | None, secret_file: Path | None, *, only_keys: bool, force: bool
 ) -> list[Path]:
-    from rldrill.exam.fairness import fairness
     from rldrill.exam.manifest import manifest, written
     from rldrill.exam.planning import plan, version_codes
     from rldrill.exam.roster import read_roster
@@ -279,8 +290,7 @@ def _printed(
     with _progress("Drawing", number) as advance:
         exam = plan(blueprint.but(seed=seed), roster=people, secret=secret, advance=advance)
     data = written(manifest(exam, typst_version()))
-    if number > 1:
-        typer.echo(f"{number} versions: {fairness(exam).says()}", err=True)
+    _tell_fairness(exam)
     del exam
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(files, force=force)

@@ -7,12 +7,14 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic_core import PydanticCustomError
 
 from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
 from rldrill.files import parse, read_text, shown
 from rldrill.problems.complaints import nearest
 from rldrill.problems.errors import FileError, UsageError
+from rldrill.problems.notations import LECTURE, known
 
 #: So many problems and versions an exam has at most.
 MOST_PROBLEMS, MOST_VERSIONS = 100, 999
@@ -36,6 +38,15 @@ def _written_date(value: object) -> object:
     return value.isoformat() if isinstance(value, date) else value
 
 
+def _known_notation(name: str) -> str:
+    try:
+        return known(name)
+    except UsageError as error:
+        raise PydanticCustomError("notation", "{said}", {"said": str(error)[:-1]}) from None
+
+
+#: The name of a notation.
+Notation = Annotated[str, AfterValidator(_known_notation)]
 _Points = Annotated[int, Field(ge=1, le=1000)]
 _Partial = Literal["all", "entries"]
 _Names = Annotated[tuple[str, ...], BeforeValidator(_listed), Field(strict=False)]
@@ -86,6 +97,7 @@ class Blueprint(_Table):
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: Notation = LECTURE
     problems: Annotated[tuple[Entry, ...], Field(strict=False)] = (Entry(topic=(), count=8),)
     _where: str = PrivateAttr("")
     _lines: tuple[int, ...] = PrivateAttr(())

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Literal
 
 from rldrill.exercise import Exercise
+from rldrill.problems.notations import LECTURE
 from rldrill.solutions.effort import minutes, whole
 
 DEFAULT_TITLE = "Reinforcement Learning: worksheet"
@@ -52,6 +53,7 @@ class Layout:
         solutions: whether keys are written, and whether beside the exam or in it.
         ids: whether the problems' IDs and the seed are printed; an ID is its own key.
         duplex: whether every PDF has an even number of pages.
+        notation: how quantities are written.
     """
 
     paper: Literal["a4", "letter"] = "a4"
@@ -59,6 +61,7 @@ class Layout:
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: str = LECTURE
 
 
 @dataclass(frozen=True)

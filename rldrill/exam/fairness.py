@@ -21,6 +21,8 @@ class Fairness:
         minutes: the least and the most expected minutes of a version.
         spread: how much more the longest version takes than the shortest, in parts of the shortest.
         balance: how often each answer is right where there are only a few to choose from, as ``3 b: yes 15, no 15``.
+        scarce: where answers are shared, how many different ones there are, as ``3 b: 10``.
+        families: the family and level of those places, by their number.
     """
 
     shared_problems: int
@@ -28,6 +30,8 @@ class Fairness:
     minutes: tuple[int, int]
     spread: float
     balance: Mapping[str, Mapping[str, int]]
+    scarce: Mapping[str, int]
+    families: Mapping[str, str]
 
     def says(self) -> str:
         """The figures in a sentence."""
@@ -36,6 +40,17 @@ class Fairness:
             f"{self.minutes[0]} to {self.minutes[1]} minutes (spread {100 * self.spread:.1f} %)"
         )
 
+    def says_what_is_scarce(self, versions: int) -> str:
+        """Where answers are shared, and why, in a sentence; nothing where none are."""
+        told: dict[str, list[str]] = {}
+        for place, count in self.scarce.items():
+            number, _, label = place.partition(" ")
+            told.setdefault(number, []).append(f"{count} to ({label})")
+        each = "; ".join(
+            f"problem {number} ({self.families[number]}): {', '.join(all_)}" for number, all_ in told.items()
+        )
+        return f"fewer different answers than {versions} versions: {each}" if told else ""
+
     def data(self) -> dict[str, object]:
         """The figures as JSON has them."""
         return {
@@ -43,6 +58,7 @@ class Fairness:
             "shared_answers": self.shared_answers,
             "minutes": list(self.minutes),
             "spread": round(self.spread, 4),
+            "scarce": dict(self.scarce),
             "balance": {place: dict(counts) for place, counts in self.balance.items()},
         }
 
@@ -53,14 +69,22 @@ def fairness(exam: Exam) -> Fairness:
     contents: Counter[str] = Counter()
     answers: Counter[tuple[int, str, str]] = Counter()
     balance: dict[str, Counter[str]] = {}
+    families: dict[str, str] = {}
     for version in exam.versions:
         for slot, exercise in placed(version):
             if slot in fixed:
                 continue
             contents[content(exercise)] += 1
+            families[str(slot + 1)] = f"{exercise.problem.family.name} at level {exercise.problem.level}"
             answers.update((slot, label, answer) for label, answer in told(exercise))
             for label, answer in chosen(exercise):
                 balance.setdefault(f"{slot + 1} {label}", Counter())[answer] += 1
+    different = Counter((slot, label) for slot, label, _ in answers)
+    scarce = {
+        f"{slot + 1} {label}": count
+        for (slot, label), count in sorted(different.items())
+        if count < sum(found for (where, part, _), found in answers.items() if (where, part) == (slot, label))
+    }
     times = [version.time for version in exam.versions]
     return Fairness(
         sum(count - 1 for count in contents.values()),
@@ -68,6 +92,8 @@ def fairness(exam: Exam) -> Fairness:
         (min(version.minutes for version in exam.versions), max(version.minutes for version in exam.versions)),
         float(max(times) / min(times) - 1),
         balance,
+        scarce,
+        families,
     )
 
 

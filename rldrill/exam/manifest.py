@@ -10,12 +10,14 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
+from rldrill.exam.blueprint import Notation
 from rldrill.exam.exam import Exam, Head, Layout, Person, Version, minutes_of, points_of
 from rldrill.exam.fairness import fairness
 from rldrill.exercise import Exercise, read
 from rldrill.files import read_data, shown
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import Identity, looks_like_id, split_id
+from rldrill.problems.notations import LECTURE
 from rldrill.solutions.effort import minutes_of as part_minutes
 
 #: The version of the manifest's form.
@@ -126,6 +128,7 @@ class _Layout(_Table):
     solutions: Literal["none", "inline", "separate"] = "separate"
     ids: bool = False
     duplex: bool = False
+    notation: Notation = LECTURE
 
 
 class _Manifest(_Table):

@@ -1,30 +1,24 @@
 """Planning an exam: a problem for every place of every version, none twice, and no answer twice in the same place."""
 
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from rldrill.exam.blueprint import Blueprint
 from rldrill.exam.exam import Exam, Person, Version
-from rldrill.exam.fairness import chosen, content, told
+from rldrill.exam.pool import Candidate, Place, candidate, problems
 from rldrill.exam.sealing import Secret
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
 from rldrill.exam.slots import Slot, slots
 from rldrill.exam.worth import error, partial, worth
-from rldrill.exercise import Exercise, draw
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
 from rldrill.problems.identity import MAX_SEED
-from rldrill.problems.parts import Choice, Part
-from rldrill.solutions.effort import minutes
 
-#: How many problems are drawn for one place of an exam before the family counts as used up.
-_ATTEMPTS = 400
-#: How many are looked at to find one whose answers nobody else has, and one that keeps yes and no in balance.
-_FRESH, _BALANCED = 100, 6
-#: How far the minutes of a version may be from those of the first one.
+#: How far a problem may be from the minutes of its place, in parts of the exam's.
 _TOLERANCE = Fraction(4, 100)
+#: What a place may take at least of its minutes, to make up for longer ones before it.
+_SHORTENED = Fraction(2, 3)
 
 
 def plan(
@@ -40,7 +34,7 @@ def plan(
         blueprint: what the exam shall be.
         roster: the people; each gets a version, whatever the blueprint says.
         secret: what is mixed into every draw; the versions have codes then that say nothing.
-        advance: called after each version.
+        advance: called as often as there are versions, place by place.
 
     Raises:
         FileError: a line of the blueprint's file does not fit.
@@ -50,17 +44,17 @@ def plan(
     if secret is not None and blueprint.ids:
         raise error(blueprint.place(), "IDs and seed are printed, and the exam is sealed; leave one of them out.")
     draws = Draws if secret is None else secret.draws
-    places = slots(blueprint, seed, draws)
-    steered = blueprint.minutes is not None
-    times = tuple(Fraction(slot.minutes) for slot in places) if steered else ()
-    planner = _Planner(places, seed, draws, MAX_DRAWN if secret is None else MAX_SEED, times=times)
     count = len(roster) or blueprint.versions
+    places = slots(blueprint, seed, count, draws)
+    pools = [draws(f"problems {seed} version 0 place {index}") for index in range(len(places))]
+    most = MAX_DRAWN if secret is None else MAX_SEED
+    columns = _columns(places, pools, most, count, advance, steered=blueprint.minutes is not None)
     codes = version_codes(count, seed, secret)
     versions: list[Version] = []
     points: list[dict[str, int]] = []
     rules: list[dict[str, str]] = []
-    for index in range(count):
-        exercises = planner.version(index)
+    for index, row in enumerate(_dealt(columns, count)):
+        exercises = [each.exercise for each in row]
         points = points or worth(places, exercises, blueprint.points, blueprint.place_of_total)
         rules = rules or partial(places, exercises)
         worthy = [replace(exercise, worth=each) for exercise, each in zip(exercises, points, strict=True)]
@@ -70,7 +64,6 @@ def plan(
         person = roster[index] if roster else None
         given = tuple(rules[slot] for slot in order)
         versions.append(Version(codes[index], tuple(worthy[slot] for slot in order), order, person, given))
-        advance()
     return Exam(
         blueprint.head, seed, tuple(versions), blueprint.partial, blueprint.layout, secret is not None, blueprint.scale
     )
@@ -87,103 +80,69 @@ def version_code(index: int) -> str:
     return (version_code(head - 1) if head else "") + chr(ord("A") + last)
 
 
-@dataclass
-class _Planner:
-    """Draws version after version, and knows what the earlier ones have."""
+def _columns(
+    places: Sequence[Slot],
+    pools: Sequence[Draws],
+    most: int,
+    count: int,
+    advance: Callable[[], None],
+    *,
+    steered: bool,
+) -> list[list[Candidate]]:
+    """For every place the problems of all versions, their seeds below ``most`` and drawn from its own stream.
 
-    slots: tuple[Slot, ...]
-    seed: int
-    draws: Callable[[str], Draws] = Draws
-    most: int = MAX_DRAWN  # the seeds of problems stay below it
-    used: set[str] = field(default_factory=set)
-    answers: Counter[tuple[int, str, str]] = field(default_factory=Counter)
-    patience: dict[int, int] = field(default_factory=dict)
-    first: tuple[Exercise, ...] = ()
-    times: tuple[Fraction, ...] = ()  # how long the place of every version takes; none for whatever it takes
-
-    def __post_init__(self) -> None:
-        self.used.update(content(place.fixed) for place in self.slots if place.fixed is not None)
-
-    def version(self, index: int) -> tuple[Exercise, ...]:
-        ahead = Fraction(0)  # by so many minutes this version is longer than it should be, until here
-        result: list[Exercise] = []
-        for slot, place in enumerate(self.slots):
-            exercise = place.fixed or self._best(slot, index, ahead)
-            if place.fixed is None:
-                self.used.add(content(exercise))
-                self.answers.update((slot, *answer) for answer in (*told(exercise), *chosen(exercise)))
-            ahead += self._excess(slot, exercise)
-            result.append(exercise)
-        if not self.first:
-            self.first = tuple(result)
-            self.times = tuple(map(_minutes, result))
-        return tuple(result)
-
-    def _best(self, slot: int, index: int, ahead: Fraction) -> Exercise:
-        """The first problem that shares nothing; where none is found soon, the one that shares least."""
-        best: tuple[tuple[Fraction, int, int], Exercise] | None = None
-        for tried, exercise in enumerate(self._possible(slot, index), 1):
-            price = self._price(slot, exercise, ahead)
-            if best is None or price < best[0]:
-                best = price, exercise
-            if not any(best[0]) or tried >= (self.patience.get(slot, _FRESH) if any(best[0][:2]) else _BALANCED):
-                break
-        if best is not None:  # what was in vain is tried half as long the next time
-            vain = any(best[0][:2])
-            self.patience[slot] = max(_BALANCED, self.patience.get(slot, _FRESH) // 2) if vain else _FRESH
-        if best is None:
-            place = self.slots[slot]
-            name, level = place.family, place.level
-            if place.by_part and not self.first:
-                what, each = place.by_part[0]
-                raise error(
-                    place.where,
-                    f"{what} are given for {len(each)} parts, and no problem of {name} at level {level} has so "
-                    "many; give another number of them, or one for the problem.",
-                )
-            raise UsageError(
-                f"{name} has too few different problems at level {level} for this worksheet; "
-                "ask for fewer versions or problems, or for more families."
+    Where it is steered, they take the minutes that are expected.
+    """
+    columns = [[] if place.fixed is None else [candidate(place.fixed)] * count for place in places]
+    used = {column[0].content for column in columns if column}
+    tolerance = _TOLERANCE * sum(place.minutes for place in places)
+    ahead = Fraction(0)  # by so many minutes the versions are longer than they should be, until here
+    for index, place in enumerate(places):
+        if not columns[index]:
+            wanted = Place(
+                place.family,
+                place.level or 1,
+                parts=tuple(len(each) for _, each in place.by_part),
+                time=max(_SHORTENED * place.minutes, place.minutes - ahead) if steered else None,
+                tolerance=tolerance,
             )
-        return best[1]
-
-    def _possible(self, slot: int, index: int) -> Iterator[Exercise]:
-        """Problems that nobody has yet, with the parts that the first version has here."""
-        place = self.slots[slot]
-        seeds = self.draws(f"problems {self.seed} version {index} place {slot}")
-        for _ in range(_ATTEMPTS):
-            exercise = draw(place.family, place.level or 1, seeds.below(self.most))
-            wanted = self.first[slot].problem.parts if self.first else None
-            if content(exercise) not in self.used and _fits(exercise, place, wanted):
-                yield exercise
-
-    def _price(self, slot: int, exercise: Exercise, ahead: Fraction) -> tuple[Fraction, int, int]:
-        """Minutes too many or too few, answers that somebody has here already, and how one-sided the choices are."""
-        same = sum(self.answers[slot, label, answer] for label, answer in told(exercise))
-        excess = abs(ahead + self._excess(slot, exercise)) - _TOLERANCE * sum(self.times)
-        return max(Fraction(0), excess), same, self._one_sided(slot, exercise)
-
-    def _excess(self, slot: int, exercise: Exercise) -> Fraction:
-        """By so many minutes a problem takes longer than its place should."""
-        return _minutes(exercise) - self.times[slot] if self.times else Fraction(0)
-
-    def _one_sided(self, slot: int, exercise: Exercise) -> int:
-        result = 0
-        kinds = {part.label: part.kind for part in exercise.problem.parts}
-        for label, answer in chosen(exercise):
-            kind = kinds[label]
-            options = tuple(kind.options) if isinstance(kind, Choice) else ("yes", "no")
-            result += self.answers[slot, label, answer] - min(self.answers[slot, label, each] for each in options)
-        return result
+            columns[index] = problems(wanted, count, pools[index], used, most)
+            if len(columns[index]) < count:
+                raise _too_few(place, some=bool(columns[index]))
+            used.update(each.content for each in columns[index])
+        ahead += sum((each.time for each in columns[index]), Fraction(0)) / count - place.minutes
+        for _ in range(count * index // len(places), count * (index + 1) // len(places)):
+            advance()
+    return columns
 
 
-def _minutes(exercise: Exercise) -> Fraction:
-    return minutes(exercise.solution)
+def _too_few(place: Slot, *, some: bool) -> Exception:
+    if place.by_part and not some:
+        what, each = place.by_part[0]
+        return error(
+            place.where,
+            f"{what} are given for {len(each)} parts, and no problem of {place.family} at level {place.level} has so "
+            "many; give another number of them, or one for the problem.",
+        )
+    return UsageError(
+        f"{place.family} has too few different problems at level {place.level} for this worksheet; "
+        "ask for fewer versions or problems, or for more families."
+    )
 
 
-def _fits(exercise: Exercise, place: Slot, like: Sequence[Part] | None) -> bool:
-    """Whether a problem has as many parts as there are points and rules, and such parts as the first version has."""
-    parts = exercise.problem.parts
-    if any(len(each) != len(parts) for _, each in place.by_part):
-        return False
-    return like is None or [part.kind.name for part in parts] == [part.kind.name for part in like]
+def _dealt(columns: Sequence[Sequence[Candidate]], count: int) -> list[list[Candidate]]:
+    """The problems of each version: who has had short ones gets the next long one, so that all take as long."""
+    totals = [Fraction(0)] * count
+    rows: list[dict[int, Candidate]] = [{} for _ in range(count)]
+    for slot in sorted(range(len(columns)), key=lambda slot: -_range(columns[slot])):
+        behind = sorted(range(count), key=lambda version: totals[version])
+        longest = sorted(columns[slot], key=lambda each: -each.time)
+        for version, each in zip(behind, longest, strict=True):
+            rows[version][slot] = each
+            totals[version] += each.time
+    return [[row[slot] for slot in range(len(columns))] for row in rows]
+
+
+def _range(column: Sequence[Candidate]) -> Fraction:
+    times = [each.time for each in column]
+    return max(times) - min(times)

@@ -5,7 +5,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import chain, islice, zip_longest
 
-from rldrill.exam.blueprint import MOST_PROBLEMS, Blueprint, Entry
+from rldrill.exam.blueprint import MOST_PROBLEMS, MOST_VERSIONS, Blueprint, Entry
+from rldrill.exam.expected import COUNTED, variety
 from rldrill.exam.expected import minutes as expected
 from rldrill.exam.selection import MIXED
 from rldrill.exercise import Exercise, load
@@ -53,9 +54,24 @@ class Slot:
         levels = expected()[self.family]
         return levels[min(self.level or 2, len(levels)) - 1]
 
+    @property
+    def variety(self) -> int:
+        """How many versions may have such a problem and share no answer, as far as that is counted."""
+        levels = variety()[self.family]
+        counted = levels[min(self.level or 2, len(levels)) - 1]
+        return MOST_VERSIONS if counted == COUNTED else counted
 
-def slots(blueprint: Blueprint, seed: int, draws: Callable[[str], Draws] = Draws) -> tuple[Slot, ...]:
+
+def slots(
+    blueprint: Blueprint, seed: int, versions: int = 1, draws: Callable[[str], Draws] = Draws
+) -> tuple[Slot, ...]:
     """The places of a blueprint's exam; the same seed makes the same choice, if the same is drawn by the same key.
+
+    Args:
+        blueprint: what the exam shall be.
+        seed: what the choice depends on.
+        versions: how many versions there are: of topics those families come first that have as many different answers.
+        draws: the stream of choices by its key.
 
     Raises:
         FileError: a name in a file does not exist, or a family has no such level; with the line.
@@ -72,7 +88,7 @@ def slots(blueprint: Blueprint, seed: int, draws: Callable[[str], Draws] = Draws
     for index in topics:
         weights = [blueprint.problems[other].count or _SHARE for other in topics if other >= index]
         time = None if blueprint.minutes is None else max(1, rest * weights[0] // sum(weights))
-        found = _of_topics(blueprint, index, draws(keys[index]), time)
+        found = _of_topics(blueprint, index, draws(keys[index]), time, versions)
         rest -= sum(slot.minutes for slot in found)
         named[index] = found
     return tuple(
@@ -111,13 +127,13 @@ def _named(blueprint: Blueprint, index: int, draws: Draws) -> list[Slot] | None:
         return [Slot(header.name, _level(header, entry.level, draws)) for _ in range(entry.count or 1)]
 
 
-def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None) -> list[Slot]:
+def _of_topics(blueprint: Blueprint, index: int, draws: Draws, time: int | None, versions: int) -> list[Slot]:
     entry = blueprint.problems[index]
     with _told(blueprint.place(index)):
         candidates = _headers(entry.topic or (), blueprint.exclude)
     if time is None:
-        return list(islice(_endless(candidates, entry.level, draws), entry.count or 1))
-    trials = (_filled(candidates, entry, draws, time) for _ in range(_TRIALS))
+        return list(islice(_endless(candidates, entry.level, draws, versions), entry.count or 1))
+    trials = (_filled(candidates, entry, draws, time, versions) for _ in range(_TRIALS))
     return min(trials, key=lambda found: abs(time - sum(slot.minutes for slot in found)))
 
 
@@ -134,11 +150,20 @@ def _level(header: Header, wanted: int | None, draws: Draws) -> int:
     return level if level in header.levels else header.levels[-1]
 
 
-def _endless(candidates: Sequence[Header], level: int | None, draws: Draws) -> Iterator[Slot]:
-    """Topic by topic in turn, every family before one comes again."""
+def _endless(candidates: Sequence[Header], level: int | None, draws: Draws, versions: int) -> Iterator[Slot]:
+    """Topic by topic in turn, every family before one comes again; first those with an answer for each version."""
     while True:
+        poor: list[Slot] = []
         for header in _interleaved(candidates, draws):
-            yield Slot(header.name, _level(header, level, draws))
+            slot = Slot(header.name, _level(header, level, draws))
+            if slot.variety < versions and level is None:
+                others = [replace(slot, level=other) for other in header.levels]
+                slot = max((slot, *others), key=lambda each: min(each.variety, versions))
+            if slot.variety < versions:
+                poor.append(slot)
+            else:
+                yield slot
+        yield from sorted(poor, key=lambda slot: -slot.variety)
 
 
 def _interleaved(candidates: Sequence[Header], draws: Draws) -> Iterator[Header]:
@@ -149,9 +174,9 @@ def _interleaved(candidates: Sequence[Header], draws: Draws) -> Iterator[Header]
     return (header for header in chain.from_iterable(rounds) if header is not None)
 
 
-def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int) -> list[Slot]:
+def _filled(candidates: Sequence[Header], entry: Entry, draws: Draws, time: int, versions: int) -> list[Slot]:
     """One random choice: so many as are asked for, or as many as the time has room for; topics in turn."""
-    endless = _endless(candidates, entry.level, draws)
+    endless = _endless(candidates, entry.level, draws, versions)
     if entry.count is not None:
         return list(islice(endless, entry.count))
     result: list[Slot] = []

@@ -4,6 +4,7 @@ import hashlib
 import io
 import tempfile
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +30,12 @@ _MISTAKES = 4
 _HTML = LatexHtml()
 
 
-def anki_exam(exam: Exam, *, practice: bool) -> bytes:  # noqa: ARG001
+def anki_exam(
+    exam: Exam,
+    *,
+    practice: bool,  # noqa: ARG001
+    advance: Callable[[], None] = lambda: None,
+) -> bytes:
     """All versions in one package, each as a deck below that of the exam.
 
     Raises:
@@ -53,6 +59,7 @@ def anki_exam(exam: Exam, *, practice: bool) -> bytes:  # noqa: ARG001
         for exercise in version.exercises:
             deck.add_note(_note(genanki, model, exercise))
         decks.append(deck)
+        advance()
     return _packed(genanki.Package(decks))
 
 

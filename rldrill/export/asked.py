@@ -1,6 +1,6 @@
 """What is asked and what is right, cell by cell: what formats that judge by themselves are made from."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -18,6 +18,8 @@ from rldrill.solutions.exact import NotReal, decimal, parameters
 
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
+#: So many wrong answers are told in one cell.
+_TOLD = 6
 #: A decimal in a file has so many significant digits.
 _DIGITS = 12
 
@@ -114,6 +116,22 @@ def _typed(cell: Any) -> str:
     if isinstance(cell, Reading):
         return text_of(cell.value)
     return cell if isinstance(cell, str) else cell[0]
+
+
+def told_apart(right: Quantity, index: int, wrong: Sequence[Wrong]) -> Iterator[tuple[Quantity, str]]:
+    """The wrong numbers in a cell that no tolerance confuses with others, the likeliest, with what is said of them."""
+    told = [right]
+    for each in wrong:
+        other = quantity_of(each.cells[index])
+        if other is None or len(told) > _TOLD or any(_overlap(other, known) for known in told):
+            continue
+        told.append(other)
+        yield other, each.says
+
+
+def _overlap(one: Quantity, other: Quantity) -> bool:
+    apart = abs(Decimal(one.decimal or 0) - Decimal(other.decimal or 0))
+    return apart <= Decimal(one.tolerance or 0) + Decimal(other.tolerance or 0)
 
 
 def is_open(cell: Cell) -> bool:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.problems.errors import UsageError
+from rldrill.problems.notations import used
 from rldrill.writing import write_bytes_atomically
 
 
@@ -33,6 +34,7 @@ FORMATS = {
     for each in (
         Format("html", ".html", ("html", "html_exam")),
         Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True),
+        Format("qti", ".zip", ("qti", "qti_exam"), whole=True),
         Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
         Format("latex", ".tex", ("latex", "latex_exam")),
         Format("markdown", ".md", ("text", "markdown_exam")),
@@ -66,7 +68,9 @@ def named(path: Path, format_: Format) -> Path:
     return path.with_name(path.name[: len(path.name) - len(path.suffix)] + format_.ending)
 
 
-def export(exam: Exam, path: Path, format_: Format, *, practice: bool) -> Iterator[Path]:
+def export(
+    exam: Exam, path: Path, format_: Format, *, practice: bool, advance: Callable[[], None] = lambda: None
+) -> Iterator[Path]:
     """Write an exam in a format, each file whole or not at all.
 
     Args:
@@ -74,6 +78,7 @@ def export(exam: Exam, path: Path, format_: Format, *, practice: bool) -> Iterat
         path: the file; where each version has one of its own, its code is put before the ending.
         format_: the format.
         practice: whether it is for practice, with answers, hints and working; else for an exam.
+        advance: called after each version.
 
     Raises:
         OSError: a file cannot be written; ``filename`` says which.
@@ -82,12 +87,17 @@ def export(exam: Exam, path: Path, format_: Format, *, practice: bool) -> Iterat
     module, function = format_.writer
     write: Callable[..., str | bytes] = getattr(import_module(f"rldrill.export.{module}"), function)
     if format_.whole:
-        write_bytes_atomically(path, _bytes(write(exam, practice=practice)))
+        with used(exam.layout.notation):
+            content = write(exam, practice=practice, advance=advance)
+        write_bytes_atomically(path, _bytes(content))
         yield path
         return
     for version in exam.versions:
         target = version_path(exam, path, format_, version)
-        write_bytes_atomically(target, _bytes(write(exam, version, practice=practice)))
+        with used(exam.layout.notation):
+            content = write(exam, version, practice=practice)
+        write_bytes_atomically(target, _bytes(content))
+        advance()
         yield target
 
 

@@ -2,15 +2,14 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
-from decimal import Decimal
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 from math import gcd, lcm
 from xml.etree import ElementTree
 
 from rldrill.exam.exam import Exam, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, quantity_of, wrong_answers
+from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -18,8 +17,6 @@ from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
 
-#: So many wrong answers are told in one box.
-_TOLD = 6
 _SPECIAL = re.compile(r'([\\}#~/"{])')
 _NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
 _BY_HAND = "Answer in words and formulas; it is marked by hand."
@@ -40,12 +37,13 @@ class _Writer(LatexHtml):
         return f'<p><img src="@@PLUGINFILE@@/{name}" alt="{escape(described(picture))}"></p>'
 
 
-def moodle_exam(exam: Exam, *, practice: bool) -> bytes:
+def moodle_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> bytes:
     """All versions in one file, each in a category of its own.
 
     Args:
         exam: the exam.
         practice: whether the working is told after an attempt.
+        advance: called after each version.
     """
     quiz = ElementTree.Element("quiz")
     for version in exam.versions:
@@ -54,6 +52,7 @@ def moodle_exam(exam: Exam, *, practice: bool) -> bytes:
         _text(ElementTree.SubElement(category, "category"), f"$course$/top/{name}")
         for number, exercise in enumerate(version.exercises, 1):
             quiz.append(_question(number, exercise, practice=practice))
+        advance()
     ElementTree.indent(quiz)
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(quiz, encoding="utf-8") + b"\n"
 
@@ -123,19 +122,9 @@ def _box(cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
     if isinstance(cell, Word):
         return _options(cell, index, weight, wrong)
     answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped('Right.')}"]
-    told = [cell]
-    for each in wrong:
-        other = quantity_of(each.cells[index])
-        if other is None or len(told) > _TOLD or any(_overlap(other, known) for known in told):
-            continue
-        told.append(other)
-        answers.append(f"%0%{other.decimal}:{other.tolerance}#{_escaped(each.says)}")
+    for other, says in told_apart(cell, index, wrong):
+        answers.append(f"%0%{other.decimal}:{other.tolerance}#{_escaped(says)}")
     return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
-
-
-def _overlap(one: Quantity, other: Quantity) -> bool:
-    apart = abs(Decimal(one.decimal or 0) - Decimal(other.decimal or 0))
-    return apart <= Decimal(one.tolerance or 0) + Decimal(other.tolerance or 0)
 
 
 def _options(cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str:

@@ -1,7 +1,7 @@
 """An exam as Markdown, with GitHub's mathematics, and as JSON."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
@@ -49,19 +49,14 @@ def _part(exercise: Exercise, part: Part, *, practice: bool) -> Iterator[str]:
         yield "</details>"
 
 
-def json_exam(exam: Exam, *, practice: bool) -> str:
+def json_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> str:
     """All versions as JSON; for practice with answers, steps and wrong answers."""
-    data = {
-        "title": exam.head.title,
-        "versions": [
-            {
-                "code": version.code,
-                "problems": [
-                    exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0)
-                    for exercise in version.exercises
-                ],
-            }
-            for version in exam.versions
-        ],
-    }
+    versions = []
+    for version in exam.versions:
+        problems = [
+            exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0) for exercise in version.exercises
+        ]
+        versions.append({"code": version.code, "problems": problems})
+        advance()
+    data = {"title": exam.head.title, "versions": versions}
     return json.dumps(data, ensure_ascii=False, indent=2) + "\n"

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from rldrill.exercise import draw
-from rldrill.render.markdown import markdown, markdown_text
+from rldrill.render.markdown import markdown
 
 #: So many wrong answers are written for every part.
 _MISTAKES = 8
@@ -41,12 +41,9 @@ def record(family: str, level: int, seed: int, extras: Sequence[Extra]) -> Recor
     """
     exercise = draw(family, level, seed)
     wrong = _MISTAKES if Extra.MISTAKES in extras else 0
-    data = exercise.data(answers=Extra.ANSWERS in extras, mistakes=wrong)
-    written = markdown if Extra.LATEX in extras else str
-    if Extra.LATEX in extras:
-        data["question"] = markdown(exercise.question())
-        for entry, part in zip(data["parts"], exercise.parts, strict=True):
-            entry["ask"] = markdown_text(part.ask)
+    latex = Extra.LATEX in extras
+    data = exercise.data(answers=Extra.ANSWERS in extras, mistakes=wrong, latex=latex)
+    written = markdown if latex else str
     for entry, part in zip(data["parts"], exercise.parts, strict=True):
         if Extra.HINTS in extras:
             entry["hint"] = written(exercise.hint(part.label))

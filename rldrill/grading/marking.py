@@ -236,7 +236,7 @@ class _Problem:
         begun = perf_counter()
         found = self.exercise.diagnosed(label, text, verdict, wrong, min(IN_A_FILE, self._seconds))
         self._seconds = max(0.0, self._seconds - (perf_counter() - begun))
-        return found if self._rules.keys else replace(found, wrong=None, right=None)
+        return found if self._rules.keys else found.without_lines()
 
     def _credit(self, part: Part, verdict: Verdict) -> Fraction:
         """The share of the points; an entry that is the same in every draw earns nothing."""

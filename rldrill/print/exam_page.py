@@ -2,7 +2,7 @@
 
 import re
 
-from rldrill.exam.exam import Exam, Version, minutes_of, points_of
+from rldrill.exam.exam import Exam, Person, Version, minutes_of, points_of
 from rldrill.exercise import Exercise
 from rldrill.print.paper import PAPERS
 from rldrill.print.words import Words, words, written_points
@@ -13,17 +13,27 @@ from rldrill.render.typst_files import typst_file
 _LONG = re.compile(r"(\S{24})(?=\S)")
 
 
-def setup(exam: Exam, version: Version, what: str) -> str:
-    """What stands at the head of the source; ``what`` names the version or its key."""
+def setup(exam: Exam, version: Version, what: str, *, to_fill_in: bool) -> str:
+    """What stands at the head of the source.
+
+    Args:
+        exam: the exam.
+        version: the version.
+        what: the name of the version or its key.
+        to_fill_in: whether nobody's page has room for a name.
+    """
     told = words(exam.head.language)
-    name, number = ("", "") if version.person is None else (version.person.name, version.person.number)
+    person = Person("", "") if version.person is None and to_fill_in else version.person
+    who = "" if person is None else (
+        f"name: ([{plain(told.name)}], [{broken(person.name)}]), "
+        f"number: ([{plain(told.number)}], [{broken(person.number)}]), "
+    )  # fmt: skip
     seed = f" · seed {exam.seed}" if exam.layout.ids else ""
     return (
         f"{typst_file('rldrill.print', 'exam.typ')}{PREAMBLE}"
         f"#show: exam-page.with(paper: {quoted(PAPERS[exam.layout.paper].typst)}, lang: {quoted(exam.head.language)}, "
         f"title: {quoted(f'{exam.head.title} – {what}')}, what: [{plain(what + seed)}], "
-        f"name: ([{plain(told.name)}], [{broken(name)}]), number: ([{plain(told.number)}], [{broken(number)}]), "
-        f"comma: {'true' if exam.head.decimal_mark == ',' else 'false'})\n"
+        f"{who}comma: {'true' if exam.head.decimal_mark == ',' else 'false'})\n"
     )
 
 

@@ -15,9 +15,8 @@ def key_source(exam: Exam, version: Version) -> str:
     told = words(exam.head.language)
     what = f"{told.key} {version.code}"
     problems = "".join(_solved(exam, index, item) for index, item in enumerate(version.exercises, 1))
-    return (
-        f"{setup(exam, version, what)}{front(exam, what, f'#par[{plain(told.right)}]')}{problems}{ending(exam, told)}"
-    )
+    head = setup(exam, version, what, to_fill_in=False)
+    return f"{head}{front(exam, what, f'#par[{plain(told.right)}]')}{problems}{ending(exam, told)}"
 
 
 def _solved(exam: Exam, index: int, exercise: Exercise) -> str:

@@ -13,6 +13,9 @@ from rldrill.render.typst_files import typst_file
 if TYPE_CHECKING:
     import typst
 
+#: Typst keeps what it has laid out for so many documents: empty ones make it forget, which is cheaper than to keep it.
+_REMEMBERED = 11
+
 #: Every PDF carries this time, so that the same arguments give the same bytes.
 _TIMESTAMP = 0
 
@@ -79,9 +82,10 @@ def pdf(source: str, *, accessible: bool = False, system_fonts: bool = False) ->
     Raises:
         RuntimeError: Typst cannot compile the source.
     """
-    result = _compiler(system_fonts).compile(
-        input=source.encode(), timestamp=_TIMESTAMP, pdf_standards="ua-1" if accessible else None
-    )
+    compiler = _compiler(system_fonts)
+    result = compiler.compile(input=source.encode(), timestamp=_TIMESTAMP, pdf_standards="ua-1" if accessible else None)
+    for _ in range(_REMEMBERED):
+        compiler.compile(input=b"", format="svg")
     assert isinstance(result, bytes)
     return result
 

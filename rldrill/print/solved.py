@@ -1,6 +1,7 @@
 """A part as a marker needs it: the answer, the working with the points of its steps, and typical wrong answers."""
 
 from collections.abc import Iterator
+from typing import Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
@@ -13,6 +14,7 @@ from rldrill.render.typst import block, document
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import distinguishable
+from rldrill.solutions.exact import NotReal
 
 #: So many typical wrong answers to a part are told.
 _MISTAKES = 5
@@ -48,16 +50,24 @@ def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
 
 def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, str]]:
     """The wrong answers that typical mistakes give, each once, with what is said of the mistake."""
-    solution, told = exercise.solution, set[str]()
+    told = set[str]()
     for misconception, answers in exercise.solution.mistakes:
         if len(told) == _MISTAKES:
             return
         answer = answers[part.label]
         written = answer_kind(part.kind).write(answer)
-        if written in told or not distinguishable(solution, {part.label: answer}):
+        if written in told or not _tells(exercise, part, answer):
             continue
         told.add(written)
         if isinstance(part.kind, Choice):
             yield plain(f"({written})"), misconception.says
         else:
             yield " #h(0.8em) ".join(map(equation, answer_lines(part, answer))), misconception.says
+
+
+def _tells(exercise: Exercise, part: Part, answer: Any) -> bool:
+    """Whether a mistake leads to an answer that a marker can tell from the right one."""
+    try:
+        return distinguishable(exercise.solution, {part.label: answer})
+    except NotReal:
+        return False  # it takes the logarithm of nothing: nobody writes that down

@@ -1,6 +1,8 @@
 """The PDFs of one version of an exam, made from the manifest alone: in this process, or in several at once."""
 
+import os
 import signal
+from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -8,6 +10,7 @@ from functools import cache
 from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rldrill.exam.exam import Exam, Layout, Version
 from rldrill.exam.manifest import read_exam
@@ -15,13 +18,16 @@ from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
 from rldrill.print.worksheet import worksheet_source
-from rldrill.problems.notations import in_use, use
+from rldrill.problems.notations import used
 from rldrill.writing import write_bytes_atomically
 
-#: From so many versions on, other processes take longer to start than they save.
+if TYPE_CHECKING:
+    from multiprocessing.pool import AsyncResult, Pool
+
+#: With fewer versions another process takes longer to start than it saves.
 _MANY = 6
 #: After so many versions a process is replaced by a fresh one, which has less in its memory.
-_REPLACED = 4
+_REPLACED = 50
 
 
 @dataclass(frozen=True)
@@ -50,14 +56,27 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
         FileError: the manifest holds a problem that cannot be made.
         OSError: a file cannot be written.
     """
-    processes = min(cpu_count() or 1, len(tasks) // (_MANY // 2))
-    if len(tasks) < _MANY or processes < 2:
+    others = min(cpu_count() or 1, len(tasks) // (_MANY // 2)) - 1
+    if len(tasks) < _MANY or others < 1:
         yield from map(_typeset, tasks)
         return
     with _deaf():
-        pool = get_context("spawn").Pool(processes, use, (in_use(),), maxtasksperchild=_REPLACED)
+        os.environ["RAYON_NUM_THREADS"] = "1"  # what Typst goes by: each process takes one processor
+        pool = get_context("spawn").Pool(others, maxtasksperchild=_REPLACED)
     with pool:  # which ends them, whatever happens
-        yield from pool.imap_unordered(_typeset, tasks)
+        yield from _shared(pool, others, deque(tasks))
+
+
+def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[Task]:
+    """Other processes have a task each and one in store, and this one takes its part as well: that saves memory."""
+    running: deque[AsyncResult[Task]] = deque()
+    while waiting or running:
+        while waiting and len(running) < 2 * others:
+            running.append(pool.apply_async(_typeset, (waiting.popleft(),)))
+        if waiting:
+            yield _typeset(waiting.popleft())
+        while running and (running[0].ready() or not waiting):
+            yield running.popleft().get()
 
 
 @contextmanager
@@ -75,7 +94,8 @@ def _deaf() -> Iterator[None]:
 
 def _typeset(task: Task) -> Task:
     exam, makes = _read(task.manifest, task.manifest.stat().st_mtime_ns)
-    write(replace(exam, layout=task.layout), makes[task.index](), task.worksheet, task.key)
+    with used(task.layout.notation):
+        write(replace(exam, layout=task.layout), makes[task.index](), task.worksheet, task.key)
     return task
 
 

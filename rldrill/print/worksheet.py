@@ -30,7 +30,8 @@ def worksheet_source(exam: Exam, version: Version) -> str:
     what = f"{told.version} {version.code}"
     problems = "".join(_problem(exam, index, item) for index, item in enumerate(version.exercises, 1))
     lines = f"{_points_tables(version, told)}#par[{_instructions(exam, version, told)}]\n"
-    return f"{setup(exam, version, what)}{front(exam, what, lines)}{problems}{ending(exam, told)}"
+    head = setup(exam, version, what, to_fill_in=True)
+    return f"{head}{front(exam, what, lines)}{problems}{ending(exam, told)}"
 
 
 def _instructions(exam: Exam, version: Version, told: Words) -> str:

@@ -1,14 +1,20 @@
 """Blocks as Typst. They call functions of ``PREAMBLE``, which must stand before them."""
 
+import math
+
 from rldrill.problems.document import Beside, Block, Document, Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import EMPTY, Math
 from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.typst import SHORT, quoted, relation, text, typst
 from rldrill.render.mathematics.typst_breaks import breakable
 from rldrill.render.mathematics.unicode import unicode
-from rldrill.render.pictures.typst import picture
+from rldrill.render.pictures.typst import picture, width_of
 from rldrill.render.typst_files import typst_file
 from rldrill.render.unicode import unicode_text
+
+#: What is no wider than this fits wherever a block may stand, and is not measured, which would be to lay it out twice.
+#: In widths of the type; signs are taken for as wide as most are not.
+_ROOM, _SIGN, _PADDING, _GAP, _POINTS = 40.0, 0.65, 1.4, 1.2, 10.0
 
 PREAMBLE = typst_file("rldrill.render", "blocks.typ") + typst_file("rldrill.render.pictures", "pictures.typ")
 
@@ -23,8 +29,8 @@ def block(item: Block) -> str:
         case Table(header, rows):
             cells = "".join(f", [{text(cell)}]" for line in rows for cell in line)
             first = ", ".join(f"[{text(cell)}]" for cell in header)
-            signs = sum(max(map(len, map(_unicode, column))) for column in zip(header, *rows, strict=True))
-            return f"#grid-table({len(header)}, {signs}, table.header({first}){cells})\n"
+            drawn = f"grid-table({len(header)}, table.header({first}){cells})"
+            return f"#block({drawn})\n" if _width(item) <= _ROOM else f"#wide-block({drawn})\n"
         case Equation(left, rights, signs):
             if left == EMPTY and not any(signs):
                 return _apart(rights)
@@ -32,7 +38,10 @@ def block(item: Block) -> str:
                 f", (${relation(sign)}$, {breakable(right)})" for sign, right in zip(signs, rights, strict=True)
             )
             said = unicode_text(item)
-            return f"#chain({quoted(said)}, {len(said)}, ${'' if left == EMPTY else typst(left)}${links})\n"
+            first = "" if left == EMPTY else typst(left)
+            if _SIGN * len(said) <= _ROOM:
+                return _on_a_line(said, " ".join([first, *_links(item)]))
+            return f"#chain({quoted(said)}, ${first}${links})\n"
         case Beside(blocks):
             return _side_by_side(blocks)
         case Picture():
@@ -41,13 +50,29 @@ def block(item: Block) -> str:
             raise TypeError(f"{type(item).__name__} has no Typst")
 
 
-def _unicode(words: str) -> str:
-    return unicode_text(Paragraph(words))
+def _on_a_line(said: str, mathematics: str) -> str:
+    return f"#one-line({quoted(said)}, ${mathematics}$)\n"
+
+
+def _width(item: Block) -> float:
+    """How wide a block is at most, in widths of the type; infinite where it is not known."""
+    match item:
+        case Table(header, rows):
+            columns = zip(header, *rows, strict=True)
+            signs = sum(max(len(unicode_text(Paragraph(cell))) for cell in column) for column in columns)
+            return _SIGN * signs + _PADDING * len(header)
+        case Picture():
+            return width_of(item) / _POINTS
+        case _:
+            return math.inf
 
 
 def _side_by_side(blocks: Document) -> str:
-    bodies = [body for body in map(block, blocks) if body]  # a picture that is too large is left out
-    return f"#beside({', '.join(f'[{body}]' for body in bodies)})\n"
+    width = sum(_width(item) + _GAP for item in blocks)
+    fits = width <= _ROOM
+    bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item) for item in blocks)
+    inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
+    return f"#{'abreast' if fits else 'beside'}({inside})\n"
 
 
 def _apart(items: tuple[Math, ...]) -> str:
@@ -55,7 +80,10 @@ def _apart(items: tuple[Math, ...]) -> str:
     if all(len(unicode(item)) <= 2 * SHORT for item in items):
         return f"#flow({', '.join(f'({quoted(unicode(item))}, ${typst(item)}$)' for item in items)})\n"
     return "".join(
-        f"#chain({quoted(unicode(item))}, {len(unicode(item))}, $$, ($$, {breakable(item)}))\n" for item in items
+        _on_a_line(said, typst(item))
+        if _SIGN * len(said := unicode(item)) <= _ROOM
+        else f"#chain({quoted(said)}, $$, ($$, {breakable(item)}))\n"
+        for item in items
     )
 
 
@@ -83,5 +111,9 @@ def _is_short(equation: Equation) -> bool:
 
 def line(equation: Equation) -> str:
     """An equation as the inside of a Typst equation, on one line however long it is."""
+    return " ".join([typst(equation.left), *_links(equation)])
+
+
+def _links(equation: Equation) -> list[str]:
     links = zip(equation.signs, equation.rights, strict=True)
-    return " ".join([typst(equation.left), *(f"{relation(sign)} {typst(right)}" for sign, right in links)])
+    return [f"{relation(sign)} {typst(right)}" for sign, right in links]

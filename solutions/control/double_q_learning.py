@@ -43,6 +43,7 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     """Every transition updates the tables that ``updated`` makes of the one that the coin says."""
     run = given.trajectory
     known = knowns.action_run(given)
+    work.say("$Q_i$ is the table that is updated, $Q_j$ the other one.")
     tables = {(1, *pair): value for pair, value in known["Q"].items()}
     tables |= {(2, *pair): value for pair, value in known["Q"].items()}  # what nobody gave: nothing after the end
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}

@@ -3,6 +3,7 @@
 from typing import Any
 
 from rldrill.problems.control.dyna_q import Entry, Given
+from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import exact
@@ -38,7 +39,11 @@ def _act(given: Given, work: Work, model: Model) -> dict[str, Any]:
         work.say(f"The model now holds for {_named(entry.pair)}: {_held(entry)}.")
     known["Q"] = known["Q"] | work.answer({pair: known["Q"][pair] for pair in given.updated})
     if given.changed:
-        work.say("The model changes only where the agent has tried something; all other entries stay as they were.")
+        tried = joined([_named(entry.pair) for entry in given.tried])
+        work.say(
+            f"The model changes only where the agent has tried something, in {tried}; all other entries stay as they "
+            "were."
+        )
         work.answer({pair: exact(model[pair].reward) for pair in given.learned})
     return known
 

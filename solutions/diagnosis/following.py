@@ -2,16 +2,17 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeAlias
 from unicodedata import normalize
 
 from rldrill.problems.mathematics import Accent, Big, Fence, Fraction, Glyph, Math, Root, Row, Script
 from rldrill.solutions.answers.rule import is_right
-from rldrill.solutions.answers.text import Reading, Unreadable, read_number
-from rldrill.solutions.diagnosis.alternatives import at_one
+from rldrill.solutions.answers.text import Reading, Unreadable, read_matrix, read_number
+from rldrill.solutions.diagnosis.alternatives import at_one, numbers, of_numbers
 from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
@@ -27,6 +28,10 @@ from rldrill.solutions.vector import Vector
 #: Signs between the sides of a line.
 _SIDES = re.compile(r"=|←|≈|:(?!\d)|⇒|→")
 _WORDS = {"gamma": "γ", "alpha": "α", "delta": "δ", "lambda": "λ", "epsilon": "ε", "theta": "θ", "pi": "π", "rho": "ρ"}
+
+
+#: The numbers of one side of a line: one, or those of a vector or matrix, row by row.
+Entries: TypeAlias = tuple[Reading, ...]
 
 
 class Standing(Enum):
@@ -48,7 +53,7 @@ class Line:
         standing: how it stands to the right working.
         application: the step that it gives.
         causes: what it may come from, where it departs.
-        sides: the values of its sides; where it is miscalculated the first two that are not equal.
+        sides: where it is miscalculated the first two of its sides' numbers that are not equal.
     """
 
     text: str
@@ -68,7 +73,10 @@ class _Follower:
         self.search = search
         self.values: dict[int, Any] = {}
         self.reached = -1
-        self.expected = {each.number: each.value for each in search.applications if _number(each.value)}
+        self.expected = {
+            each.number: entries for each in search.applications if (entries := numbers(each.value)) is not None
+        }
+        self.shapes = dict.fromkeys(_shape(each.value) for each in search.applications if _is_array(each.value))
         self.between = {each.number: list(_inner(each)) for each in search.applications}
 
     def lines(self, texts: Sequence[str]) -> Iterator[Line]:
@@ -80,77 +88,89 @@ class _Follower:
         label, sides = self._read(text)
         if not sides:
             return Line(text, Standing.UNREAD)
-        for one, two in pairwise(sides):
-            if not _same(two, one.value) and not _same(one, two.value):
-                return self._miscalculated(text, label, (one, two), sides[-1])
-        return self._placed(text, label, sides)
+        for ones, twos in pairwise(sides):
+            for one, two in zip(ones, twos, strict=False):
+                if not _same(two, one.value) and not _same(one, two.value):
+                    return self._miscalculated(text, label, (one, two), sides)
+        return self._placed(text, label, sides[-1])
 
-    def _read(self, text: str) -> tuple[str, list[Reading]]:
-        """The name before the first sign, and the sides that are numbers."""
+    def _read(self, text: str) -> tuple[str, list[Entries]]:
+        """The name before the first sign, and the sides that are numbers, vectors or matrices."""
         pieces = [piece.strip() for piece in _SIDES.split(text)]
-        parameters = self.search.problem.parameters
         sides = []
         label = ""
         for place, piece in enumerate(pieces):
             if place == 0 and len(pieces) > 1 and not piece[:1].isdigit():
                 label = piece
                 continue
-            try:
-                sides.append(read_number(piece, parameters))
-            except Unreadable:
-                continue
+            if (entries := self._entries(piece)) is not None:
+                sides.append(entries)
         return label, sides
 
-    def _placed(self, text: str, label: str, sides: list[Reading]) -> Line:
-        standing = Standing.FOLLOWS if self.values else Standing.RIGHT
-        last = sides[-1]
-        named = self._named(label)
-        for number in named or self._order():
-            if _same(last, self.expected[number]):
-                self.reached = max(self.reached, number)
-                return Line(text, standing, self.search.applications[number], sides=tuple(sides))
-        if not named:
-            inner = (value for number in self._order() for value in self.between[number])
-            if any(_same(last, value) for value in inner):
-                return Line(text, standing, None, sides=tuple(sides))
-        return self._departed(text, named, sides)
+    def _entries(self, piece: str) -> Entries | None:
+        parameters = self.search.problem.parameters
+        if "[" in piece or "(" in piece:
+            for shape in self.shapes:
+                with suppress(Unreadable):
+                    return tuple(entry for line in read_matrix(piece, shape, parameters) for entry in line)
+        with suppress(Unreadable):
+            return (read_number(piece, parameters),)
+        return None
 
-    def _departed(self, text: str, named: Sequence[int], sides: list[Reading]) -> Line:
+    def _placed(self, text: str, label: str, last: Entries) -> Line:
+        standing = Standing.FOLLOWS if self.values else Standing.RIGHT
+        named = self._named(label, len(last))
+        for number in named or self._order(len(last)):
+            if _all_same(last, self.expected[number]):
+                self.reached = max(self.reached, number)
+                return Line(text, standing, self.search.applications[number])
+        if not named and len(last) == 1:
+            inner = (value for number in self._order() for value in self.between[number])
+            if any(_same(last[0], value) for value in inner):
+                return Line(text, standing, None)
+        return self._departed(text, named, last)
+
+    def _departed(self, text: str, named: Sequence[int], last: Entries) -> Line:
         """A line that gives no step: the step that it was meant for, and what it comes from."""
-        last = sides[-1]
-        numbers = list(named) or [number for number in self._order() if number > self.reached] or list(self._order())
+        order = self._order(len(last))
+        meant = list(named) or [number for number in order if number > self.reached] or order
         first_time = not self.values
-        line = next(filter(None, map(numbers_typed, _SIDES.split(text))), None)
-        where = numbers[0] if numbers else None
+        line = next(filter(None, map(numbers_typed, _SIDES.split(text))), None) if len(last) == 1 else None
+        where = meant[0] if meant else None
         causes: tuple[Cause, ...] = ()
         if first_time:
-            for number in numbers:
+            for number in meant:
                 found = self._causes(number, last, line)
                 if found:
                     where, causes = number, found
                     break
         application = None if where is None else self.search.applications[where]
         if where is not None:
-            self._go_on(where, last.value)
-        return Line(text, Standing.DEPARTS, application, causes, tuple(sides))
+            self._go_on(where, last)
+        return Line(text, Standing.DEPARTS, application, causes)
 
-    def _miscalculated(self, text: str, label: str, sides: tuple[Reading, Reading], last: Reading) -> Line:
-        named = self._named(label)
-        numbers = list(named) or [number for number in self._order() if _same(sides[0], self.expected[number])]
-        where = numbers[0] if numbers else None
+    def _miscalculated(self, text: str, label: str, differ: tuple[Reading, Reading], sides: Sequence[Entries]) -> Line:
+        last = sides[-1]
+        meant = self._named(label, len(last)) or [
+            number for number in self._order(len(last)) if any(_all_same(side, self.expected[number]) for side in sides)
+        ]
+        where = meant[0] if meant else None
         if where is not None:
-            self._go_on(where, last.value)
+            self._go_on(where, last)
         application = None if where is None else self.search.applications[where]
-        return Line(text, Standing.MISCALCULATED, application, (), sides)
+        return Line(text, Standing.MISCALCULATED, application, (), differ)
 
-    def _causes(self, number: int, typed: Reading, line: Numbers | None) -> tuple[Cause, ...]:
+    def _causes(self, number: int, typed: Entries, line: Numbers | None) -> tuple[Cause, ...]:
         """What one step's value may come from, if it is what was typed, with the numbers that stand in the line."""
         application = self.search.applications[number]
-        about = approximate(typed.value)
         every = self.search.alternatives(application)
         if line is not None:
             every = [*every, *_of_an_equation(application), *put_in_otherwise(application, line)]
-        found = [cause for cause in every if near(approximate(cause.became), about) and _same(typed, cause.became)]
+        found = [
+            cause
+            for cause in every
+            if _all_near(typed, became := numbers(cause.became) or ()) and _all_same(typed, became)
+        ]
         if line is not None:
             found = by_the_numbers(application, found, line)
         if not found:
@@ -159,28 +179,39 @@ class _Follower:
         best = found[0].weight
         return tuple(cause for cause in found if cause.weight >= best / 2)[:2]
 
-    def _go_on(self, number: int, value: Any) -> None:
+    def _go_on(self, number: int, entries: Entries) -> None:
         """What is expected from here on."""
-        self.values[number] = value
+        right = self.search.applications[number].value
+        self.values[number] = of_numbers(right, [entry.value for entry in entries])
         self.reached = max(self.reached, number)
         trace: list[Traced] = []
         self.search.replay(Change(values=dict(self.values)), trace)
-        self.expected |= {at: came for at, _, _, came in trace if _number(came) and at in self.expected}
+        self.expected |= {
+            at: found for at, _, _, came in trace if at in self.expected and (found := numbers(came)) is not None
+        }
         for at, right, known, _ in trace:
             if at in self.between:
                 self.between[at] = list(_places(right, known))
 
-    def _order(self) -> list[int]:
-        """The steps that a line can give, those that come next first."""
-        numbers = list(self.expected)
-        return [each for each in numbers if each > self.reached] + [each for each in numbers if each <= self.reached]
+    def _order(self, long: int = 1) -> list[int]:
+        """The steps that a line of so many numbers can give, those that come next first."""
+        steps = [number for number, entries in self.expected.items() if len(entries) == long]
+        return [each for each in steps if each > self.reached] + [each for each in steps if each <= self.reached]
 
-    def _named(self, label: str) -> list[int]:
+    def _named(self, label: str, long: int) -> list[int]:
         """The steps whose quantity has that name, those that come next first."""
         wanted = _plain_name(label)
         if not wanted:
             return []
-        return [each for each in self._order() if wanted in _names(self.search.applications[each])]
+        return [each for each in self._order(long) if wanted in _names(self.search.applications[each])]
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, Vector) or is_matrix(value)
+
+
+def _shape(value: Any) -> tuple[int, int]:
+    return (1, len(list(value))) if isinstance(value, Vector) else (value.nrows(), value.ncols())
 
 
 def _of_an_equation(application: Application) -> Iterator[Cause]:
@@ -192,6 +223,16 @@ def _of_an_equation(application: Application) -> Iterator[Cause]:
 
 def _number(value: Any) -> bool:
     return not isinstance(value, str | tuple | Mapping | Vector) and not is_matrix(value)
+
+
+def _all_same(entries: Entries, values: Sequence[Any]) -> bool:
+    return len(entries) == len(values) and all(_same(one, value) for one, value in zip(entries, values, strict=True))
+
+
+def _all_near(entries: Entries, values: Sequence[Any]) -> bool:
+    return len(entries) == len(values) and all(
+        near(approximate(value), approximate(one.value)) for one, value in zip(entries, values, strict=True)
+    )
 
 
 def _same(reading: Reading, value: Any) -> bool:

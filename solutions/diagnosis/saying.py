@@ -149,7 +149,8 @@ def _what(cause: Cause) -> Words:
     template = _WHOLE.get(cause.kind, _WHOLE[""])
     left = None if cause.application is None else typeset(cause.application.step.left)
     was = None if cause.was is None else _number(cause.was)
-    return _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+    words = _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+    return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
 
 
 def _filled(template: str, **values: Any) -> Words:

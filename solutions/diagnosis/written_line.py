@@ -2,11 +2,11 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from fractions import Fraction
 
 from flint import fmpq
 
 from rldrill.problems import mathematics as written
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
 from rldrill.problems.mathematics import Math

@@ -14,7 +14,7 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, lookahead, policy_values, tensors
 from rldrill.solutions.policy_values import Evaluation, endless, evaluated, of_states, one_sweep
-from rldrill.solutions.sheet.bellman import BELLMAN_Q
+from rldrill.solutions.sheet.bellman import BELLMAN_Q, BELLMAN_V
 from rldrill.solutions.sheet.dynamic_programming import POLICY_IMPROVEMENT_THEOREM, POLICY_ITERATION
 from rldrill.solutions.work import Work
 
@@ -61,7 +61,8 @@ def _known(given: Given) -> dict[str, Any]:
 def _values(given: Given, work: Work, evaluation: Evaluation) -> dict[str, Value]:
     if given.values is not None:
         return knowns.state_values(given.values, given.mdp.terminal)
-    values = evaluation(work, POLICY_ITERATION, given.mdp, _known(given) | {"pi": given.policy})
+    known = knowns.model_and_policy(given.mdp, deterministic(given.policy), given.gamma)
+    values = evaluation(work, BELLMAN_V, given.mdp, known)
     return values | work.answer(of_states(given.mdp, values))
 
 

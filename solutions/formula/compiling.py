@@ -47,7 +47,11 @@ class Compiler(StrPrinter):
         return " + ".join(self.parenthesize(term, PRECEDENCE["Add"]) for term in expression.args)
 
     def _print_Mul(self, expression: Any) -> str:
-        return "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in expression.args)
+        first, *others = expression.args
+        minus = first == -1 and len(others) > 0
+        factors = others if minus else expression.args
+        written = "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in factors)
+        return f"-{written}" if minus else written
 
     def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
         base, exponent = expression.args

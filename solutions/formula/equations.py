@@ -29,6 +29,9 @@ class Affine:
 
     __radd__ = __add__
 
+    def __neg__(self) -> "Affine":
+        return self * -1
+
     def __mul__(self, factor: Any) -> "Affine":
         if isinstance(factor, Affine):
             raise TypeError("the equations are not linear")

@@ -93,7 +93,7 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 
 def sum_of(terms: Iterable[Expr]) -> Expr:
     """A sum, unevaluated: without terms that are zero."""
-    kept = [term for term in _flat(Add, terms) if not (term.is_Number and term.is_zero)]
+    kept = [term for term in _flat(Add, terms) if term is not sympy.S.Zero]
     if any(not _is_nothing(term) for term in kept):
         kept = [term for term in kept if not _is_nothing(term)]
     if not kept:
@@ -115,9 +115,9 @@ def _is_nothing(term: Expr) -> bool:
 def product_of(factors: Iterable[Expr]) -> Expr:
     """A product, unevaluated: without factors that are 1."""
     flat = _flat(Mul, factors)
-    if any(factor.is_Number and factor.is_zero for factor in flat):
+    if any(factor is sympy.S.Zero for factor in flat):
         return sympy.S.Zero
-    kept = [factor for factor in flat if factor != 1]
+    kept = [factor for factor in flat if factor is not sympy.S.One]
     if not kept:
         return sympy.S.One
     return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
@@ -132,7 +132,7 @@ def _without_ones(factors: list[Expr]) -> list[Expr]:
 
 def power_of(base: Expr, exponent: Expr) -> Expr:
     """A power, unevaluated, unless it is plain."""
-    if 1 in (base, exponent):
+    if sympy.S.One in (base, exponent):
         return base
     if isinstance(base, Slot) and exponent.is_positive:
         return base
@@ -236,6 +236,8 @@ def _inner(term: Expr) -> Expr:
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
         return Mul(*factors, evaluate=False)
+    if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
+        return Pow(_inner(term.args[0]), -1, evaluate=False)
     if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term

@@ -1,6 +1,7 @@
 """The typeset reading of an expression: sympy to mathematics, in the order in which it was written."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from math import lcm
 from typing import Any
 
@@ -46,8 +47,10 @@ class _Typesetter(Printer):
     printmethod = "_typeset"
 
     def __call__(self, expression: Expr) -> Math:
-        """An expression as mathematics."""
-        return self._print(expression)
+        """An expression as mathematics; the same letters and numbers stand in it again and again."""
+        if isinstance(expression, Node):
+            return expression._typeset(self)
+        return self._print(expression) if expression.args else _atom(expression)
 
     def _print_Symbol(self, expression: Any) -> Math:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
@@ -119,6 +122,11 @@ def _cut_off(above: int, below: int) -> Math:
 
 
 _TYPESETTER = _Typesetter()
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _atom(expression: Expr) -> Math:
+    return _TYPESETTER._print(expression)
 
 
 def typeset(expression: Expr) -> Math:
@@ -248,7 +256,7 @@ def _first(term: Expr) -> Math:
 
 def _product(factors: Sequence[Expr]) -> Math:
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
-    if flat[0] == -1 and len(flat) > 1:
+    if flat[0] is sympy.S.NegativeOne and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
     scalars = [factor for factor in flat if factor.is_commutative is not False]
     if len(scalars) < len(flat) and any(map(_reciprocal, scalars)):
@@ -272,7 +280,7 @@ def _product(factors: Sequence[Expr]) -> Math:
 
 
 def _reciprocal(factor: Expr) -> bool:
-    return bool(factor.is_Pow and factor.args[1] == -1 and factor.is_commutative is not False)
+    return bool(factor.is_Pow and factor.args[1] is sympy.S.NegativeOne and factor.is_commutative is not False)
 
 
 def _base(factor: Expr) -> Look:

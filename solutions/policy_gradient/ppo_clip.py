@@ -6,6 +6,7 @@ from typing import Any
 from rldrill.problems.exact import Weight, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
+from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
@@ -123,7 +124,8 @@ def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
         edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
         bounds.append(work.equate("epsilon", edge, known["rho"][time]))
     if len(bounds) > 1:
-        work.say("At least one gradient is zero as long as $ε$ is below the largest of these.")
+        most = text_of(largest(bounds))
+        work.say(f"At least one gradient is zero as long as $ε$ is below the largest of these, ${most}$.")
     work.answer(largest(bounds))
 
 

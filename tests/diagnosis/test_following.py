@@ -78,3 +78,31 @@ def test_an_equation_is_read_with_the_values_that_solve_the_system() -> None:
     followed = exercise.follow(["V(cool) = 4 + 1/2*2 = 5"])
     assert "2 is put in for V^π(warm), which is 4 in the equation of V^π(cool)" in followed.sentence
     assert exercise.follow(["V(cool) = 4 + 4"]).sentence.count("γ is missing") == 1
+
+
+# H = BᵀPB − R = −2 − 16 − 3 = −21; BᵀP = (−2, −8), so G = BᵀPA = (−10, −12); L = H⁻¹G = (10/21, 12/21);
+# a = −Ls = −(30 + 36)/21 = −22/7
+GAIN = {
+    "family": "lqr-gain",
+    "given": {
+        "A": [["1", "2"], ["1", "1"]],
+        "B": [["1"], ["2"]],
+        "R": [["3"]],
+        "P": [["-2", "0"], ["0", "-4"]],
+        "start": ["3", "3"],
+    },
+}
+
+
+def test_a_line_may_hold_a_matrix() -> None:
+    followed = rldrill.read(GAIN).follow(["H_0 = -21", "G_0 = [-10, -12]", "L_0 = [10/21 12/21]", "a_0 = -22/7"])
+    assert [line.standing for line in followed.lines] == ["right"] * 4
+    assert [line.step for line in followed.lines] == [0, 1, 2, 3]
+
+
+def test_what_follows_from_a_wrong_matrix_is_told() -> None:
+    # with the gain (10/21, −12/21) the action is −(30 − 36)/21 = 2/7
+    followed = rldrill.read(GAIN).follow(["G_0 = [-10 -12]", "L_0 = [10/21 -4/7]", "a_0 = 2/7"])
+    assert [line.standing for line in followed.lines] == ["right", "departs", "follows"]
+    assert followed.lines[1].step == 2
+    assert followed.lines[1].kind == "sign"

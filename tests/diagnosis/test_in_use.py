@@ -1,14 +1,18 @@
 """The diagnosis where it is used: in the quiz, in generated problems; and with errors drawn from the error model."""
 
 import importlib.util
+import json
 from io import StringIO
 from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.console import Console
+from typer.testing import CliRunner
 
 import rldrill
+from rldrill.cli import app
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
 from rldrill.solutions.drawing import draw
@@ -56,6 +60,23 @@ def test_generated_problems_have_wrong_answers_with_their_causes() -> None:
         assert not exercise.check(mistake["answer"]).accepted
         assert mistake["sentence"].endswith(".")
     assert "mistakes" not in exercise.data()["parts"][0]
+
+
+@pytest.mark.parametrize("feedback", ["reason", "key"])
+def test_a_report_shows_the_step_as_it_should_be_where_keys_are_told(tmp_path: Path, feedback: str) -> None:
+    (tmp_path / "mine.json").write_text(json.dumps(RUN))
+    (tmp_path / "answers.csv").write_text('student,problem,part,answer\nAnn,mine.json,a,"cave: 9, floor: 9"\n')
+    done = CliRunner().invoke(
+        app, ["verify", str(tmp_path / "answers.csv"), "--allow-files", "--feedback", feedback, "--json"]
+    )
+    (answer,) = json.loads(done.stdout)["students"][0]["answers"]
+    diagnosis = answer["diagnosis"]
+    told = [diagnosis, *diagnosis["alternatives"]]
+    assert any(each["right"] is not None for each in told) == (feedback == "key")
+    if feedback == "key":
+        # floor ← 10 + 1/4·(−3 + 1/2·9 − 10) = 63/8 is right; without γ it is 9
+        lines = {(each["yours"]["line"].split(" = ")[-1], each["right"]["line"].split(" = ")[-1]) for each in told}
+        assert ("9", "63/8") in lines
 
 
 FAMILIES = st.sampled_from(["td-zero", "value-iteration", "bayes-rule", "lqr-gain", "return", "sarsa", "policy-value"])

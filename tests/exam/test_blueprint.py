@@ -41,6 +41,7 @@ def test_a_problem_file_is_no_blueprint() -> None:
     [
         ('titel = "x"', "line 1: 'titel' is not a field of a blueprint (did you mean title?)."),
         ('\n\nlanguage = "fr"', "line 3: language: input should be 'en' or 'de'."),
+        ('notation = "ms"', "line 1: notation: there is no notation 'ms'; there are lecture, sutton-barto, control."),
         ("versions = true", "line 1: versions: write a whole number."),
         ("[[problems]]\nfamily = 'return'\nlevle = 2", "line 3: 'levle' is not a field of [[problems]] (did you mean"),
         ("[[problems]]\nfamily = 'return'\nlevel = 7", "line 3: level: input should be less than or equal to 3."),

@@ -18,8 +18,9 @@ from rldrill.problems.errors import FileError
 def exam() -> Exam:
     entries = (Entry(id="td-zero/1/7"), Entry(topic=("return", "epsilon-greedy"), count=2, level=1))
     blueprint = Blueprint(
-        problems=entries, seed=4, title="$5", date="May", points=30, partial="entries", order="shuffled", space="wide"
-    )
+        problems=entries, seed=4, title="$5", date="May", points=30, partial="entries", order="shuffled", space="wide",
+        notation="sutton-barto",
+    )  # fmt: skip
     return plan(blueprint, roster=(Person("Ann", "17"), Person("Bob", "4")))
 
 
@@ -42,6 +43,7 @@ def test_the_exam_that_is_read_is_the_one_that_was_written(exam: Exam, path: Pat
     assert manifest(again, "0.15") == manifest(exam, "0.15")
     assert again.versions[1].person == Person("Bob", "4")
     assert again.versions[0].points == 30
+    assert again.layout.notation == "sutton-barto"
     assert again.partial == "entries"
     assert (codes(path), typst_of(path), is_manifest(path)) == (("A", "B"), "0.15", True)
     without, makes = read_exam(path)

@@ -1,15 +1,20 @@
 """An exam as it is planned: versions share nothing, take as long as each other, and have the points that are wanted."""
 
+from collections import Counter
 from fractions import Fraction
 
 import pytest
 
+from rldrill.exam import expected
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import points_of
 from rldrill.exam.fairness import content, fairness, told
 from rldrill.exam.planning import plan, version_code
+from rldrill.exam.pool import variety
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed, sequence
+from rldrill.exam.slots import slots
 from rldrill.exam.worth import shared
+from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import UsageError
 
 
@@ -137,6 +142,32 @@ def test_what_is_excluded_is_not_drawn() -> None:
 
 
 def test_too_few_different_problems_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rldrill.exam.planning._ATTEMPTS", 0)
+    monkeypatch.setattr("rldrill.exam.pool._ATTEMPTS", -20)
     with pytest.raises(UsageError, match="too few different problems"):
         plan(blueprint("return", count=1, level=1, seed=1))
+
+
+def test_answers_are_shared_only_where_there_are_too_few_and_that_is_told() -> None:
+    """The support vectors of three policies: (b) of max-margin at level 1 is one of three numbers."""
+    exam = plan(Blueprint(problems=(Entry(family="max-margin", level=1),), seed=1, versions=6))
+    figures = fairness(exam)
+    assert figures.scarce["1 b"] == 3
+    given = Counter(answer for version in exam.versions for answer in told(version.exercises[0]) if answer[0] == "b")
+    assert set(given.values()) == {2}  # none more often than it must be
+    said = "fewer different answers than 6 versions: problem 1 (max-margin at level 1): 3 to (b)"
+    assert figures.says_what_is_scarce(6).startswith(said)
+
+
+def test_of_a_topic_those_families_come_first_that_have_an_answer_for_every_version() -> None:
+    wanted = blueprint("monte-carlo", "bellman", count=4, seed=3)
+    assert all(slot.variety >= 40 for slot in slots(wanted, 3, 40))
+    one, many = slots(wanted, 3, 1), slots(wanted, 3, 40)
+    assert len(one) == len(many) == 4
+
+
+def test_every_family_has_its_variety_counted() -> None:
+    assert {name: len(counts) for name, counts in expected.variety().items()} == {
+        name: len(family(name).levels) for name in families()
+    }
+    assert variety("max-margin", 1, 20) == expected.variety()["max-margin"][0]
+    assert variety("td-zero", 2, 20) == 20 <= expected.variety()["td-zero"][1]

@@ -28,6 +28,7 @@ PROBLEMS = [
     "principle-of-optimality/1/2",
     "kalman-filter/2/1",
 ]
+QTI = "{http://www.imsglobal.org/xsd/imsqti_v2p1}"
 _VOID = {"meta", "input", "img", "br", "hr", "rect", "line", "path", "ellipse", "polygon", "polyline"}
 
 
@@ -112,6 +113,38 @@ def test_a_picture_of_moodle_is_a_file_with_its_words(tmp_path: Path) -> None:
     question = ElementTree.fromstring(written("moodle", tmp_path))[2]
     assert 'src="@@PLUGINFILE@@/picture-1.svg" alt="State diagram' in (question.findtext("questiontext/text") or "")
     assert [file.get("name") for file in question.findall("questiontext/file")] == ["picture-1.svg"]
+
+
+def test_a_package_of_qti_names_all_that_is_in_it(tmp_path: Path) -> None:
+    """Its schemas, which are not ours to hand on, find no fault in any family; this holds what they hold it to."""
+    with zipfile.ZipFile(io.BytesIO(written("qti", tmp_path))) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    manifest = ElementTree.fromstring(files["imsmanifest.xml"])
+    named = [file.get("href") for file in manifest.iter("{http://www.imsglobal.org/xsd/imscp_v1p1}file")]
+    assert sorted(map(str, named)) == sorted(set(files) - {"imsmanifest.xml"})
+    for number in range(1, len(PROBLEMS) + 1):
+        item = ElementTree.fromstring(files[f"item-A-{number}.xml"])
+        declared = {each.get("identifier") for each in item.iter(f"{QTI}responseDeclaration")}
+        asked = [each.get("responseIdentifier") for each in item.iter() if each.get("responseIdentifier")]
+        assert sorted(map(str, asked)) == sorted(map(str, declared))
+        told = {each.get("identifier") for each in item.iter(f"{QTI}modalFeedback")}
+        set_ = {each.text for each in item.iter(f"{QTI}baseValue") if (each.text or "").startswith(("F_", "WORKING"))}
+        assert told == set_ >= {"WORKING"}
+        assert {image.get("src") for image in item.iter(f"{QTI}img")} <= set(files)
+
+
+def test_an_item_of_qti_has_the_key_the_tolerance_and_the_points(tmp_path: Path) -> None:
+    with zipfile.ZipFile(io.BytesIO(written("qti", tmp_path, practice=False))) as package:
+        item = ElementTree.fromstring(package.read("item-A-1.xml"))
+    assert item.find(f"{QTI}modalFeedback[@identifier='WORKING']") is None
+    first = next(item.iter(f"{QTI}responseCondition"))
+    right, *wrong = first.iter(f"{QTI}equal")
+    # δ₀ = 4 + 1/2·8 − (−2) = 10, and 10.0 allows 0.05
+    assert (right.findtext(f"{QTI}baseValue"), right.get("tolerance")) == ("10", "0.05 0.05")
+    assert wrong
+    parts = rldrill.load("td-zero/2/7").parts
+    worth = [float(each.findtext(f"{QTI}baseValue") or 0) for each in item.iter(f"{QTI}sum")]
+    assert sum(worth) == pytest.approx(sum(part.points for part in parts), rel=1e-4)
 
 
 def test_anki_reads_the_deck_and_knows_each_problem_by_its_id(tmp_path: Path) -> None:

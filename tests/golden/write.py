@@ -1,4 +1,4 @@
-"""Pin problems with their answers, their pages, the limits of their fields, the minutes of the levels, and screens.
+"""Pin problems with their answers, pages, and limits of fields; minutes and variety of the levels; and screens.
 
 Of the families named, or of all:
 
@@ -19,7 +19,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 from limits import limits
 from printing import page
 from rldrill.audit.checking import agrees
+from rldrill.exam.expected import COUNTED, VARIETY
 from rldrill.exam.expected import FILE as MINUTES
+from rldrill.exam.pool import variety
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family
 from rldrill.solutions.effort import minutes, whole
@@ -63,8 +65,10 @@ times = {
     ]
     for known in chosen
 }
+varieties = {known.name: [variety(known.name, level, COUNTED) for level in known.levels] for known in chosen}
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
+rewrite(VARIETY, wanted, varieties)
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for kind in WIDTHS:
     (SCREENS / f"{kind}.txt").write_text(transcript(kind), encoding="utf-8")

@@ -1,6 +1,7 @@
 """Pictures in Typst: scenes with its own lines and curves, so that the PDF needs nothing else."""
 
-from functools import cache
+import math
+from functools import lru_cache
 
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import Fraction, Glyph, Math, Row
@@ -10,21 +11,40 @@ from rldrill.render.pictures.described import described
 from rldrill.render.pictures.scene import SHARES, Caption, Curve, Ellipse, Path, Point, Scene, Shape
 from rldrill.render.pictures.scenes import scene_of
 
+#: A picture that is no wider is not measured; in points.
+_ROOM = 460
 
-@cache
-def picture(block: Picture) -> str:
-    """A picture as Typst markup; nothing where it cannot be drawn readably."""
+
+#: A worksheet and its key have the same pictures, and to lay one out takes a while.
+_scene = lru_cache(maxsize=64)(scene_of)
+
+
+def width_of(block: Picture) -> float:
+    """The width of a picture in points; infinite where only the page decides it."""
+    scene = None if isinstance(block, Timeline) else _scene(block)
+    return math.inf if scene is None else scene.box.right - scene.box.left
+
+
+def picture(block: Picture, *, shrinks: bool = False) -> str:
+    """A picture as Typst markup; nothing where it cannot be drawn readably.
+
+    Args:
+        block: the picture.
+        shrinks: whether there may be less room than usual.
+    """
     if isinstance(block, Timeline):
         return f"#drawing({quoted(described(block))}, {_timeline(block)})\n"
-    scene = scene_of(block)
-    return "" if scene is None else f"#drawing({quoted(described(block))}, {scene_box(scene)})\n"
+    scene = _scene(block)
+    return "" if scene is None else f"#drawing({quoted(described(block))}, {scene_box(scene, shrinks=shrinks)})\n"
 
 
-def scene_box(scene: Scene) -> str:
+def scene_box(scene: Scene, *, shrinks: bool = False) -> str:
     """A scene as an expression: a box of its size, shrunk where there is less room."""
     box = scene.box
     shapes = "".join(f"\n  {_shape(shape, (box.left, box.top))}" for shape in scene.shapes)
-    return f"picture({_pt(box.right - box.left)}, {_pt(box.bottom - box.top)}, {{{shapes}\n}})"
+    width = box.right - box.left
+    how = "wide-picture" if shrinks or width > _ROOM else "picture"
+    return f"{how}({_pt(width)}, {_pt(box.bottom - box.top)}, {{{shapes}\n}})"
 
 
 def _shape(shape: Shape, origin: Point) -> str:

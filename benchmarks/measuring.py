@@ -1,0 +1,237 @@
+"""What one process measures for one of the tables: ``python benchmarks/measuring.py TABLE`` prints it as JSON."""
+
+import json
+import random
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+_HELLO = "import typer\napp = typer.Typer()\n@app.command()\ndef main(): print('hello')\napp()"
+_NEEDED = "import typer, rich, pydantic, sympy, flint"
+
+
+def _rate(work: Callable[[int], object], seconds: float, least: int) -> float:
+    """How often something is done in a second of the processor, after it was done three times."""
+    for number in range(3):
+        work(number)
+    start, number = time.process_time(), 3
+    while time.process_time() - start < seconds or number < least:
+        work(number)
+        number += 1
+    return (number - 3) / (time.process_time() - start)
+
+
+def drawing() -> dict[str, float]:
+    """Problems a second, for every family."""
+    from rldrill.problems.catalogue import families, family
+    from rldrill.solutions.drawing import draw
+
+    found = {}
+    for name in families():
+        level = min(family(name).levels, key=lambda level: abs(level - 2))
+        found[name] = _rate(lambda seed, name=name, level=level: draw(name, level, seed).mistakes, 0.15, 10)
+    return found
+
+
+def latex() -> dict[str, float]:
+    """Records with working as LaTeX a second, for every eighth family, and together."""
+    from rldrill.generation.records import Extra, record
+    from rldrill.problems.catalogue import families, family
+
+    names = [name for name in families()[::8] if 2 in family(name).levels]
+    extras = (Extra.ANSWERS, Extra.WORKING, Extra.LATEX)
+    found = {name: _rate(lambda seed, name=name: record(name, 2, seed, extras), 0.2, 8) for name in names}
+    return {"the same number of each": len(found) / sum(1 / rate for rate in found.values())} | found
+
+
+def judging() -> dict[str, float]:
+    """Answers a second: a number as a fraction and as a decimal, a table of two, an expression."""
+    from rldrill.solutions.answers.judging import judge
+    from rldrill.solutions.drawing import by_id
+
+    cases = {
+        "a number": ("n-step-return/2/1", lambda i: f"{i + 1}/7" if i % 2 else f"{i}.25"),
+        "a table of three": ("bayes-predict/2/1", lambda i: f"1/4, {i}/4, 1/2"),
+        "an expression": ("bellman-backup/3/1", lambda i: f"({i} + 1/(2 + x))/3 + gamma + p*q"),
+    }
+    found = {}
+    for name, (problem, text) in cases.items():
+        solution = by_id(problem)
+        found[name] = _rate(lambda i, solution=solution, text=text: judge(solution, "a", text(i)), 0.5, 50)
+    return found
+
+
+def formulas() -> dict[str, float]:
+    """Values a second: compiled from the sheet, and as somebody writes the same over flint's rationals."""
+    from flint import fmpq
+
+    from rldrill.solutions.formula.compiling import value_of
+    from rldrill.solutions.sheet.bayes import BAYES
+    from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_V, BELLMAN_V
+    from rldrill.solutions.sheet.control import EXPECTED_SARSA, Q_LEARNING, SARSA
+    from rldrill.solutions.sheet.temporal_difference import N_STEP_RETURN, TD_ZERO
+
+    half, ends, act = fmpq(1, 2), ("a", "b", "c"), ("left", "right")
+    known: dict[str, Any] = {
+        "S": {0: "a", 1: "b", 2: "c"}, "A": {0: "left", 1: "right"}, "r": {1: fmpq(3), 2: fmpq(-1, 3)},
+        "alpha": half, "gamma": fmpq(9, 10), "t": 0, "n": 2, "s": "a", "h": "a", "z": "low",
+        "V": {state: fmpq(index, 3) for index, state in enumerate(ends)},
+        "Q": {(state, action): fmpq(index, 5) for index, state in enumerate(ends) for action in act},
+        "pi": {(action, state): half for state in ends for action in act}, "actions": dict.fromkeys(ends, act),
+        "P": {(s, a, e): fmpq(1, 3) for s in ends for a in act for e in ends},
+        "R": {(s, a, e): fmpq(2, 7) for s in ends for a in act for e in ends},
+        "successors": {(s, a): ends for s in ends for a in act}, "hypotheses": ends,
+        "likelihood": {("low", state): fmpq(index + 1, 6) for index, state in enumerate(ends)},
+        "p": {state: fmpq(1, 3) for state in ends},
+    }  # fmt: skip
+    k = known
+
+    def moved(target: fmpq) -> fmpq:
+        old = k["Q"][k["S"][0], k["A"][0]]
+        return old + k["alpha"] * (target - old)
+
+    def ahead(state: str, action: str) -> fmpq:
+        return sum(
+            (k["P"][state, action, e] * (k["R"][state, action, e] + k["gamma"] * k["V"][e])
+             for e in k["successors"][state, action]), fmpq(0),
+        )  # fmt: skip
+
+    def td_zero() -> fmpq:
+        V, S, t = k["V"], k["S"], k["t"]
+        return V[S[t]] + k["alpha"] * (k["r"][t + 1] + k["gamma"] * V[S[t + 1]] - V[S[t]])
+
+    by_hand: dict[Any, Callable[[], fmpq]] = {
+        TD_ZERO: td_zero,
+        SARSA: lambda: moved(k["r"][1] + k["gamma"] * k["Q"][k["S"][1], k["A"][1]]),
+        Q_LEARNING: lambda: moved(k["r"][1] + k["gamma"] * max(k["Q"][k["S"][1], a] for a in k["actions"][k["S"][1]])),
+        EXPECTED_SARSA: lambda: moved(
+            k["r"][1] + k["gamma"] * sum((k["pi"][a, k["S"][1]] * k["Q"][k["S"][1], a] for a in act), fmpq(0))
+        ),
+        BELLMAN_V: lambda: sum((k["pi"][a, k["s"]] * ahead(k["s"], a) for a in act), fmpq(0)),
+        BELLMAN_OPTIMALITY_V: lambda: max(ahead(k["s"], a) for a in act),
+        BAYES: lambda: (
+            k["likelihood"][k["z"], k["h"]]
+            * k["p"][k["h"]]
+            / sum((k["likelihood"][k["z"], h] * k["p"][h] for h in k["hypotheses"]), fmpq(0))
+        ),
+        N_STEP_RETURN: lambda: (
+            sum((k["gamma"] ** i * k["r"][k["t"] + 1 + i] for i in range(k["n"])), fmpq(0))
+            + k["gamma"] ** k["n"] * k["V"][k["S"][k["t"] + k["n"]]]
+        ),
+    }
+    found = {}
+    for formula, function in by_hand.items():
+        assert value_of(formula.right, known) == function(), formula
+        compiled = _rate(lambda _, right=formula.right: value_of(right, known), 0.2, 100)
+        hand = _rate(lambda _, function=function: function(), 0.2, 100)
+        found |= {f"{formula.key}, compiled": compiled, f"{formula.key}, by hand": hand}
+        found[f"{formula.key}, times"] = hand / compiled
+    return found
+
+
+def _random_model(states: int) -> list[list[Any]]:
+    """The transitions of a sparse model: every action leads to three states, the end perhaps among them."""
+    choose, rows = random.Random(states), []
+    for state in range(states):
+        for action in range(4):
+            weights = [choose.randint(1, 5) for _ in range(3)]
+            for after, weight in zip(choose.sample(range(states + 1), 3), weights, strict=True):
+                name = "end" if after == states else f"s{after}"
+                rows.append([f"s{state}", f"a{action}", name, f"{weight}/{sum(weights)}", choose.randint(-9, 9)])
+    return rows
+
+
+def models() -> dict[str, float]:
+    """Seconds for the optimal values: ours and exact, one policy's by sympy, and policy iteration in floats."""
+    from fractions import Fraction
+
+    from rldrill.problems.models import Model
+    from rldrill.solutions.optimality import optimum
+
+    found = {}
+    for states in (10, 30, 100, 300, 1000):
+        rows = _random_model(states)
+        model = Model.model_validate({"transitions": rows, "terminal": ["end"]})
+        start = time.process_time()
+        best = optimum(model, type(model.transitions[0].probability)("9/10")).policy
+        found[f"{states} states, exact"] = time.process_time() - start
+        if states <= 100:
+            start = time.process_time()
+            _by_sympy(states, rows, best)
+            found[f"{states} states, sympy's linsolve, for the optimal policy alone"] = time.process_time() - start
+        start = time.process_time()
+        _in_floats(states, [[*row[:3], float(Fraction(row[3])), row[4]] for row in rows])
+        found[f"{states} states, policy iteration in numpy's floats"] = time.process_time() - start
+    return found
+
+
+def _by_sympy(states: int, rows: list[list[Any]], policy: Any) -> None:
+    from sympy import Rational, linsolve, symbols
+
+    V = symbols(f"V:{states}")
+    equations = list(V)
+    for state, action, after, chance, reward in rows:
+        if policy[state] == action:
+            ahead = Rational(9, 10) * V[int(after[1:])] if after != "end" else 0
+            equations[int(state[1:])] -= Rational(chance) * (reward + ahead)
+    linsolve(equations, V)
+
+
+def _in_floats(states: int, rows: list[list[Any]]) -> None:
+    import numpy as np
+
+    P, r = np.zeros((4, states, states)), np.zeros((4, states))
+    for state, action, after, chance, reward in rows:
+        r[int(action[1:]), int(state[1:])] += chance * reward
+        if after != "end":
+            P[int(action[1:]), int(state[1:]), int(after[1:])] += chance
+    chosen, every = r.argmax(axis=0), np.arange(states)
+    while True:
+        V = np.linalg.solve(np.eye(states) - 0.9 * P[chosen, every], r[chosen, every])
+        better = (r + 0.9 * P @ V).argmax(axis=0)
+        if (better == chosen).all():
+            return
+        chosen = better
+
+
+def start() -> dict[str, float]:
+    """Seconds of whole processes, and how they compare with what they cannot do without."""
+
+    def seconds(*command: str) -> float:
+        times = []
+        for _ in range(5):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run([sys.executable, *command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        return sorted(times)[2]
+
+    hello, needed = seconds("-c", _HELLO), seconds("-c", _NEEDED)
+    found = {"hello-world Typer": hello, "typer, rich, pydantic, sympy, flint": needed}
+    for name, command, base in (
+        ("-h", ["-h"], hello),
+        ("list", ["list"], hello),
+        ("show", ["show", "td-zero/2/1"], needed),
+        ("solve", ["solve", "td-zero/2/1"], needed),
+    ):
+        found[name] = seconds("-m", "rldrill", *command)
+        found[f"{name}, times"] = found[name] / base
+    return found
+
+
+def million() -> dict[str, float]:
+    """Hours of the clock for a million problems with working, by what 600 cost in one process and in two."""
+    found = {}
+    for jobs in (1, 2):
+        began = time.perf_counter()
+        command = ["generate", "-n", "600", "--seed", "1", "--with", "answers,working", "--jobs", str(jobs)]
+        subprocess.run([sys.executable, "-m", "rldrill", *command], stdout=subprocess.DEVNULL, check=True)
+        found[f"{jobs} process{'es' * (jobs > 1)}"] = (time.perf_counter() - began) / 600 * 10**6 / 3600
+    return found
+
+
+if __name__ == "__main__":
+    print(json.dumps(globals()[sys.argv[1]]()))

@@ -1,0 +1,301 @@
+"""An exam as a content package in QTI 2.1: an item for every problem, a test for every version.
+
+https://www.imsglobal.org/question/qtiv2p1/imsqti_infov2p1.html
+"""
+
+import io
+import zipfile
+from collections.abc import Callable, Iterator, Sequence
+from decimal import Decimal
+from html import escape
+
+from rldrill.exam.exam import Exam, Version, points_of
+from rldrill.exercise import Exercise
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.problems.document import Equation, Table
+from rldrill.problems.mathematics import EMPTY, Math
+from rldrill.problems.parts import Choice, Matrix, Part, YesNo
+from rldrill.problems.pictures import Picture
+from rldrill.render.html import LatexHtml
+from rldrill.render.mathematics.mathml import element, relation
+from rldrill.render.mathematics.unicode import inline
+from rldrill.render.pictures.described import described
+from rldrill.render.pictures.svg import svg
+
+_DATE = (1980, 1, 1, 0, 0, 0)
+_XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+_XSI = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
+_SPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
+_QTI = f'xmlns="{_SPACE}" {_XSI} xsi:schemaLocation="{_SPACE} {_SPACE}.xsd"'
+_PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
+_MATHML = "http://www.w3.org/1998/Math/MathML"
+_NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
+_BY_HAND = "Answer in words and formulas; it is marked by hand."
+_WORKING = "WORKING"
+
+
+class _Writer(LatexHtml):
+    """XHTML as items may hold it, with MathML, and pictures as files beside them."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self.files: dict[str, str] = {}
+
+    def math(self, math: Math) -> str:
+        """Mathematics within a line."""
+        return _mathml(element(math))
+
+    def table(self, table: Table) -> str:
+        """A table with its head apart."""
+        head = "".join(f"<th>{self.text(cell)}</th>" for cell in table.header)
+        lines = (f"<tr>{''.join(f'<td>{self.text(cell)}</td>' for cell in line)}</tr>" for line in table.rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+
+    def equation(self, equation: Equation) -> str:
+        """An equation in a paragraph of its own."""
+        if not any(equation.signs):
+            return f"<p>{' '.join(map(self.math, equation.rights))}</p>"
+        left = "" if equation.left == EMPTY else element(equation.left)
+        links = zip(equation.signs, equation.rights, strict=True)
+        rest = "".join(f"{relation(sign)}{element(right)}" for sign, right in links)
+        return f"<p>{_mathml(f'<mrow>{left}{rest}</mrow>')}</p>"
+
+    def picture(self, picture: Picture) -> str:
+        """A picture as a file that the text refers to."""
+        if not (drawing := svg(picture)):
+            return ""
+        name = f"{self._name}-{len(self.files) + 1}.svg"
+        self.files[name] = drawing
+        return f'<p><img src="{name}" alt="{escape(described(picture))}"/></p>'
+
+
+def _mathml(inside: str) -> str:
+    return f'<math xmlns="{_MATHML}">{inside}</math>'
+
+
+def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> bytes:
+    """All versions in one package, each as a test of its own.
+
+    Args:
+        exam: the exam.
+        practice: whether the working is told after an attempt.
+        advance: called after each version.
+    """
+    files: dict[str, str] = {}
+    resources: list[str] = []
+    for version in exam.versions:
+        names = []
+        for number, exercise in enumerate(version.exercises, 1):
+            writer = _Writer(name := f"item-{version.code}-{number}")
+            files[f"{name}.xml"] = _item(writer, name, number, exercise, practice=practice)
+            files |= writer.files
+            resources.append(_resource(name, "item", [*writer.files]))
+            names.append(name)
+        test = f"test-{version.code}"
+        files[f"{test}.xml"] = _test(exam, version, names)
+        resources.append(_resource(test, "test", [], names))
+        advance()
+    manifest = (
+        f'{_XML}<manifest xmlns="{_PACKAGE}" {_XSI} xsi:schemaLocation="{_PACKAGE} {_PACKAGE}.xsd" identifier="exam">\n'
+        f"<metadata><schema>QTIv2.1 Package</schema><schemaversion>1.0.0</schemaversion></metadata>\n"
+        f"<organizations/>\n<resources>\n{''.join(resources)}</resources>\n</manifest>\n"
+    )
+    return _packed({"imsmanifest.xml": manifest, **files})
+
+
+def _packed(files: dict[str, str]) -> bytes:
+    result = io.BytesIO()
+    with zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as package:
+        for name, content in files.items():
+            package.writestr(zipfile.ZipInfo(name, _DATE), content.encode(), zipfile.ZIP_DEFLATED)
+    return result.getvalue()
+
+
+def _resource(name: str, what: str, beside: Sequence[str], needed: Sequence[str] = ()) -> str:
+    files = "".join(f'<file href="{file}"/>' for file in (f"{name}.xml", *beside))
+    needs = "".join(f'<dependency identifierref="{other}"/>' for other in needed)
+    return f'<resource identifier="{name}" type="imsqti_{what}_xmlv2p1" href="{name}.xml">{files}{needs}</resource>\n'
+
+
+def _test(exam: Exam, version: Version, names: Sequence[str]) -> str:
+    code = f" ({version.code})" if len(exam.versions) > 1 else ""
+    title = escape(exam.head.title + code)
+    items = "".join(f'<assessmentItemRef identifier="{name}" href="{name}.xml"/>\n' for name in names)
+    limit = "" if exam.head.duration is None else f'<timeLimits maxTime="{60 * exam.head.duration}"/>\n'
+    return (
+        f'{_XML}<assessmentTest {_QTI} identifier="test-{version.code}" title="{title}">\n{limit}'
+        '<testPart identifier="part" navigationMode="nonlinear" submissionMode="individual">\n'
+        f'<assessmentSection identifier="problems" title="{title}" visible="true">\n{items}'
+        "</assessmentSection>\n</testPart>\n</assessmentTest>\n"
+    )
+
+
+def _item(writer: _Writer, name: str, number: int, exercise: Exercise, *, practice: bool) -> str:
+    asked = [_Asked(part, cells(exercise, part), tuple(wrong_answers(exercise, part))) for part in exercise.parts]
+    by_hand = any(is_open(cell) for each in asked for cell in each.cells)
+    label = len(exercise.parts) > 1
+    body = "".join(each.body(writer, label=label) for each in asked)
+    question = writer.blocks(exercise.question())
+    conditions, feedback = [], []
+    for each in asked:
+        for condition, told in each.judged():
+            conditions.append(condition)
+            feedback += told
+    if practice:
+        working = "".join(writer.block(exercise.answer(part)) + writer.blocks(exercise.working(part.label))
+                          for part in exercise.parts)  # fmt: skip
+        feedback.append((_WORKING, f"<div>{working}</div>"))
+        conditions.append(_tell(_WORKING))
+    modal = "".join(
+        f'<modalFeedback outcomeIdentifier="FEEDBACK" identifier="{key}" showHide="show">{says}</modalFeedback>\n'
+        for key, says in feedback
+    )
+    return (
+        f'{_XML}<assessmentItem {_QTI} identifier="{name}" '
+        f'title="{escape(f"{number:02} {inline(exercise.problem.family.title)}")}" adaptive="false" '
+        f'timeDependent="false">\n{"".join(each.declared() for each in asked)}'
+        f'<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float" '
+        f'normalMaximum="{points_of(exercise)}"><defaultValue><value>0</value></defaultValue></outcomeDeclaration>\n'
+        '<outcomeDeclaration identifier="FEEDBACK" cardinality="multiple" baseType="identifier"/>\n'
+        f"<itemBody>\n{question}<p><em>{_BY_HAND if by_hand else _NOTE}</em></p>\n{body}</itemBody>\n"
+        f"<responseProcessing>\n{''.join(conditions)}</responseProcessing>\n{modal}</assessmentItem>\n"
+    )
+
+
+class _Asked:
+    """A part, and its cells as responses."""
+
+    def __init__(self, part: Part, asked: Sequence[Cell], wrong: Sequence[Wrong]) -> None:
+        self.part, self.cells, self.wrong = part, asked, wrong
+        self._worth = f"{Decimal(part.points) / len(asked):.6g}"
+
+    def declared(self) -> str:
+        """The responses with what is right in them."""
+        return "".join(
+            f'<responseDeclaration identifier="{self._name(index)}" cardinality="single" baseType="{_type(cell)}"'
+            f"{_right(cell)}\n"
+            for index, cell in enumerate(self.cells)
+        )
+
+    def body(self, writer: _Writer, *, label: bool) -> str:
+        """What is asked, and where it is answered."""
+        letter = f"({self.part.label}) " if label else ""
+        ask = f"<p>{letter}{writer.text(self.part.ask)}</p>\n"
+        if isinstance(self.part.kind, Choice | YesNo):
+            (only,) = self.cells
+            assert isinstance(only, Word)
+            options = "".join(
+                f'<simpleChoice identifier="{_key(only, option)}">{self._option(writer, option, text)}</simpleChoice>'
+                for option, text in only.options.items()
+            )
+            return f'{ask}<choiceInteraction responseIdentifier="{self._name(0)}" shuffle="false" maxChoices="1">' \
+                   f"{options}</choiceInteraction>\n"  # fmt: skip
+        if any(map(is_open, self.cells)):
+            places = (
+                f'<div>{_left(writer, cell)}<extendedTextInteraction responseIdentifier="{self._name(index)}"/></div>'
+                for index, cell in enumerate(self.cells)
+            )
+            return f"{ask}{''.join(places)}\n"
+        boxes = [self._box(index, cell) for index, cell in enumerate(self.cells)]
+        if isinstance(self.part.kind, Matrix):
+            wide = self.part.kind.columns
+            lines = (boxes[start : start + wide] for start in range(0, len(boxes), wide))
+            rows = "".join(f"<tr>{''.join(f'<td>{box}</td>' for box in line)}</tr>" for line in lines)
+            return f"{ask}<table><tbody>{rows}</tbody></table>\n"
+        lines_ = (f"<p>{_left(writer, cell)}{box}</p>" for cell, box in zip(self.cells, boxes, strict=True))
+        return f"{ask}{''.join(lines_)}\n"
+
+    def judged(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+        """For every cell how it is judged, and what is told of its wrong answers."""
+        for index, cell in enumerate(self.cells):
+            if is_open(cell):
+                continue
+            name = self._name(index)
+            right = _is_right(name, cell)
+            worth = f'<sum><variable identifier="SCORE"/><baseValue baseType="float">{self._worth}</baseValue></sum>'
+            tests, told = [], []
+            for number, (test, says) in enumerate(self._mistakes(index, cell), 1):
+                key = f"F_{name}_{number}"
+                tests.append(f"<responseElseIf>{test}{_tell(key)}</responseElseIf>")
+                told.append((key, f"<p>{escape(inline(says))}</p>"))
+            yield (
+                f'<responseCondition><responseIf>{right}<setOutcomeValue identifier="SCORE">{worth}</setOutcomeValue>'
+                f"</responseIf>{''.join(tests)}</responseCondition>\n",
+                told,
+            )
+
+    def _mistakes(self, index: int, cell: Cell) -> Iterator[tuple[str, str]]:
+        name = self._name(index)
+        if isinstance(cell, Quantity):
+            for other, says in told_apart(cell, index, self.wrong):
+                yield _equal(name, other), says
+            return
+        sentences = {each.cells[index]: each.says for each in reversed(self.wrong)}
+        for option in cell.options:
+            if option not in cell.right and option in sentences:
+                yield _is(name, _key(cell, option)), sentences[option]
+
+    def _name(self, index: int) -> str:
+        return f"R_{self.part.label}_{index + 1}"
+
+    def _option(self, writer: _Writer, option: str, text: str) -> str:
+        return f"({escape(option)}) {writer.text(text)}" if isinstance(self.part.kind, Choice) else writer.text(text)
+
+    def _box(self, index: int, cell: Cell) -> str:
+        name = self._name(index)
+        if isinstance(cell, Quantity):
+            return f'<textEntryInteraction responseIdentifier="{name}" expectedLength="12"/>'
+        options = "".join(
+            f'<inlineChoice identifier="{_key(cell, option)}">{escape(option)}</inlineChoice>'
+            for option in cell.options
+        )
+        return (
+            f'<inlineChoiceInteraction responseIdentifier="{name}" shuffle="false">{options}</inlineChoiceInteraction>'
+        )
+
+
+def _left(writer: _Writer, cell: Cell) -> str:
+    return "" if cell.left is None else f"{writer.math(cell.left)} = "
+
+
+def _key(cell: Word, option: str) -> str:
+    """An option's name: what it says may be any text."""
+    return f"o{[*cell.options].index(option) + 1}"
+
+
+def _type(cell: Cell) -> str:
+    if isinstance(cell, Word):
+        return "identifier"
+    return "string" if is_open(cell) else "float"
+
+
+def _right(cell: Cell) -> str:
+    """The end of a declaration: the right answer, or one of them."""
+    right = _key(cell, cell.right[0]) if isinstance(cell, Word) else cell.decimal or cell.exact
+    return f"><correctResponse><value>{escape(right)}</value></correctResponse></responseDeclaration>"
+
+
+def _is_right(name: str, cell: Cell) -> str:
+    if isinstance(cell, Quantity):
+        return _equal(name, cell)
+    tests = [_is(name, _key(cell, option)) for option in cell.right]
+    return tests[0] if len(tests) == 1 else f"<or>{''.join(tests)}</or>"
+
+
+def _is(name: str, key: str) -> str:
+    return f'<match><variable identifier="{name}"/><baseValue baseType="identifier">{key}</baseValue></match>'
+
+
+def _equal(name: str, number: Quantity) -> str:
+    """Whether a response is that number, by its tolerance."""
+    return (
+        f'<equal toleranceMode="absolute" tolerance="{number.tolerance} {number.tolerance}">'
+        f'<variable identifier="{name}"/><baseValue baseType="float">{number.decimal}</baseValue></equal>'
+    )
+
+
+def _tell(key: str) -> str:
+    return (
+        '<setOutcomeValue identifier="FEEDBACK"><multiple><variable identifier="FEEDBACK"/>'
+        f'<baseValue baseType="identifier">{key}</baseValue></multiple></setOutcomeValue>'
+    )
