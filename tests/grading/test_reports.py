@@ -89,7 +89,10 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
 def test_the_json_fits_the_schema_that_is_printed(report: Report, feedback: str) -> None:
     schema = json.loads(CliRunner().invoke(app, ["verify", "--schema"]).stdout)
     jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.validate(json.loads(data.written(report, feedback)), schema)
+    text = data.written(report, feedback)
+    jsonschema.validate(json.loads(text), schema)
+    assert json.loads(text) == report.to_json(feedback)
+    assert text == json.dumps(json.loads(text), ensure_ascii=False, indent=2) + "\n"
 
 
 @pytest.mark.parametrize("feedback", FEEDBACK)
