@@ -219,17 +219,22 @@ class Report:
         """A student's points on the exam's scale, if it has one."""
         return None if self.scale is None else student.score.scaled(self.scale)
 
-    def _student(self, student: StudentReport, feedback: str) -> dict[str, Any]:
+    def student_to_json(self, student: StudentReport, feedback: str = "reason") -> dict[str, Any]:
+        """One student as JSON has it, with what the exam makes of the points."""
         scaled = self.scaled(student)
         more = {"scaled": scaled and scaled.to_json(), "passed": self.passed(student)}
         return student.to_json(feedback) | more
 
     def to_json(self, feedback: str = "reason") -> dict[str, Any]:
         """The report as versioned JSON; the right answers are in it only if they are asked for."""
+        return self.frame() | {"students": [self.student_to_json(student, feedback) for student in self.students]}
+
+    def frame(self) -> dict[str, Any]:
+        """The same without the students."""
         return {
             "format": FORMAT,
             "title": self.title or None,
-            "students": [self._student(student, feedback) for student in self.students],
+            "students": [],
             "refused": [
                 {
                     "file": refusal.path,

@@ -17,6 +17,7 @@ with atheris.instrument_imports(include=["rldrill", "problems", "solutions", "to
     from rldrill.exam.blueprint import read_blueprint
     from rldrill.exam.manifest import printed
     from rldrill.exam.roster import read_roster
+    from rldrill.exercise import load
     from rldrill.files import read_data
     from rldrill.grading.answers_file import read_answers
     from rldrill.grading.assignment import Assignment
@@ -27,6 +28,10 @@ with atheris.instrument_imports(include=["rldrill", "problems", "solutions", "to
 CORPUS = Path(__file__).parent / "corpus"
 FOLDER = Path(tempfile.mkdtemp())
 EXAM = CORPUS / "exam.json"
+#: Numbers, tables, a matrix, a policy.
+EXERCISES = [
+    load(name) for name in ("return/1/7", "td-zero/2/7", "lqr-gain/1/7", "value-iteration/1/7", "bayes-rule/1/7")
+]
 
 
 def _assignment(path: Path) -> None:
@@ -42,6 +47,12 @@ def _graded(path: Path) -> None:
     verify([path], Settings(assignment=Assignment(EXAM, "A")))
 
 
+def _answer(path: Path) -> None:
+    text = path.read_text(encoding="utf-8", errors="replace")
+    for exercise in EXERCISES:
+        exercise.check(text)
+
+
 #: What reads a file with a name that ends so.
 READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
     "answers-toml": (".toml", read_answers),
@@ -55,6 +66,7 @@ READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
     "manifest": (".json", _manifest),
     "blueprint": (".toml", read_blueprint),
     "problem": (".toml", read_data),
+    "answer": (".txt", _answer),
 } | {f"model-{suffix[1:]}": (suffix, read_model) for suffix in sorted(MODEL_SUFFIXES)}
 
 

@@ -13,7 +13,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import rldrill
+from rldrill.exam.blueprint import read_blueprint
 from rldrill.exam.manifest import printed
+from rldrill.exam.roster import read_roster
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables, text
 from rldrill.grading.verification import Settings, verify
@@ -143,6 +145,22 @@ def test_any_roster_is_read_or_refused(tmp_path: Path, head: bytes, content: byt
         manifest.write_text(json.dumps({"format": 2, "rldrill": "0", "title": "t", "seed": 1, "versions": versions}))
     with contextlib.suppress(UserError):
         Assignment(manifest, roster=path)
+
+
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(content=ANY)
+@pytest.mark.parametrize("head", [b"", b"name,number\n", b"Number;Name\r\n"])
+def test_any_list_of_people_is_read_or_refused(tmp_path: Path, head: bytes, content: bytes) -> None:
+    with contextlib.suppress(UserError):
+        read_roster(written(tmp_path, "course.csv", head + content))
+
+
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(content=ANY)
+@pytest.mark.parametrize("head", [b"", b"[[problems]]\n", b"points = 9\n[[problems]]\nfamily = 'return'\n"])
+def test_any_blueprint_is_read_or_refused(tmp_path: Path, head: bytes, content: bytes) -> None:
+    with contextlib.suppress(UserError):
+        read_blueprint(written(tmp_path, "exam.toml", head + content))
 
 
 JSON = st.recursive(

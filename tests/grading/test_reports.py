@@ -18,6 +18,7 @@ from rldrill.cli import app
 from rldrill.grading.marking import Rules
 from rldrill.grading.report import FEEDBACK, Report
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables
+from rldrill.grading.reports import text as text_report
 from rldrill.grading.verification import Settings, verify
 
 #: Ann is right, Ben misread the decimal comma, the third one tries what can be tried.
@@ -88,7 +89,10 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
 def test_the_json_fits_the_schema_that_is_printed(report: Report, feedback: str) -> None:
     schema = json.loads(CliRunner().invoke(app, ["verify", "--schema"]).stdout)
     jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.validate(json.loads(data.written(report, feedback)), schema)
+    text = data.written(report, feedback)
+    jsonschema.validate(json.loads(text), schema)
+    assert json.loads(text) == report.to_json(feedback)
+    assert text == json.dumps(json.loads(text), ensure_ascii=False, indent=2) + "\n"
 
 
 @pytest.mark.parametrize("feedback", FEEDBACK)
@@ -155,7 +159,7 @@ def test_the_page_stands_alone_and_runs_nothing(report: Report) -> None:
     tags = _Tags()
     tags.feed(text)
     assert tags.open == []
-    assert tags.found.count("svg") == 2
+    assert tags.found.count("svg") == 2 + 1  # points, parts, and the one mistake that was made
     assert "script" not in tags.found
     assert "https://" not in text
     # 2/3 is 1/3 · 2: the first reward discounted too, once.
@@ -169,5 +173,6 @@ def test_no_more_is_told_than_is_asked_for(report: Report, feedback: str) -> Non
     assert ("29/3" in text) == (feedback == "key")  # the key of (b)
     assert ("misconception" in text) == (feedback != "none")
     seen = github.summary(report, feedback) + junit.written(report, feedback)
+    assert bool(re.search(r"\d of \d", text_report.written(report, feedback))) == (feedback != "none")
     assert ("points" in seen) == (feedback != "none")
     assert ("first reward" in text) == (feedback in ("reason", "key"))

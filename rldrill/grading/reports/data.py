@@ -17,8 +17,17 @@ _LINE: dict[str, Any] = {"type": ["integer", "null"], "minimum": 1}
 
 def written(report: Report, feedback: str, *, ascii_only: bool = False) -> str:
     """The report as JSON; what controls a terminal is escaped in it."""
-    text = json.dumps(report.to_json(feedback), ensure_ascii=ascii_only, indent=2)
-    return _CONTROLS.sub(lambda sign: f"\\u{ord(sign[0]):04x}", text) + "\n"
+
+    def text(value: object) -> str:
+        plain = json.dumps(value, ensure_ascii=ascii_only, indent=2)
+        return _CONTROLS.sub(lambda sign: f"\\u{ord(sign[0]):04x}", plain)
+
+    # Student by student: as one table of Python's, those of a large course would take a gigabyte.
+    students = ",\n".join(text(report.student_to_json(student, feedback)) for student in report.students)
+    if students:
+        students = "\n    " + students.replace("\n", "\n    ") + "\n  "
+    before, after = text(report.frame()).split('"students": []', 1)
+    return f'{before}"students": [{students}]{after}\n'
 
 
 def schema() -> dict[str, Any]:

@@ -15,7 +15,7 @@ th, td { text-align: left; padding: 0.25rem 0.6rem; border-bottom: 1px solid #d9
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
 svg { width: 100%; height: auto; } svg text { font: 11px system-ui, sans-serif; fill: #44525f; }
 .right { fill: #2f7d5b; } .partly { fill: #d9a13b; } .wrong { fill: #c2554d; } .missing { fill: #c9d1d9; }
-.bar { fill: #3f6ea8; }
+.bar { fill: #3f6ea8; } td.bar { width: 20%; }
 """
 
 
@@ -34,7 +34,7 @@ def written(report: Report, feedback: str) -> str:
     body += ["<h2>Points</h2>", _histogram([float(share) for share in shares])]
     body += ["<h2>Parts</h2>", _parts(report, feedback)]
     if mistakes := _mistakes(report.parts):
-        body += ["<h2>Mistakes</h2>", _table(("Part", "What it looks like", "Students"), mistakes)]
+        body += ["<h2>Mistakes</h2>", _counted(mistakes)]
     columns = ("Student", "Number", "Version", "Points", "%", *(("Scaled",) if report.scale else ()), "Remark")
     body += ["<h2>Students</h2>", _table(columns, _totals(report))]
     if said := [refusal.says for refusal in report.refused] + [each for s in students for each in s.extra]:
@@ -98,10 +98,22 @@ def _fate(part: MarkedPart) -> str:
     return "missing" if part.judged.verdict in (MISSING, NOT_GRADED) else "partly" if part.score.points else "wrong"
 
 
-def _mistakes(parts: Iterable[MarkedPart]) -> list[tuple[str, str, str]]:
+def _mistakes(parts: Iterable[MarkedPart]) -> list[tuple[str, str, int]]:
     """Which mistakes were made in which part, and how often; the commonest first."""
     counts = Counter((part.name, part.judged.mistake) for part in parts if part.judged.mistake)
-    return [(name, mistake, str(count)) for (name, mistake), count in counts.most_common(60)]
+    return [(name, mistake, count) for (name, mistake), count in counts.most_common(60)]
+
+
+def _counted(mistakes: Sequence[tuple[str, str, int]]) -> str:
+    """The mistakes, each with a bar as long as there are students who made it."""
+    most = max(count for *_, count in mistakes)
+    rows = "".join(
+        f'<tr><td>{_text(name)}</td><td>{_text(mistake)}</td><td class="n">{count}</td>'
+        f'<td class="bar"><svg viewBox="0 0 100 10" role="img" aria-label="{count}">'
+        f'<rect class="bar" width="{100 * count / most:.1f}" height="10"/></svg></td></tr>'
+        for name, mistake, count in mistakes
+    )
+    return f'<table><tr><th>Part</th><th>What it looks like</th><th class="n">Students</th><th></th></tr>{rows}</table>'
 
 
 def _totals(report: Report) -> Iterable[tuple[str, ...]]:

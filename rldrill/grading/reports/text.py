@@ -7,14 +7,16 @@ from rldrill.grading.reports.said import located, one_line
 def written(report: Report, feedback: str) -> str:
     """All students with all their parts, and what could not be graded."""
     lines = [one_line(report.title), ""] if report.title else []
+    tells = feedback != "none"
     for student in report.students:
-        lines += [f"{named(student)}: {earned(report, student)}"]
-        for part in student.parts if student.paths else ():
+        lines += [f"{named(student)}: {earned(report, student) if tells else student.remark or 'read'}"]
+        for part in student.parts if student.paths and tells else ():
             got = f"{part.score.points} of {part.score.of}"
             lines.append(f"  {part.problem} ({part.part})  {got}  {one_line(located(part, feedback))}".rstrip())
         lines += [f"  {one_line(said)}" for said in student.extra]
     lines += [f"Not graded: {one_line(refusal.says)}" for refusal in report.refused]
-    return "\n".join([*lines, f"All together: {points(report.score)}"]) + "\n"
+    lines += [f"All together: {points(report.score)}"] if tells else []
+    return "\n".join(lines) + "\n"
 
 
 def totals(report: Report) -> str:
