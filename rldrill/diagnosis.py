@@ -163,8 +163,11 @@ class Diagnosing:
 
     def _ahead(self) -> None:
         clock = Clock(stop=self._stop)
-        for part in self.solution.problem.parts:
-            self.outcomes(part.label, {}).grow(clock)
+        every = [self.outcomes(part.label, {}) for part in self.solution.problem.parts]
+        for outcomes in every:
+            outcomes.grow(clock)
+        for outcomes in every:
+            outcomes.grow_pairs(clock)
 
     def finish(self) -> None:
         """Whatever was searched ahead is enough now."""

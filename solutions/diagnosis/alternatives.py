@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from flint import fmpq
-from sympy import Expr
+from sympy import Basic, Expr
 
 from rldrill.solutions.diagnosis import weights
 from rldrill.solutions.diagnosis.arithmetic import slips
@@ -214,5 +214,7 @@ def same_form(other: Any, value: Any) -> bool:
 
 
 def hashable(value: Any) -> Any:
-    """A value as a key of a dictionary."""
-    return tuple(map(str, value.entries())) if is_matrix(value) else str(value)
+    """A value as a key of a dictionary; what is not rational is long to write, and is one already."""
+    if is_matrix(value):
+        return tuple(map(hashable, value.entries()))
+    return value if isinstance(value, Basic) else str(value)

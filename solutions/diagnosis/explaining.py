@@ -10,9 +10,8 @@ from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.diagnosis.weighing import Weighing, room
 from rldrill.solutions.diagnosis.weights import ALIKE
 
-#: How likely it must be that one of the causes that are told is it. Chosen so that one number from nowhere in twenty is
-#: accused of something.
-ENOUGH = 0.53
+#: What is told is likelier than not. Then fewer than one number from nowhere in twenty is accused of something.
+ENOUGH = 0.5
 #: Where the time did not suffice, something likelier may have been missed: what weighs less is not spoken of.
 SURE_ENOUGH = 4.0
 #: A cause so much less likely than the likeliest is not spoken of; nor are more causes than this.

@@ -235,6 +235,7 @@ class Search:
             alike = found[hashable(cause.became)]
             if len(alike) < _ALIKE and not any(other.kind == cause.kind for other in alike[1:]):
                 alike.append(cause)
+            yield
         found.pop(hashable(application.value), None)
         apart = (cause for alike in found.values() for cause in alike)
         self._alternatives[application.number] = sorted(apart, key=lambda cause: -cause.weight)
