@@ -16,7 +16,7 @@ from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Scri
 #: The notation that everything is written in unless another one is asked for.
 LECTURE = "lecture"
 _ANYTHING = frozenset("①②③")
-_TIME = "ⓣ"
+_NUMBERS = frozenset("ⓣⓝ")
 _TIMES = re.compile(r"t|k|T|[0-9]+")
 _INDEXED = re.compile(r"(?P<stem>[^\W\d_])(?P<index>[₀-₉]*[′']*)")
 
@@ -33,7 +33,7 @@ class Notation:
 
     Args:
         about: what is different in it.
-        lines: patterns, and what they become; a pattern may hold ①, ②, ③ and ⓣ.
+        lines: patterns, and what they become; a pattern may hold ①, ②, ③, ⓣ and ⓝ.
         letters: letters that are others everywhere.
     """
 
@@ -163,8 +163,8 @@ def _relettered(notation: Notation, glyph: Glyph) -> Glyph:
 
 def _fits(pattern: Any, math: Any, found: dict[str, Math]) -> bool:
     """Whether mathematics has the form of a pattern; what its signs stand for is put into ``found``."""
-    if isinstance(pattern, Glyph) and (pattern.text in _ANYTHING or pattern.text == _TIME):
-        if not (_is_time(math) if pattern.text == _TIME else _is_named(math)):
+    if isinstance(pattern, Glyph) and pattern.text in _ANYTHING | _NUMBERS:
+        if not (_is_time(math) if pattern.text in _NUMBERS else _is_named(math)):
             return False
         return found.setdefault(pattern.text, math) == math
     if isinstance(pattern, tuple):

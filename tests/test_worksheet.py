@@ -159,7 +159,7 @@ def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["optimal-value", "a"] == 5  # ten minutes' worth, the most
+    assert rooms["optimal-value", "a"] == 4  # eight minutes' worth, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
     part = long.parts[0]

@@ -38,6 +38,7 @@ FORMATS = {
         Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
         Format("latex", ".tex", ("latex", "latex_exam")),
         Format("markdown", ".md", ("text", "markdown_exam")),
+        Format("docx", ".docx", ("docx", "docx_exam")),
         Format("json", ".json", ("text", "json_exam"), whole=True),
     )
 }

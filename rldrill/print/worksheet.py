@@ -16,9 +16,9 @@ from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import minutes_of
 
 #: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
-#: ticked has a minute and a half without any, and what takes long has room for ten minutes.
+#: ticked has a minute and a half without any, and what takes long has room for eight minutes.
 SPACES = {"none": Fraction(0), "tight": Fraction(3, 10), "normal": Fraction(5, 10), "wide": Fraction(1)}
-_LEAST, _LONGEST = Fraction(8, 10), 10
+_LEAST, _LONGEST = Fraction(8, 10), 8
 _TICKED = Fraction(3, 2)
 _PER_LINE = 14
 _COLUMNS = 5

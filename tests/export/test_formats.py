@@ -186,6 +186,15 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
 
 
+def test_word_needs_pandoc_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if shutil.which("pandoc"):
+        with zipfile.ZipFile(io.BytesIO(written("docx", tmp_path))) as document:
+            assert b"<m:oMath>" in document.read("word/document.xml")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(UsageError, match="made by pandoc, which is not installed"):
+        written("docx", tmp_path)
+
+
 @pytest.mark.parametrize(
     ("path", "name"), [("a.html", "html"), ("a.tex", "latex"), ("a.apkg", "anki"), ("a.md", "markdown")]
 )

@@ -19,6 +19,8 @@ def text_in(notation: str, text: str) -> str:
     ("lecture", "book"),
     [
         ("$R_t = r_{t+1} + γ R_{t+1}$", "Gₜ = Rₜ₊₁ + γGₜ₊₁"),  # equation 3.9
+        ("$R_0^{(3)}$", "G₀⁽³⁾"),  # which the book writes G₀:₃
+        ("$R_t^{(n)}$", "Gₜ⁽ⁿ⁾"),
         ("$V^π(s)$", "v_π(s)"),  # section 3.5
         ("$Q^*(s, a)$", "q_*(s, a)"),  # section 3.6
         ("$P_{s s'}^a (R_{s s'}^a + γ V^π(s'))$", "p(s′|s, a)(r(s, a, s′) + γv_π(s′))"),  # equations 3.4 and 3.6
