@@ -1,10 +1,9 @@
 """Angles: multiples of π and plain numbers, in degrees for pictures."""
 
-from fractions import Fraction
-
 import pytest
 
 from rldrill.problems.angles import Angle, degrees
+from rldrill.problems.fractions import Fraction
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 import json
 from collections import Counter
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ from rldrill.exercise import draw
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.identity import split_id
 from rldrill.solutions.drawing import by_id
 

@@ -1,12 +1,11 @@
 """Exact numbers in files: every way to write one reads as the same fraction."""
 
-from fractions import Fraction
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rldrill.problems.exact import Logarithm, Parameter, read_fraction, read_scalar, read_weight, shown
+from rldrill.problems.fractions import Fraction
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 import json
 import typing
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from limits import limits
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 
 

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from fractions import Fraction
 from random import Random
 
 import pytest
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.expressions import letters, parsed, worked_out, written
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grammar import read
 from rldrill.problems.latex import typed
 from rldrill.problems.notation import ATOM, POWER, PRODUCT, SUM, Name, Node, Numeral, Operation, nodes, rank
@@ -173,7 +173,7 @@ def test_files_read_what_answers_read(text: str, value: float) -> None:
         ("1 + (γ*", 8, "missing after '*'"), ("1 + *2", 5, "missing before '*'"), ("(1 + γ", 7, "close the bracket"),
         ("(1))", 4, "not opened"), ("γ + @", 5, "'@' is not understood"), ("  γ + @", 7, "'@' is not understood"),
         ("1½ + @", 6, "'@' is not understood"), ("2⁺⁻", 2, "exponent"), ("γ\u200b", 2, "U+200B"), ("1,5γ", 2, "1.5"),
-        ("[γ", 1, "is not closed"), ("1 + " + "9" * 41, 5, "40 digits"),
+        ("[γ", 1, "is not closed"), ("1 + ." + "9" * 41, 5, "40 digits"),
         ("1e41", 1, "40 digits"), ("1 " + "9" * 41 + "/" + "9" * 42, 1, "40 digits"), ("ab + 1", 1, "'ab' is not"),
         ("γ + foo", 5, "'foo' is not"), ("γ + 50/2%", 7, "'50/2%' may be (50/2)% or 50/(2%)"),
         ("γ^2%", 2, "may be ^(2%) or (^2)%"), ("γ^1/3", 2, "may be ^(1/3) or (…^1)/3"),
@@ -228,7 +228,7 @@ def test_what_cannot_be_worked_out_is_refused_where_it_stands(text: str, column:
     assert refused.value.position == column - 1
 
 
-HOSTILE = ["9**9**9", "9^9^9^9", "(" * 10**5, "9" * 10**6, "-" * 250, "2^" * 149 + "2", "9" * 41, "1\n" * 90]
+HOSTILE = ["9**9**9", "9^9^9^9", "(" * 10**5, "9" * 10**6, "-" * 250, "2^" * 149 + "2", "." + "9" * 41, "1\n" * 90]
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
@@ -347,8 +347,8 @@ def test_answers_and_dynamics_agree_on_the_value_of_every_tree(written: Node, ra
         assume(False)
     try:
         reading = read_number(text, ["gamma"])
-    except Unreadable as refused:  # a number that grows too large, or a quotient by what is zero for every γ
-        assert "too large" in refused.message  # noqa: PT017
+    except Unreadable as refused:  # a number that grows too large, a quotient by what is zero for every γ; -½ (½)
+        assert "too large" in refused.message or "may be" in refused.message  # noqa: PT017
         return
     assert as_answer(text) == expected
     if not reading.echo.endswith("…"):

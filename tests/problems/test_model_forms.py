@@ -1,12 +1,12 @@
 """Models in other forms than a list of transitions: grids drawn as text, and Gymnasium's tables."""
 
-from fractions import Fraction
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
 from rldrill.problems.exact import Parameter
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 from rldrill.problems.gymnasium import from_table
 from rldrill.problems.model_forms import SCHEMAS

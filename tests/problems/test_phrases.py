@@ -1,13 +1,12 @@
 """The sentences that several families share, with a number, with a parameter left open, and where nothing is said."""
 
-from fractions import Fraction
-
 import pytest
 
 from rldrill.problems import phrases
 from rldrill.problems.document import Paragraph
 from rldrill.problems.exact import Parameter, Scalar
 from rldrill.problems.family import Givens
+from rldrill.problems.fractions import Fraction
 
 HALF = Fraction(1, 2)
 
