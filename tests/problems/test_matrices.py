@@ -1,6 +1,5 @@
 """Matrices in problem files: their shapes, their signs, and what is said where they do not fit."""
 
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from hypothesis import strategies as st
 import rldrill
 from rldrill.problems.document import Table
 from rldrill.problems.errors import FileError
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.matrices import check_weights, is_positive
 
 

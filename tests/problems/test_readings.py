@@ -1,6 +1,5 @@
 """Numbers that programs wrote are read as the fractions that they round, and somebody is told."""
 
-from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -9,6 +8,7 @@ import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import read_fraction
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.readings import distribution, meant
 
 
