@@ -214,6 +214,11 @@ class Problem:
         """The parameters that an answer may contain."""
         return self.given.parameters()
 
+    @cached_property
+    def terminal_states(self) -> tuple[str, ...]:
+        """The terminal states, whose values nobody has to type."""
+        return self.given.terminal_states()
+
     @property
     def level(self) -> int | None:
         """1 to 3, or None for a problem from outside."""

@@ -103,7 +103,7 @@ def read_answer(solution: Solution, part: Part, text: str) -> dict[str, Cell]:
     longest = LONGEST
     if len(text) > LONGEST:  # to write the right answer takes its time
         longest = max(LONGEST, _ROOM * len(kind.write(solution.answers[part.label])))
-    return kind.read(text, Allowed(problem.parameters, problem.given.terminal_states(), longest))
+    return kind.read(text, Allowed(problem.parameters, problem.terminal_states, longest))
 
 
 def _refuse_other_quantity(text: str, ask: str) -> None:
