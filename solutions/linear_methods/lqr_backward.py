@@ -73,7 +73,7 @@ def _gain(lqr: Quadratic, work: Work, time: int, **known: Any) -> AnyMatrix:
 
 @slip(
     "gain-from-same-time",
-    "The action at time t leads to time t + 1, so L_t comes from P_{t+1}, not from P_t.",
+    "The action at time t leads to time t + 1, so Lₜ comes from Pₜ₊₁, not from Pₜ.",
     when=_forwards,
 )
 def same_time(given: Given, work: Work) -> None:

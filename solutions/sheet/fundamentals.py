@@ -114,7 +114,7 @@ with evaluate(False):
     )
     UNDISCOUNTED = Misconception("no-discount", "Later rewards are discounted by powers of γ.")
     LINEAR_DISCOUNT = Misconception(
-        "gamma-times-i", "The discount of a reward i steps later is the power γ^i, not the product γ·i."
+        "gamma-times-i", "The discount of a reward i steps later is the power γⁱ, not the product γ·i."
     )
     RETURN = Formula(
         "return",
