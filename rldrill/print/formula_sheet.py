@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 TITLE = "Reinforcement and Robot Learning: formula sheet"
 #: The size of the type with which the whole sheet is two pages.
 _SIZES = {"a4": "7.5pt", "letter": "7.1pt"}
+#: No formula is taken to fit a column of the sheet without measuring.
+_COLUMN = 0.0
 _LEGEND = "Formulas marked + go beyond the lecture's sheet."
 
 
@@ -91,7 +93,7 @@ def _formula(formula: Formula, *, workings: bool) -> str:
     beyond = "true" if formula.place is Place.BEYOND else "false"
     source = text(formula.source) if workings else ""
     equation = _equation(formula, workings=workings)
-    parts = f"[{source}], ${line(equation)}$, [{block(equation)}], [{text(formula.note)}]"
+    parts = f"[{source}], ${line(equation)}$, [{block(equation, _COLUMN)}], [{text(formula.note)}]"
     return f"formula([{text(formula.title)}], {beyond}, {parts})"
 
 

@@ -12,15 +12,16 @@ from rldrill.render.pictures.typst import picture, width_of
 from rldrill.render.typst_files import typst_file
 from rldrill.render.unicode import unicode_text
 
-#: What is no wider than this fits wherever a block may stand, and is not measured, which would be to lay it out twice.
-#: In widths of the type; signs are taken for as wide as most are not.
-_ROOM, _SIGN, _PADDING, _GAP, _POINTS = 40.0, 0.65, 1.4, 1.2, 10.0
+#: What is no wider than a page's text is not measured, which would be to lay it out twice; in widths of the type.
+PAGE = 40.0
+#: Signs are taken for as wide as most are not; in widths of the type, and how many points that is.
+_SIGN, _PADDING, _GAP, _POINTS = 0.65, 1.4, 1.2, 10.0
 
 PREAMBLE = typst_file("rldrill.render", "blocks.typ") + typst_file("rldrill.render.pictures", "pictures.typ")
 
 
-def block(item: Block) -> str:
-    """A block as Typst markup."""
+def block(item: Block, room: float = PAGE) -> str:
+    """A block as Typst markup; what is wider than the room, in widths of the type, is measured and fitted."""
     match item:
         case Paragraph(words):
             return f"#par[{text(words)}]\n"
@@ -30,20 +31,20 @@ def block(item: Block) -> str:
             cells = "".join(f", [{text(cell)}]" for line in rows for cell in line)
             first = ", ".join(f"[{text(cell)}]" for cell in header)
             drawn = f"grid-table({len(header)}, table.header({first}){cells})"
-            return f"#block({drawn})\n" if _width(item) <= _ROOM else f"#wide-block({drawn})\n"
+            return f"#block({drawn})\n" if _width(item) <= room else f"#wide-block({drawn})\n"
         case Equation(left, rights, signs):
             if left == EMPTY and not any(signs):
-                return _apart(rights)
+                return _apart(rights, room)
             links = "".join(
                 f", (${relation(sign)}$, {breakable(right)})" for sign, right in zip(signs, rights, strict=True)
             )
             said = unicode_text(item)
             first = "" if left == EMPTY else typst(left)
-            if _SIGN * len(said) <= _ROOM:
+            if _SIGN * len(said) <= room:
                 return _on_a_line(said, " ".join([first, *_links(item)]))
             return f"#chain({quoted(said)}, ${first}${links})\n"
         case Beside(blocks):
-            return _side_by_side(blocks)
+            return _side_by_side(blocks, room)
         case Picture():
             return picture(item)
         case _:
@@ -67,28 +68,28 @@ def _width(item: Block) -> float:
             return math.inf
 
 
-def _side_by_side(blocks: Document) -> str:
+def _side_by_side(blocks: Document, room: float) -> str:
     width = sum(_width(item) + _GAP for item in blocks)
-    fits = width <= _ROOM
-    bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item) for item in blocks)
+    fits = width <= room
+    bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item, room) for item in blocks)
     inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
     return f"#{'abreast' if fits else 'beside'}({inside})\n"
 
 
-def _apart(items: tuple[Math, ...]) -> str:
+def _apart(items: tuple[Math, ...], room: float) -> str:
     """Mathematics that stands side by side where there is room."""
     if all(len(unicode(item)) <= 2 * SHORT for item in items):
         return f"#flow({', '.join(f'({quoted(unicode(item))}, ${typst(item)}$)' for item in items)})\n"
     return "".join(
         _on_a_line(said, typst(item))
-        if _SIGN * len(said := unicode(item)) <= _ROOM
+        if _SIGN * len(said := unicode(item)) <= room
         else f"#chain({quoted(said)}, $$, ($$, {breakable(item)}))\n"
         for item in items
     )
 
 
-def document(blocks: Document) -> str:
-    """Blocks one under the other; short equations that follow each other share a line."""
+def document(blocks: Document, room: float = PAGE) -> str:
+    """Blocks one under the other; short equations that follow each other share a line. ``room`` as for a block."""
     result: list[str] = []
     waiting: list[str] = []
     for item in (*blocks, None):
@@ -99,7 +100,7 @@ def document(blocks: Document) -> str:
             result.append(f"#flow({', '.join(waiting)})\n")
             waiting = []
         if item is not None:
-            result.append(block(item))
+            result.append(block(item, room))
     return "".join(result)
 
 

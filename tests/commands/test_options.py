@@ -33,6 +33,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     worksheet: {
         "count": (None, 1, 100), "minutes": (None, 1, 600), "level": (None, 1, 3), "exclude": (None, None, None),
         "seed": (None, 0, None), "versions": (None, 1, 999), "roster": (None, None, None),
+        "secret_file": (None, None, None),
         "paper": (None, None, None), "space": (None, None, None), "solutions": (None, None, None),
         "ids": (None, None, None), "duplex": (None, None, None), "title": (None, None, None),
         "output": (None, None, None), "format_": (None, None, None), "force": (False, None, None),
@@ -43,7 +44,8 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     verify: {
         "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),
         "reports": (None, None, None), "enough": (None, None, None), "feedback": (verify.Feedback.REASON, None, None),
-        "show_key": (False, None, None), "hand_ins": (None, None, None), "allow_files": (False, None, None),
+        "show_key": (False, None, None), "hand_ins": (None, None, None), "absent": (True, None, None),
+        "allow_files": (False, None, None),
         "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
         "json": (False, None, None),
     },

@@ -31,7 +31,7 @@ from rldrill.problems.mathematics import (
     word,
 )
 from rldrill.render.mathematics.typst import text, typst
-from rldrill.render.typst import block, document
+from rldrill.render.typst import PAGE, block, document
 from rldrill.solutions.sheet import formulas
 
 HOSTILE = [
@@ -70,22 +70,21 @@ def exercises() -> list[Exercise]:
     return [draw(name, level, seed) for name, seed in product(families(), (1, 2)) for level in family(name).levels]
 
 
-@pytest.fixture(scope="module")
-def everything() -> str:
-    parts = [block(formula.equation()) for formula in formulas().values()]
+def everything(room: float) -> str:
+    parts = [block(formula.equation(), room) for formula in formulas().values()]
     for exercise in exercises():
-        parts += [document(exercise.question()), document(exercise.working())]
+        parts += [document(exercise.question(), room), document(exercise.working(), room)]
         for part in exercise.parts:
-            parts += [block(Paragraph(f"({part.label}) {part.ask}")), block(exercise.answer(part))]
+            parts += [block(Paragraph(f"({part.label}) {part.ask}")), block(exercise.answer(part), room)]
     return "".join(parts)
 
 
-def test_all_formulas_questions_and_workings_stay_inside_the_page(everything: str, tmp_path: Path) -> None:
-    assert_inside(pdf(SETUP + everything), tmp_path, 2)
+def test_all_formulas_questions_and_workings_stay_inside_the_page(tmp_path: Path) -> None:
+    assert_inside(pdf(SETUP + everything(PAGE)), tmp_path, 2)
 
 
-def test_they_do_so_in_a_narrow_column_too(everything: str, tmp_path: Path) -> None:
-    assert_inside(pdf(NARROW + everything), tmp_path, 1)
+def test_they_do_so_in_a_narrow_column_too(tmp_path: Path) -> None:
+    assert_inside(pdf(NARROW + everything(0)), tmp_path, 1)
 
 
 def test_names_are_never_read_as_code(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ import pytest
 
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.family import Problem
+from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.text import Reading
 from rldrill.solutions.exact import is_zero
@@ -51,7 +52,7 @@ def test_a_slip_gives_the_answer_worked_by_hand(entry: dict[str, Any]) -> None:
     assert made is not None
     parts = {part.label: part for part in solution.problem.parts}
     for label, text in entry["answers"].items():
-        read = answer_kind(parts[label].kind).read(text, solution.problem.parameters)
+        read = read_answer(solution, parts[label], text)
         for name, content in cells(solution, label, made[label]).items():
             typed = read[name]
             if isinstance(typed, Reading):
