@@ -16,7 +16,7 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
     """A version as a document of Word, with mathematics that Word can edit.
 
     Raises:
-        UsageError: pandoc is not installed, or refuses the text.
+        UsageError: pandoc is not installed, refuses the text, or takes too long.
     """
     program = shutil.which("pandoc")
     if program is None:
@@ -25,7 +25,10 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "exam.docx"
         run = [program, "--from=gfm", "--to=docx", f"--output={path}"]
-        done = subprocess.run(run, input=source.encode(), capture_output=True, timeout=_SECONDS, check=False)
+        try:
+            done = subprocess.run(run, input=source.encode(), capture_output=True, timeout=_SECONDS, check=False)
+        except subprocess.TimeoutExpired:
+            raise UsageError(f"pandoc is not done after {_SECONDS} seconds; ask for fewer problems.") from None
         if done.returncode or not path.exists():
             said = done.stderr.decode(errors="replace").strip().partition("\n")[0][:200]
             raise UsageError(f"pandoc refuses the text ({said}); a newer release of it may not.")

@@ -448,8 +448,9 @@ def _forms(source: Source, read: Callable[[Source], Read], numbers: Callable[[Re
             other = read(member)
         except Unreadable:
             continue  # what it is, or how it was worked out
-        pairs = list(zip(numbers(other), numbers(best), strict=True))
-        if not all(_agree(*pair) for pair in pairs):
+        theirs, own = list(numbers(other)), list(numbers(best))
+        pairs = list(zip(theirs, own, strict=False))
+        if len(theirs) != len(own) or not all(_agree(*pair) for pair in pairs):
             if place == 0 and _ONLY_NAME.fullmatch(member.text):
                 continue
             first, second = quoted(member.text), quoted(members[-1].text)

@@ -1,9 +1,9 @@
 """What speaks for a cause, and what for chance: what is looked at, each a number with a name.
 
-How much each of it counts is ``learnt.py``, which ``tests/diagnosis/learn.py`` writes. What comes of causes is weighed
-against chance: of all answers of the typed form and size each is as likely, if it comes from nowhere, and some of them
-are those that causes lead to. A whole number among twenty that could have been typed proves nothing if causes lead to
-ten of them; one with seven digits proves nearly everything. Nobody leaves right cells right by chance.
+How much each of it counts is ``learnt.py``, which ``tests/diagnosis/learn.py`` writes anew. What comes of causes is
+weighed against chance: of all answers of the typed form and size each is as likely, if it comes from nowhere, and some
+of them are those that causes lead to. A whole number among twenty that could have been typed proves nothing if causes
+lead to ten of them; one with seven digits proves nearly everything. Nobody leaves right cells right by chance.
 """
 
 from bisect import bisect_left

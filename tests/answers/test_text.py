@@ -862,3 +862,7 @@ def test_what_is_said_before_a_number_is_left_out(text):
 @pytest.mark.parametrize("text", ["1:4", "2 V: 1/4", "a: b: 1/4"])
 def test_a_colon_elsewhere_is_not_understood(text):
     assert "':'" in refusal(read_number, text).message
+
+
+def test_two_forms_of_different_shapes_are_not_equal():
+    assert "are not equal" in refusal(read_matrix, "1,=1,1").message
