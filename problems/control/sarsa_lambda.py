@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import Replacing, action_values_table, draw_action_run, run_situation
@@ -31,7 +31,7 @@ class Given(BackRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
     lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
-    traces: dict[Name, dict[Name, Exact]] | None = Field(
+    traces: Named[Named[Exact]] | None = Field(
         default=None, description="The traces before the run; all 0 without them."
     )
     replacing: Replacing = False

@@ -10,7 +10,7 @@ from rldrill.problems.exact import Exact, Logarithm, Parameter, StepSize, Weight
 from rldrill.problems.family import Question
 from rldrill.problems.features import ActionFeatures, weight_names
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, values_table
+from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
@@ -25,7 +25,7 @@ REVISION = 4
 class Given(SoftmaxRun):
     """A run, the critic's values before it with its step size α, the actor's features and weights with β, and γ."""
 
-    values: dict[Name, Exact] = Field(description="The critic's value of every state before the run.")
+    values: Named[Exact] = Field(description="The critic's value of every state before the run.")
     alpha: StepSize = Field(description="The step size of the critic.")
     beta: StepSize = Field(description="The step size of the actor.")
 

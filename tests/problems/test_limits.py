@@ -1,11 +1,11 @@
 """How large a problem in a file may be: the largest is read, and the next refused with the limit named."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
-from rldrill.problems.catalogue import family
+from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.pomdp_format import read_pomdp
@@ -85,6 +85,33 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
         100,
         "given.features.cool: has 101 entries; it may have at most 100",
     ),
+    "states of a table": (
+        "expected-sarsa",
+        lambda size: {
+            "trajectory": run(3) | {"actions": ["a"] * 3}, "values": {f"s{number}": {"a": 1} for number in range(size - 1)} | {"a": {"a": 1}},
+            "policy": {"a": "a"}, "alpha": "1/2", "gamma": "1/2",
+        },
+        1024,
+        "given.values: has 1025 entries; it may have at most 1024",
+    ),
+    "steps of a run": (
+        "td-zero",
+        lambda size: {"trajectory": run(size - 1), "values": {"a": 1}, "alpha": "1/2", "gamma": "1/2"},
+        10_000,
+        "given.trajectory.states: has 10001 entries; it may have at most 10000",
+    ),
+    "features of a state": (
+        "feature-expectations",
+        lambda size: {"features": {"a": [1] * size}, "trajectories": [["a"]], "gamma": "1/2"},
+        100,
+        "given.features.a: has 101 entries; it may have at most 100",
+    ),
+    "states of a trajectory": (
+        "feature-expectations",
+        lambda size: {"features": {"a": [1]}, "trajectories": [["a"] * size], "gamma": "1/2"},
+        300,
+        "given.trajectories[1]: has 301 entries; it may have at most 300",
+    ),
     "arms with preferences": (
         "bandit",
         lambda size: {
@@ -95,6 +122,34 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
         "given.preferences: has 101 entries; it may have at most 100",
     ),
 }  # fmt: skip
+
+
+#: Models are bounded by their states, whatever form they come in.
+_MODELS = ("Model.", "Grid.")
+
+
+def unbounded(schema: dict[str, Any], known: dict[str, Any], where: str, above: frozenset[str]) -> Iterator[str]:
+    """Every list and table of a schema for which nothing says how many entries it may have."""
+    if (name := schema.get("$ref", "").rpartition("/")[2]) and name not in above:
+        yield from unbounded(known[name], known, name, above | {name})
+    for kind, bound in (("array", "maxItems"), ("object", "maxProperties")):
+        entries = schema.get("items" if kind == "array" else "additionalProperties")
+        if schema.get("type") == kind and isinstance(entries, dict):
+            if bound not in schema:
+                yield where
+            yield from unbounded(entries, known, f"{where}[]", above)
+    for word in ("anyOf", "oneOf", "allOf", "prefixItems"):
+        for inner in schema.get(word, ()):
+            yield from unbounded(inner, known, where, above)
+    for name, inner in schema.get("properties", {}).items():
+        yield from unbounded(inner, known, f"{where}.{name}", above)
+
+
+@pytest.mark.parametrize("name", [*families()])
+def test_no_list_or_table_of_a_file_grows_without_end(name: str) -> None:
+    schema = family(name).schema()
+    found = unbounded(schema, schema.get("$defs", {}), "given", frozenset())
+    assert [where for where in found if not where.startswith(_MODELS)] == [], "Field(max_length=…) bounds them"
 
 
 @pytest.mark.parametrize("limit", LIMITS)
