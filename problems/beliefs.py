@@ -18,6 +18,9 @@ Likelihood = Mapping[str, Mapping[str, Scalar]]
 MotionField = Named[Named[OpenDistributionField]]
 Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
 
+#: So many products are summed by all predictions of a run; one among all states of the largest model is.
+_MOST_SUMMANDS = 1024**2
+
 #: What stands above the table of a motion, and above that of a sensor.
 MOTION_TOLD = "Taking action $a$ in state $s$ leads to the next state $s'$ with probability $p(s'|s, a)$:"
 SENSOR_TOLD = "In state $s$ the sensor reads $z$ with probability $p(z|s)$:"
@@ -122,6 +125,19 @@ def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] 
         for state, chances in rows.items():
             check_keys(chances, (*states, *ends), f"the motion of {action!r} in {state!r}", needed=())
             check_distribution(chances, f"motion of {action!r} in {state!r}")
+
+
+def check_predictions(count: int, states: int, where: str) -> None:
+    """Demand that predictions, each a sum over all states for every state, are worked out in seconds.
+
+    Raises:
+        ValueError: they are not.
+    """
+    if count * states**2 > _MOST_SUMMANDS:
+        raise ValueError(
+            f"{where}: {count} actions among {states} states take too long; at most {_MOST_SUMMANDS // states**2} are "
+            "possible here"
+        )
 
 
 def likelihood_table(likelihood: Likelihood, known: tuple[str, ...], letter: str = "s") -> Table:

@@ -21,7 +21,7 @@ from rldrill.problems.settings import draw_setting, draw_way
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
-#: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
+#: So many steps have the returns from every time worked out, all n-step returns, and the traces of all states.
 _SHORT = 300
 
 #: Drawn answers have no larger numbers above and below the line.
@@ -83,7 +83,7 @@ def _to_its_end(run: Trajectory) -> Trajectory:
     return run
 
 
-#: A run that is not so long that its n-step returns become too many.
+#: A run that is not so long that its n-step returns, or its traces, become too many.
 ShortRun = Annotated[Trajectory, AfterValidator(_short)]
 #: A run to its end: the last state is terminal.
 Episode = Annotated[ShortRun, AfterValidator(_to_its_end)]

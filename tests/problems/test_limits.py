@@ -88,11 +88,36 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
     "states of a table": (
         "expected-sarsa",
         lambda size: {
-            "trajectory": run(3) | {"actions": ["a"] * 3}, "values": {f"s{number}": {"a": 1} for number in range(size - 1)} | {"a": {"a": 1}},
+            "trajectory": run(3) | {"actions": ["a"] * 3},
+            "values": {state: {"a": 1} for state in ["a", *(f"s{number}" for number in range(size - 1))]},
             "policy": {"a": "a"}, "alpha": "1/2", "gamma": "1/2",
         },
         1024,
         "given.values: has 1025 entries; it may have at most 1024",
+    ),
+    "steps with traces": (
+        "td-lambda-backward",
+        lambda size: {"trajectory": run(size), "values": {"a": 1}, "alpha": "1/2", "gamma": "1/2", "lam": "1/2"},
+        300,
+        "given.trajectory: has 301 steps; it may have at most 300",
+    ),
+    "steps of an actor whose chances stand in each other's exponents": (
+        "actor-critic",
+        lambda size: {
+            "trajectory": run(size) | {"actions": ["left"] * size}, "values": {"a": 1}, "theta": [1],
+            "features": {"a": {"left": [1], "right": [2]}}, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+        },
+        3,
+        "given.trajectory: the weights of 4 steps would stand in each other's exponents, 3 can be written exactly",
+    ),
+    "predictions": (
+        "bayes-predict",
+        lambda size: {
+            "belief": {f"s{number}": int(number == 0) for number in range(512)}, "actions": ["stay"] * size,
+            "motion": {"stay": {f"s{number}": {f"s{number}": 1} for number in range(512)}},
+        },
+        4,
+        "given.actions: 5 actions among 512 states take too long; at most 4 are possible here",
     ),
     "steps of a run": (
         "td-zero",
@@ -159,6 +184,18 @@ def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
     with pytest.raises(FileError) as refused:
         family(name).read(given(largest + 1))
     assert said in str(refused.value)
+
+
+def test_an_actor_with_weights_for_each_state_may_go_on() -> None:
+    states = [f"s{number}" for number in range(10)]
+    weights = {state: [int(other == state) for other in states] for state in states}
+    family("actor-critic").read(
+        {
+            "trajectory": {"states": states, "actions": ["left"] * 9, "rewards": [1] * 9, "terminal": ["s9"]},
+            "values": dict.fromkeys(states, 0), "theta": [0] * 10, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+            "features": {state: {"left": weights[state], "right": [0] * 10} for state in states[:9]},
+        }
+    )  # fmt: skip
 
 
 def test_two_hundred_characters_of_a_number_are_read() -> None:
