@@ -16,6 +16,9 @@ from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
 from rldrill.solutions.exact import NotReal, decimal, parameters
 
+#: What is said above boxes that are judged elsewhere, and above what nobody but a person can judge.
+NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
+BY_HAND = "Answer in words and formulas; it is marked by hand."
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
 #: So many wrong answers are told in one cell.

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from rldrill.exam.exam import Exam, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import BY_HAND, NOTE, Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -18,8 +18,6 @@ from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
 
 _SPECIAL = re.compile(r'([\\}#~/"{])')
-_NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
-_BY_HAND = "Answer in words and formulas; it is marked by hand."
 
 
 class _Writer(LatexHtml):
@@ -74,7 +72,7 @@ def _question(number: int, exercise: Exercise, *, practice: bool) -> ElementTree
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
     _text(ElementTree.SubElement(question, "name"), f"{number:02} {exercise.problem.family.title}")
     writer = _Writer()
-    body = writer.blocks(exercise.question()) + f"<p><em>{_BY_HAND if by_hand else _NOTE}</em></p>"
+    body = writer.blocks(exercise.question()) + f"<p><em>{BY_HAND if by_hand else NOTE}</em></p>"
     _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
     solved = _Writer()
     working = "".join(
