@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from rldrill.exercise import Exercise
+from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
@@ -53,10 +54,11 @@ Cell = Word | Quantity
 
 @dataclass(frozen=True, slots=True)
 class Wrong:
-    """A wrong answer, cell by cell as it is typed, and the sentence about the mistake that gives it."""
+    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it."""
 
     cells: tuple[str, ...]
     says: str
+    read: Equation | None
 
 
 def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
@@ -112,7 +114,7 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
             found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
-        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence)
+        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence, wrong.read)
 
 
 def _typed(cell: Any) -> str:

@@ -6,6 +6,7 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
@@ -80,6 +81,8 @@ def latex(math: Math) -> str:
             return rf"\sqrt{{{latex(body)}}}"
         case Accent(body, mark):
             return rf"\{mark}{{{latex(body)}}}"
+        case Marked(body):  # MathJax takes the braces behind a colour for all that it colours, LaTeX does not
+            return rf"{{\color{{red}}{{\underline{{{latex(body)}}}}}}}"
         case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"

@@ -10,12 +10,14 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
     Script,
     Tabular,
 )
+from rldrill.render.mathematics.unicode import unmarked
 
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
@@ -56,6 +58,8 @@ def element(math: Math) -> str:
             return f"<msqrt>{element(body)}</msqrt>"
         case Accent(body, mark):
             return f'<mover accent="true">{element(body)}<mo stretchy="false">{_MARKS[mark]}</mo></mover>'
+        case Marked(body):
+            return f'<mrow class="marked">{element(body)}</mrow>'
         case Tabular(rows, left, right):
             lines = "".join(f"<mtr>{''.join(f'<mtd>{element(cell)}</mtd>' for cell in line)}</mtr>" for line in rows)
             return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"
@@ -144,8 +148,9 @@ def _on_one_line(math: Math) -> Math:
 
 def _row(items: tuple[Math, ...]) -> str:
     written: list[str] = []
-    for before, item in zip((None, *items), items, strict=False):
-        if before is not None and _needs_space(before, item):
+    bare = tuple(map(unmarked, items))
+    for before, after, item in zip((None, *bare), bare, items, strict=False):
+        if before is not None and _needs_space(before, after):
             written.append(_THIN)
         written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
     return "".join(written)
