@@ -23,7 +23,6 @@ _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
 _MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
-_FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tan", "tr", "det"}
 _BLOCK = ' display="block"'
 #: A sign that belongs to what follows, as in −5.
 _SIGNED: dict[Math, str] = {
@@ -51,7 +50,9 @@ def element(math: Math) -> str:
         case Script(body, below, above):
             return _script(body, below, above)
         case Fence(body, left, right):
-            return f"<mrow>{_fence(left, 'prefix')}{element(body)}{_fence(right, 'postfix')}</mrow>"
+            grows = _is_tall(body)
+            brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
+            return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
             return _limits(_big(sign), below, above)
         case Root(body):
@@ -70,8 +71,24 @@ def relation(sign: str) -> str:
     return f"<mo>{escape(sign)}</mo>" if sign else ""
 
 
-def _fence(sign: str, form: str) -> str:
-    return f'<mo fence="true" stretchy="true" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>' if sign else ""
+def _fence(sign: str, form: str, *, grows: bool = True) -> str:
+    """A bracket; one that may grow takes the room of the largest in some browsers, also where it does not grow."""
+    if not sign:
+        return ""
+    stretchy = "true" if grows else "false"
+    return f'<mo fence="true" stretchy="{stretchy}" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>'
+
+
+def _is_tall(math: Math) -> bool:
+    match math:
+        case Fraction() | Tabular() | Big():
+            return True
+        case Row(items):
+            return any(map(_is_tall, items))
+        case Glyph():
+            return False
+        case _:
+            return _is_tall(math.body)
 
 
 def _big(sign: str) -> str:
@@ -106,8 +123,8 @@ def _sign(text: str, style: str) -> str:
             return f"<mn>{shown}</mn>"
         case "variable":
             return f"<mi>{shown}</mi>"
-        case "word":
-            return f"<mi>{shown}</mi>" if text in _FUNCTIONS else f"<mtext>{shown}</mtext>"
+        case "word":  # no mtext: beside that an operator's space moves to the end of the row
+            return f"<mi>{shown}</mi>" if len(text) > 1 else f'<mi mathvariant="normal">{shown}</mi>'
         case "punctuation" if text == "|":
             return '<mo stretchy="false" lspace="0.2em" rspace="0.2em" form="infix">|</mo>'
         case "punctuation" if text == "/":
