@@ -9,7 +9,7 @@ from typing import Any
 from rldrill.exercise import Exercise
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math
-from rldrill.problems.notations import in_notation
+from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind, text_of
@@ -65,9 +65,10 @@ def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
     """The cells of a part with what is right in them."""
     kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
     content, lines = kind.cells(value), kind.lines(value)
-    lefts = [left and in_notation(left) for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    lefts = [left for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    written = iter(all_in_notation([left for left in lefts if left is not None]))
     return tuple(
-        _cell(part, name, None if left is None else in_notation(left), each)
+        _cell(part, name, None if left is None else next(written), each)
         for (name, each), left in zip(content.items(), lefts, strict=True)
     )
 

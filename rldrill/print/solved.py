@@ -9,6 +9,7 @@ from rldrill.misreading import misreading
 from rldrill.print.exam_page import label
 from rldrill.print.words import words, written_points
 from rldrill.problems.document import Block
+from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.mathematics.typst import equation, plain, quoted, text
 from rldrill.render.typst import block, document, line
@@ -73,7 +74,7 @@ def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]
         if isinstance(part.kind, Choice):
             yield plain(f"({written})"), misconception
         else:
-            yield " #h(0.8em) ".join(map(equation, answer_lines(part, answer))), misconception
+            yield " #h(0.8em) ".join(map(equation, all_in_notation(answer_lines(part, answer)))), misconception
 
 
 def _tells(exercise: Exercise, part: Part, answer: Any) -> bool:
