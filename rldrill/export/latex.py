@@ -25,7 +25,7 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \newsavebox{\fittedbox}
 \newcommand{\fitted}[1]{\par\noindent\sbox{\fittedbox}{#1}%%
   \ifdim\wd\fittedbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fittedbox}}\else\usebox{\fittedbox}\fi\par}
-\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}
+\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}\setlength{\emergencystretch}{3em}
 \pagestyle{headandfoot}
 \firstpageheader{}{}{}
 \runningheader{%(title)s}{}{%(code)s}

@@ -74,7 +74,8 @@ def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]
         if isinstance(part.kind, Choice):
             yield plain(f"({written})"), misconception
         else:
-            yield " #h(0.8em) ".join(map(equation, all_in_notation(answer_lines(part, answer)))), misconception
+            lines = all_in_notation(answer_lines(part, answer))
+            yield " #h(0.8em) ".join(equation(each, "tall") for each in lines), misconception
 
 
 def _tells(exercise: Exercise, part: Part, answer: Any) -> bool:
