@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from rldrill.problems.mathematics import Math, mathematics
-from rldrill.problems.notations import LECTURE, in_notation, in_use
+from rldrill.problems.notations import LECTURE, all_in_notation, in_use
 
 
 class Block:
@@ -44,7 +44,8 @@ class Equation(Block):
     """Mathematics on lines of its own: a left side, then right sides one under the other.
 
     ``signs`` holds the relation before each right side; an empty sign goes on with the side above.
-    What is not yet in the notation in use is rewritten, and ``notation`` says that it is.
+    What is not yet in the notation in use is rewritten, and ``notation`` says that it is. ``linear`` says that it is of
+    a linear system, whose R_t is a matrix and no return, where its mathematics does not tell.
     """
 
     left: Math
@@ -52,12 +53,14 @@ class Equation(Block):
     signs: tuple[str, ...]
     label: str = ""
     notation: str = field(default=LECTURE, compare=False)
+    linear: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         if self.notation == in_use():
             return
-        object.__setattr__(self, "left", in_notation(self.left))
-        object.__setattr__(self, "rights", tuple(map(in_notation, self.rights)))
+        left, *rights = all_in_notation((self.left, *self.rights), linear=self.linear)
+        object.__setattr__(self, "left", left)
+        object.__setattr__(self, "rights", tuple(rights))
         object.__setattr__(self, "notation", in_use())
 
 
@@ -76,7 +79,8 @@ _PIECES = re.compile(r"\$([^$]*)\$")
 def pieces(text: str) -> list[str | Math]:
     """Take a text apart into plain text and mathematics."""
     parts = _PIECES.split(text)
-    return [in_notation(mathematics(part)) if index % 2 else part for index, part in enumerate(parts) if part]
+    found = iter(all_in_notation([mathematics(part) for part in parts[1::2] if part]))
+    return [next(found) if index % 2 else part for index, part in enumerate(parts) if part]
 
 
 def joined(items: list[str]) -> str:

@@ -190,7 +190,7 @@ def situation(given: LinearQuadratic) -> tuple[Block, ...]:
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
         *(block for name in ("A", "B", "Q", "R") for block in listed(name, getattr(given, name))),
-        Equation(mathematics("s_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",)),
+        Equation(mathematics("s_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",), linear=True),
     )
 
 
@@ -198,7 +198,7 @@ def listed(name: str, matrices: Sequence[Rows]) -> list[Equation]:
     """Matrices by time; a single one has the index t."""
     indices = ["t"] if len(matrices) == 1 else [f"{{{time}}}" for time in range(len(matrices))]
     return [
-        Equation(mathematics(f"{name}_{index}"), (tabular(matrix),), ("=",))
+        Equation(mathematics(f"{name}_{index}"), (tabular(matrix),), ("=",), linear=True)
         for index, matrix in zip(indices, matrices, strict=True)
     ]
 
@@ -222,7 +222,7 @@ def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
         f" The {'cost' if notation.costs else 'reward'} at time $t$ is discounted by $γ^t$, "
         f"with $γ = {shown(given.gamma)}$."
     )  # fmt: skip
-    Q_T = Equation(mathematics("Q_T"), (tabular(by_time(given.state_costs, last)),), ("=",))
+    Q_T = Equation(mathematics("Q_T"), (tabular(by_time(given.state_costs, last)),), ("=",), linear=True)
     before = given.state_costs[:last] if len(given.Q) > 1 else given.Q
     return (
         Paragraph(
@@ -235,7 +235,7 @@ def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
         ),
         *listed("A", given.A), *listed("B", given.B), *listed("Q", before), Q_T,
         *listed("R", given.R if len(given.R) == 1 else given.R[:last]), *listed("N", given.N or ()),
-        Equation(mathematics(f"{x}_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",)),
+        Equation(mathematics(f"{x}_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",), linear=True),
     )  # fmt: skip
 
 

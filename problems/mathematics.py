@@ -90,7 +90,14 @@ class Tabular:
     right: str = "]"
 
 
-Math: TypeAlias = Glyph | Row | Fraction | Script | Fence | Big | Root | Accent | Tabular
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """Something that is other than it should be."""
+
+    body: "Math"
+
+
+Math: TypeAlias = Glyph | Row | Fraction | Script | Fence | Big | Root | Accent | Tabular | Marked
 
 
 def variable(text: str) -> Glyph:

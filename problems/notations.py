@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, fields, is_dataclass, replace
@@ -98,15 +98,23 @@ def known(name: str) -> str:
 
 def in_notation(math: Math) -> Math:
     """Mathematics of the lecture, in the notation in use."""
+    return all_in_notation((math,))[0]
+
+
+def all_in_notation(together: Sequence[Math], *, linear: bool = False) -> tuple[Math, ...]:
+    """Mathematics that stands together; it is of a linear system if that is said, or if any of it tells."""
     name = _in_use.get()
-    return math if name == LECTURE else _translated(name, math)
+    if name == LECTURE:
+        return tuple(together)
+    linear = linear or any(map(is_linear, together))
+    return tuple(_translated(name, math, linear) for math in together)
 
 
 @lru_cache(maxsize=4096)
-def _translated(name: str, math: Math) -> Math:
+def _translated(name: str, math: Math, linear: bool) -> Math:
     notation = notations()[name]
     lines = notation.lines
-    if _is_linear(math):  # A_t and R_t are matrices there
+    if linear:  # A_t and R_t are matrices there
         lines = tuple(line for line in lines if not _may_be_matrix(line[0]))
     return _rewritten(replace(notation, lines=lines), math)
 
@@ -115,11 +123,12 @@ def _may_be_matrix(pattern: Math) -> bool:
     return isinstance(pattern, Script) and pattern.body in _AMBIGUOUS
 
 
-def _is_linear(math: Any) -> bool:
+@lru_cache(maxsize=4096)
+def is_linear(math: Any) -> bool:
     """Whether something is of linear systems: it has a transpose, the matrix B or the gain L."""
     if isinstance(math, Script) and math.above == Glyph("T", "word"):
         return True
-    return math in _OF_LINEAR_SYSTEMS or any(map(_is_linear, _children(math)))
+    return math in _OF_LINEAR_SYSTEMS or any(map(is_linear, _children(math)))
 
 
 def _children(math: Any) -> Iterator[Any]:

@@ -7,9 +7,10 @@ from threading import Event, Thread
 from typing import Any
 
 from rldrill.background import in_background
+from rldrill.misreading import misreading
 from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
-from rldrill.render.differences import differences
+from rldrill.render.differences import differences, marked
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.judging import Outcome, Verdict, part_of, read_answer
 from rldrill.solutions.answers.kinds import Cell, answer_kind
@@ -120,12 +121,13 @@ class Diagnosis:
 
 @dataclass(frozen=True, slots=True)
 class WrongAnswer:
-    """A wrong answer to a part, as it is typed, and what it comes from."""
+    """A wrong answer to a part, as it is typed, what it comes from, and how a formula was read if one was."""
 
     part: str
     answer: str
     kind: str
     sentence: str
+    read: Equation | None = None
 
 
 class Diagnosing:
@@ -212,8 +214,15 @@ class Diagnosing:
                 ):
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
                     text = kind.write(candidate.answers[label])
-                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence))
+                    read = self._read(candidate.cause, said)
+                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence, read))
         return tuple(found.values())
+
+    def _read(self, cause: Cause, said: Diagnosis) -> Equation | None:
+        """The formula as it was read, marked where it differs."""
+        if cause.mistake is not None:
+            return misreading(self.solution, cause.mistake)
+        return None if said.wrong is None or said.right is None else marked(said.wrong, said.right)
 
     def diagnose(
         self,
@@ -262,7 +271,7 @@ def _is_shorter(cell: Cell, key: Any) -> bool:
 
 def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     first = verdict.told[0]
-    formula = next((formula for formula in solution.work.read if first in formula.misread), None)
+    formula = solution.misread(first)
     where = None if formula is None else Place(formula.key, None)
     wrong = right = None
     if formula is not None:
@@ -308,7 +317,7 @@ def _short(step: Step) -> Equation:
     """A step with the numbers put in and its value, nothing between."""
     whole = step.equation()
     rights = whole.rights[:1] if len(whole.rights) == 1 else (whole.rights[0], whole.rights[-1])
-    return Equation(whole.left, rights, (whole.signs[0], "=")[: len(rights)])
+    return replace(whole, rights=rights, signs=(whole.signs[0], "=")[: len(rights)])
 
 
 def _line(equation: Equation) -> str:

@@ -125,8 +125,11 @@ class Solution:
         return tuple(mistake for mistake in every if self._has_room_for(mistake))
 
     def _has_room_for(self, mistake: Misconception) -> bool:
-        read_here = any(mistake in formula.misread for formula in self.work.read)
-        return (read_here or mistake.is_slip) and mistake.applies(self.problem.given)
+        return (mistake.is_slip or self.misread(mistake) is not None) and mistake.applies(self.problem.given)
+
+    def misread(self, mistake: Misconception) -> Formula | None:
+        """The formula of the working that a mistake reads otherwise, the first of them; None if it is a slip."""
+        return next((formula for formula in self.work.read if mistake in formula.misread), None)
 
     def answers_with(
         self, misconception: Misconception, carried: Mapping[str, Any] | None = None

@@ -10,7 +10,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
-from rldrill.problems.notations import in_use
+from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
@@ -67,7 +67,7 @@ class Step:
         if self.own or formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
             return plain
         left = self.named if self.named.is_Symbol else self.named.func(*formula.left.args)
-        return replace(plain, left=typeset(left))
+        return replace(formula, left=left).equation(formula.right)
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
@@ -91,7 +91,9 @@ class Step:
         left = typeset(self.left)
         if label := self._label():
             left = row(mathematics(label), punctuation(":"), left)
-        return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)))
+        # With the numbers put in, it does not tell any more whether it is of a linear system.
+        linear = in_use() != LECTURE and any(map(is_linear, (left, typeset(self.formula.right))))
+        return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)), linear=linear)
 
     def _label(self) -> str:
         if self.label is not None:

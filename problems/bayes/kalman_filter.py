@@ -279,7 +279,7 @@ def _models(given: Given) -> tuple[Block, ...]:
             "The noises $ε_t$ and $δ_t$ are normal and independent, with mean $0$ and covariances $R$ and $Q$. The "
             "first belief is normal, with mean $μ_0$ and covariance $Σ_0$."
         ),
-        *(Equation(mathematics(name), (tabular(rows),), ("=",)) for name, rows in named),
+        *(Equation(mathematics(name), (tabular(rows),), ("=",), linear=True) for name, rows in named),
     )
 
 

@@ -157,7 +157,7 @@ def question(given: Given) -> Question:
             f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. {what} from the next time on is "
             f"{value}.{discount}{_open(given)} At $t = 0$:"
         ),
-        *(Equation(mathematics(name), (tabular(lines),), ("=",)) for name, lines in named),
+        *(Equation(mathematics(name), (tabular(lines),), ("=",), linear=True) for name, lines in named),
     )
     m, n = len(given.B[0]), len(given.A)
     opened = in_open(given, several=n * m > 1)

@@ -234,7 +234,7 @@ def question(given: Given) -> Question:
                 f"{story} has the dynamics ${x}_{{t+1}} = A {x}_t + B {u}_t$ and {earns} at every time "
                 f"$t = 0, 1, 2, …$ without end{discount}"
             ),
-            *(Equation(mathematics(name), (tabular(matrix),), ("=",)) for name, matrix in named),
+            *(Equation(mathematics(name), (tabular(matrix),), ("=",), linear=True) for name, matrix in named),
             Paragraph(_wanted(given)),
             *(
                 (Paragraph("The sum and the difference of the two states are two systems that are not coupled."),)

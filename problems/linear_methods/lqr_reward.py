@@ -110,7 +110,7 @@ def _rewards(given: Given) -> list[Fraction]:
 def question(given: Given) -> Question:
     """The first reward, then the total."""
     gains = (
-        Equation(mathematics(f"L_{'t' if len(given.L) == 1 else time}"), (tabular(gain),), ("=",))
+        Equation(mathematics(f"L_{'t' if len(given.L) == 1 else time}"), (tabular(gain),), ("=",), linear=True)
         for time, gain in enumerate(given.L)
     )
     last = given.horizon

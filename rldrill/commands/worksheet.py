@@ -88,7 +88,9 @@ def command(
     ] = None,
     format_: Annotated[
         str | None,
-        typer.Option("--format", metavar="FORMAT", help="pdf, html, moodle, qti, anki, latex, markdown, docx, json."),
+        typer.Option(
+            "--format", metavar="FORMAT", help="pdf, html, moodle, canvas, qti, anki, latex, markdown, docx, json."
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", "-f", help="Replace what an earlier run has written.")] = False,
     init: Annotated[

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
-from rldrill.export.asked import wrong_answers
+from rldrill.export.asked import Wrong, wrong_answers
 from rldrill.export.page import beside
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Choice, Part
@@ -105,12 +105,14 @@ def _asked(exercise: Exercise, part: Part) -> str:
 
 
 def _solved(exercise: Exercise, part: Part) -> str:
-    wrong = "".join(
-        f"<li>{_HTML.text(', '.join(each.cells))}: {_HTML.text(each.says)}</li>"
-        for each in wrong_answers(exercise, part, _MISTAKES)
-    )
+    wrong = "".join(map(_wrong, wrong_answers(exercise, part, _MISTAKES)))
     mistakes = f"<p>Typical wrong answers</p><ul>{wrong}</ul>" if wrong else ""
     return (
         f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(exercise.answer(part))}"
         f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"
     )
+
+
+def _wrong(wrong: Wrong) -> str:
+    read = "" if wrong.read is None else _HTML.block(wrong.read)
+    return f"<li>{_HTML.text(', '.join(wrong.cells))}: {_HTML.text(wrong.says)}{read}</li>"

@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from rldrill.exercise import Exercise
+from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math
-from rldrill.problems.notations import in_notation
+from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part, Policy, YesNo
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.kinds import answer_kind, text_of
@@ -16,6 +17,9 @@ from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
 from rldrill.solutions.exact import NotReal, decimal, parameters
 
+#: What is said above boxes that are judged elsewhere, and above what nobody but a person can judge.
+NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
+BY_HAND = "Answer in words and formulas; it is marked by hand."
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
 #: So many wrong answers are told in one cell.
@@ -50,19 +54,21 @@ Cell = Word | Quantity
 
 @dataclass(frozen=True, slots=True)
 class Wrong:
-    """A wrong answer, cell by cell as it is typed, and the sentence about the mistake that gives it."""
+    """A wrong answer, cell by cell as it is typed, what is said of the mistake, and the formula as it reads it."""
 
     cells: tuple[str, ...]
     says: str
+    read: Equation | None
 
 
 def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
     """The cells of a part with what is right in them."""
     kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
     content, lines = kind.cells(value), kind.lines(value)
-    lefts = [left and in_notation(left) for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    lefts = [left for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
+    written = iter(all_in_notation([left for left in lefts if left is not None]))
     return tuple(
-        _cell(part, name, None if left is None else in_notation(left), each)
+        _cell(part, name, None if left is None else next(written), each)
         for (name, each), left in zip(content.items(), lefts, strict=True)
     )
 
@@ -109,7 +115,7 @@ def wrong_answers(exercise: Exercise, part: Part, most: int = _MISTAKES) -> Iter
             found = read_answer(exercise.solution, part, wrong.answer)
         except Unreadable:
             continue  # a number so large that nobody types it
-        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence)
+        yield Wrong(tuple(map(_typed, found.values())), wrong.sentence, wrong.read)
 
 
 def _typed(cell: Any) -> str:

@@ -35,6 +35,7 @@ FORMATS = {
         Format("html", ".html", ("html", "html_exam")),
         Format("moodle", ".xml", ("moodle", "moodle_exam"), whole=True),
         Format("qti", ".zip", ("qti", "qti_exam"), whole=True),
+        Format("canvas", ".zip", ("canvas", "canvas_exam"), whole=True),
         Format("anki", ".apkg", ("anki", "anki_exam"), whole=True),
         Format("latex", ".tex", ("latex", "latex_exam")),
         Format("markdown", ".md", ("text", "markdown_exam")),

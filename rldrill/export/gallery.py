@@ -9,8 +9,10 @@ from rldrill.exercise import Exercise, draw
 from rldrill.export.html import HTML, part_form, scripts, task
 from rldrill.export.page import beside, page
 from rldrill.export.words import page_words
+from rldrill.misreading import misreading
 from rldrill.print.words import words
 from rldrill.problems.catalogue import family as family_of
+from rldrill.problems.document import Equation
 from rldrill.problems.headers import Header
 from rldrill.render.mathematics.unicode import inline
 from rldrill.solutions.formula.formula import Formula
@@ -81,8 +83,7 @@ def _family(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[For
         f"<p>{HTML.text(formula.hint)}</p>"
         for formula in formulas
     )
-    mistakes = dict.fromkeys(mistake.says for mistake in solver(family_of(header.name)).misconceptions)
-    made = "".join(f"<li>{HTML.text(says)}</li>" for says in mistakes)
+    made = _mistakes(header, exercises)
     examples = "".join(_example(level, item) for level, item in zip(header.levels, exercises, strict=True))
     tasks = {
         f"part-{level}-{part.label}": task(exercise, part)
@@ -98,6 +99,15 @@ def _family(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[For
         '<p id="score" role="status"></p>\n'
     )
     return page(f"{header.title} · rldrill", body, more=scripts(tasks, page_words("en")))
+
+
+def _mistakes(header: Header, exercises: tuple[Exercise, ...]) -> str:
+    """What is said of the family's mistakes, and how those that read a formula otherwise read it."""
+    said: dict[str, Equation | None] = {}
+    for mistake in solver(family_of(header.name)).misconceptions:
+        read = next(filter(None, (misreading(exercise.solution, mistake) for exercise in exercises)), None)
+        said[mistake.says] = said.get(mistake.says) or read
+    return "".join(f"<li>{HTML.text(says)}{HTML.block(read) if read else ''}</li>" for says, read in said.items())
 
 
 def _example(level: int, exercise: Exercise) -> str:

@@ -14,6 +14,8 @@ from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
 from rldrill.render.html import Html
 from rldrill.render.mathematics.mathml import mathml
 
+#: Of so many wrong answers to a part, the likeliest, the page shows how they read a formula: it is long to write.
+_READ = 8
 #: How a page is written.
 HTML = Html()
 
@@ -69,7 +71,9 @@ def task(exercise: Exercise, part: Part) -> dict[str, Any]:
             for cell in cells(exercise, part)
         ],
         "mistakes": [
-            {"cells": _known(part, wrong.cells), "says": wrong.says} for wrong in wrong_answers(exercise, part)
+            {"cells": _known(part, wrong.cells), "says": wrong.says}
+            | ({} if wrong.read is None or index >= _READ else {"read": HTML.block(wrong.read)})
+            for index, wrong in enumerate(wrong_answers(exercise, part))
         ],
     }
 

@@ -345,7 +345,7 @@ const Judge = (() => {
     const wrong = task.cells.map((_, index) => index).filter((index) => !fits(index, task.cells[index].words ?? task.cells[index].key));
     if (!wrong.length) return { outcome: "right", says: "Right." };
     const made = task.mistakes.find((mistake) => mistake.cells.every((key, index) => fits(index, key)));
-    if (made) return { outcome: "misconception", says: made.says, wrong };
+    if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
       return { outcome: "close", says: "Right idea; give an exact value or three digits.", wrong };
     }

@@ -2,12 +2,15 @@
 
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
+from rldrill.export.asked import wrong_answers
 from rldrill.print.words import words
 from rldrill.problems.parts import Choice, Part, YesNo
-from rldrill.render.latex import latex_document, latex_text
+from rldrill.render.latex import latex_block, latex_document, latex_text
 from rldrill.render.mathematics.latex import latex_plain
 from rldrill.solutions.effort import minutes_of, whole
 
+#: So many wrong answers to a part are told.
+_MISTAKES = 4
 _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \usepackage{iftex}
 \ifPDFTeX
@@ -22,7 +25,7 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \newsavebox{\fittedbox}
 \newcommand{\fitted}[1]{\par\noindent\sbox{\fittedbox}{#1}%%
   \ifdim\wd\fittedbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fittedbox}}\else\usebox{\fittedbox}\fi\par}
-\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}
+\setlength{\parindent}{0pt}\setlength{\parskip}{4pt plus 2pt}\setlength{\emergencystretch}{3em}
 \pagestyle{headandfoot}
 \firstpageheader{}{}{}
 \runningheader{%(title)s}{}{%(code)s}
@@ -52,21 +55,23 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
     lines += [latex_plain(f"{told.rule} {time}"), latex_plain(head.instructions)]
     front = "\n\n".join(line for line in lines if line)
     with_solutions = exam.layout.solutions != "none"
-    problems = "\n".join(_problem(exercise, with_solutions=with_solutions) for exercise in version.exercises)
+    problems = "\n".join(
+        _problem(exercise, told.mistakes, with_solutions=with_solutions) for exercise in version.exercises
+    )
     return (
         f"{preamble}{front}\n\n\\begin{{center}}\\fitted{{\\gradetable[h][questions]}}\\end{{center}}\n\n"
         f"\\begin{{questions}}\n{problems}\\end{{questions}}\n\\end{{document}}\n"
     )
 
 
-def _problem(exercise: Exercise, *, with_solutions: bool) -> str:
+def _problem(exercise: Exercise, mistakes: str, *, with_solutions: bool) -> str:
     title = latex_text(exercise.problem.family.title)
-    parts = "\n".join(_part(exercise, part, with_solutions=with_solutions) for part in exercise.parts)
+    parts = "\n".join(_part(exercise, part, mistakes, with_solutions=with_solutions) for part in exercise.parts)
     question = latex_document(exercise.question())
     return f"\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
 
 
-def _part(exercise: Exercise, part: Part, *, with_solutions: bool) -> str:
+def _part(exercise: Exercise, part: Part, mistakes: str, *, with_solutions: bool) -> str:
     options = ""
     if isinstance(part.kind, Choice):
         choices = "\n".join(rf"\choice {latex_text(text)}" for text in part.kind.options.values())
@@ -78,4 +83,15 @@ def _part(exercise: Exercise, part: Part, *, with_solutions: bool) -> str:
     if not with_solutions:
         return f"{asked}\\vspace{{{space}}}\n" if space else asked
     body = latex_document((exercise.answer(part), *exercise.working(part.label)))
-    return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}\\end{{solution}}\n"
+    wrong = _mistakes(exercise, part, mistakes)
+    return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}{wrong}\\end{{solution}}\n"
+
+
+def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
+    """Typical wrong answers, what is said of them, and the formula as it was read."""
+    lines = "".join(
+        f"\\item {latex_text(', '.join(wrong.cells))}: {latex_text(wrong.says)}"
+        f"{'' if wrong.read is None else latex_block(wrong.read)}\n"
+        for wrong in wrong_answers(exercise, part, _MISTAKES)
+    )
+    return f"\n\\emph{{{latex_plain(title)}}}\n\\begin{{itemize}}\n{lines}\\end{{itemize}}\n" if lines else ""

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from rldrill.exam.exam import Exam, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import BY_HAND, NOTE, Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -17,9 +17,8 @@ from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
 
-_SPECIAL = re.compile(r'([\\}#~/"{])')
-_NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
-_BY_HAND = "Answer in words and formulas; it is marked by hand."
+#: What ends an answer or a feedback in a box of cloze, or keeps another sign from doing so.
+_SPECIAL = re.compile(r"[\\{}#~]")
 
 
 class _Writer(LatexHtml):
@@ -72,9 +71,9 @@ def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | 
 def _question(number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
     by_hand = any(is_open(cell) for part in exercise.parts for cell in cells(exercise, part))
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
-    _text(ElementTree.SubElement(question, "name"), f"{number:02} {exercise.problem.family.title}")
+    _text(ElementTree.SubElement(question, "name"), f"{number:02} {inline(exercise.problem.family.title)}")
     writer = _Writer()
-    body = writer.blocks(exercise.question()) + f"<p><em>{_BY_HAND if by_hand else _NOTE}</em></p>"
+    body = writer.blocks(exercise.question()) + f"<p><em>{BY_HAND if by_hand else NOTE}</em></p>"
     _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
     solved = _Writer()
     working = "".join(
@@ -137,5 +136,12 @@ def _options(cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str
 
 
 def _escaped(text: str) -> str:
-    """A text inside a cloze box: its own signs carry a backslash, and it is HTML."""
-    return _SPECIAL.sub(r"\\\1", escape(inline(text), quote=False))
+    """A text inside a cloze box: HTML, whose signs are written so that none of them is one of the box.
+
+    Moodle undoes entities once and then takes backslashes away before two signs only, so they are of no use.
+    """
+    return _harmless(_harmless(inline(text)))
+
+
+def _harmless(text: str) -> str:
+    return _SPECIAL.sub(lambda sign: f"&#{ord(sign[0])};", escape(text, quote=False))

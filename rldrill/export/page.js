@@ -16,6 +16,7 @@
       const said = form.querySelector("output");
       said.textContent = `${marks[verdict.outcome]} ${verdict.says}`;
       said.className = verdict.outcome;
+      said.insertAdjacentHTML("beforeend", verdict.read ?? "");
       if (verdict.outcome === "unreadable") form.elements[`cell-${verdict.cell}`]?.focus?.();
       form.querySelectorAll("[data-cell]").forEach((field) => {
         const wrong = (verdict.wrong ?? []).includes(Number(field.dataset.cell));

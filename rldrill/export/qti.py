@@ -3,15 +3,14 @@
 https://www.imsglobal.org/question/qtiv2p1/imsqti_infov2p1.html
 """
 
-import io
-import zipfile
 from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from html import escape
 
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import BY_HAND, NOTE, Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.packed import packed
 from rldrill.problems.document import Equation, Table
 from rldrill.problems.mathematics import EMPTY, Math
 from rldrill.problems.parts import Choice, Matrix, Part, YesNo
@@ -22,15 +21,12 @@ from rldrill.render.mathematics.unicode import inline
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
 
-_DATE = (1980, 1, 1, 0, 0, 0)
 _XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 _XSI = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
 _SPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
 _QTI = f'xmlns="{_SPACE}" {_XSI} xsi:schemaLocation="{_SPACE} {_SPACE}.xsd"'
 _PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
 _MATHML = "http://www.w3.org/1998/Math/MathML"
-_NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
-_BY_HAND = "Answer in words and formulas; it is marked by hand."
 _WORKING = "WORKING"
 
 
@@ -100,15 +96,7 @@ def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda
         f"<metadata><schema>QTIv2.1 Package</schema><schemaversion>1.0.0</schemaversion></metadata>\n"
         f"<organizations/>\n<resources>\n{''.join(resources)}</resources>\n</manifest>\n"
     )
-    return _packed({"imsmanifest.xml": manifest, **files})
-
-
-def _packed(files: dict[str, str]) -> bytes:
-    result = io.BytesIO()
-    with zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as package:
-        for name, content in files.items():
-            package.writestr(zipfile.ZipInfo(name, _DATE), content.encode(), zipfile.ZIP_DEFLATED)
-    return result.getvalue()
+    return packed({"imsmanifest.xml": manifest, **files})
 
 
 def _resource(name: str, what: str, beside: Sequence[str], needed: Sequence[str] = ()) -> str:
@@ -157,7 +145,7 @@ def _item(writer: _Writer, name: str, number: int, exercise: Exercise, *, practi
         f'<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float" '
         f'normalMaximum="{points_of(exercise)}"><defaultValue><value>0</value></defaultValue></outcomeDeclaration>\n'
         '<outcomeDeclaration identifier="FEEDBACK" cardinality="multiple" baseType="identifier"/>\n'
-        f"<itemBody>\n{question}<p><em>{_BY_HAND if by_hand else _NOTE}</em></p>\n{body}</itemBody>\n"
+        f"<itemBody>\n{question}<p><em>{BY_HAND if by_hand else NOTE}</em></p>\n{body}</itemBody>\n"
         f"<responseProcessing>\n{''.join(conditions)}</responseProcessing>\n{modal}</assessmentItem>\n"
     )
 

@@ -5,16 +5,20 @@ from typing import Any
 
 from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
+from rldrill.misreading import misreading
 from rldrill.print.exam_page import label
 from rldrill.print.words import words, written_points
 from rldrill.problems.document import Block
+from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Choice, Part
-from rldrill.render.mathematics.typst import equation, plain, text
-from rldrill.render.typst import block, document
+from rldrill.render.mathematics.typst import equation, plain, quoted, text
+from rldrill.render.typst import block, document, line
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import NotReal
+from rldrill.solutions.formula.formula import Misconception
 
 #: So many typical wrong answers to a part are told.
 _MISTAKES = 5
@@ -44,12 +48,20 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
 
 
 def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
-    rows = [f"([{given}], [{text(says)}])" for given, says in _wrong(exercise, part)]
+    rows = [
+        f"([{given}], [{text(mistake.says)}{_read(exercise, mistake)}])" for given, mistake in _wrong(exercise, part)
+    ]
     return f"#mistakes([{plain(title)}], {', '.join(rows)})\n" if rows else ""
 
 
-def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, str]]:
-    """The wrong answers that typical mistakes give, each once, with what is said of the mistake."""
+def _read(exercise: Exercise, mistake: Misconception) -> str:
+    """The formula as somebody reads it who makes the mistake."""
+    read = misreading(exercise.solution, mistake)
+    return "" if read is None else f" #misread({quoted(unicode_text(read))}, ${line(read)}$)"
+
+
+def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, Misconception]]:
+    """The wrong answers that typical mistakes give, each once, with the mistake."""
     told = set[str]()
     for misconception, answers in exercise.solution.mistakes:
         if len(told) == _MISTAKES:
@@ -60,9 +72,10 @@ def _wrong(exercise: Exercise, part: Part) -> Iterator[tuple[str, str]]:
             continue
         told.add(written)
         if isinstance(part.kind, Choice):
-            yield plain(f"({written})"), misconception.says
+            yield plain(f"({written})"), misconception
         else:
-            yield " #h(0.8em) ".join(map(equation, answer_lines(part, answer))), misconception.says
+            lines = all_in_notation(answer_lines(part, answer))
+            yield " #h(0.8em) ".join(equation(each, "tall") for each in lines), misconception
 
 
 def _tells(exercise: Exercise, part: Part, answer: Any) -> bool:

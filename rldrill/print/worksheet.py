@@ -9,6 +9,7 @@ from rldrill.print.exam_page import broken, ending, front, heading, label, setup
 from rldrill.print.solved import solved_part
 from rldrill.print.words import Words, words
 from rldrill.problems import parts
+from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Part
 from rldrill.render.mathematics.typst import equation, plain, text
 from rldrill.render.typst import document
@@ -100,7 +101,8 @@ def _field(exercise: Exercise, part: Part, told: Words) -> str:
             return f"#checkbox #h(0.4em) {plain(told.yes)} #h(2em) #checkbox #h(0.4em) {plain(told.no)}"
         case kind:
             lines = answer_kind(kind).lines(exercise.solution.answers[part.label])
-            names = [f"[{equation(left)}]" for left, _ in lines if left is not None]
+            lefts = all_in_notation([left for left, _ in lines if left is not None])
+            names = [f"[{equation(left)}]" for left in lefts]
             columns = even_columns(len(names))
             table = f"#empty-table({columns}, {', '.join(names)})"
             return table if names else f"#answer-line([{plain(told.answer)}])"

@@ -9,9 +9,12 @@ from rldrill.problems.pictures import Picture, Timeline
 from rldrill.render.markdown import latex_block_equation
 from rldrill.render.mathematics.latex import latex
 from rldrill.render.mathematics.mathml import element, mathml, relation
-from rldrill.render.mathematics.unicode import inline
+from rldrill.render.mathematics.unicode import inline, unicode
 from rldrill.render.pictures.described import described
 from rldrill.render.pictures.svg import svg
+
+#: Mathematics of at most so many signs is narrower than any screen.
+_LONG = 32
 
 
 class Html:
@@ -26,8 +29,9 @@ class Html:
         return "".join(escape(piece) if isinstance(piece, str) else self.math(piece) for piece in pieces(text))
 
     def math(self, math: Math) -> str:
-        """Mathematics within a line."""
-        return mathml(math)
+        """Mathematics within a line; what is long is moved sideways where the screen is narrower."""
+        written = mathml(math)
+        return f'<span class="long" tabindex="0">{written}</span>' if len(unicode(math)) > _LONG else written
 
     def block(self, block: Block) -> str:
         """One block."""

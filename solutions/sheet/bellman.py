@@ -244,7 +244,7 @@ with evaluate(False):
         LOOKAHEAD_STAR,
         title="Optimal Q from V",
         source="Sutton & Barto 2018, eq. 3.17",
-        hint="The first action is fixed; from the next state on, V* counts the best that can follow.",
+        hint="The first action is fixed; from the next state on, $V^*$ counts the best that can follow.",
         place=Place.WORKING,
         misread={
             Q_FORGOT_GAMMA: SumOver(P(s, a, s1) * (R(s, a, s1) + Vstar(s1)), s1, Successors(s, a)),

@@ -174,7 +174,7 @@ with evaluate(False):
         place=Place.WORKING,
     )
     NO_TERMINAL = Misconception(
-        "no-terminal-value", "The state at the last time T is rewarded too: P_T is −Q_T, not 0."
+        "no-terminal-value", "The state at the last time T is rewarded too: there P is −Q, not 0."
     )
     # The same two in the letters of costs.
     FORGOT_R_IN_COSTS = Misconception(

@@ -1,5 +1,7 @@
 """Other notations, held against how their books print the formulas."""
 
+import re
+
 import pytest
 
 import rldrill
@@ -21,6 +23,8 @@ def text_in(notation: str, text: str) -> str:
         ("$R_t = r_{t+1} + γ R_{t+1}$", "Gₜ = Rₜ₊₁ + γGₜ₊₁"),  # equation 3.9
         ("$R_0^{(3)}$", "G₀⁽³⁾"),  # which the book writes G₀:₃
         ("$R_t^{(n)}$", "Gₜ⁽ⁿ⁾"),
+        ("$R^{(i)}$", "G⁽ⁱ⁾"),
+        ("$P_{s_t, s_{t+1}}^{a_t}$", "p(Sₜ₊₁|Sₜ, Aₜ)"),
         ("$V^π(s)$", "v_π(s)"),  # section 3.5
         ("$Q^*(s, a)$", "q_*(s, a)"),  # section 3.6
         ("$P_{s s'}^a (R_{s s'}^a + γ V^π(s'))$", "p(s′|s, a)(r(s, a, s′) + γv_π(s′))"),  # equations 3.4 and 3.6
@@ -48,6 +52,34 @@ def test_an_equation_is_rewritten_once_however_often_it_is_taken_up(name: str) -
             equation = formula.equation()
             again = type(equation)(equation.left, equation.rights, equation.signs, equation.label, equation.notation)
             assert again == equation
+
+
+def test_what_is_one_letter_of_a_linear_system_is_told_by_what_stands_around_it() -> None:
+    """R_t = 3 is a matrix of costs there, s_0 = 2 a given state; a return and a random state elsewhere."""
+    with used("sutton-barto"):
+        system = rldrill.load("lqr-backward/2/1")
+        told = [unicode_text(block) for block in system.question()]
+        assert any(line.startswith("Rₜ = ") for line in told)
+        assert any(line.startswith("s₀ = ") for line in told)
+        assert not any(line.startswith(("Gₜ", "S₀")) for line in told)
+        steps = [unicode_text(block) for block in rldrill.load("lqr-reward/2/1").working("b")]
+        assert any(line.startswith("s₁ = ") for line in steps)
+
+
+def test_a_formula_in_a_working_is_rewritten_on_both_sides() -> None:
+    with used("sutton-barto"):
+        steps = [unicode_text(block) for block in rldrill.load("n-step-return/2/1").working("a")]
+    assert any(line.startswith("Gₜ⁽ⁿ⁾ = ") for line in steps)
+    assert not any(line.startswith("R") for line in steps)
+
+
+@pytest.mark.parametrize("family", ["return", "policy-value", "q-learning", "n-step-return", "importance-sampling"])
+def test_nothing_of_the_lectures_notation_is_left(family: str) -> None:
+    with used("sutton-barto"):
+        exercise = rldrill.load(f"{family}/2/1")
+        every = [*exercise.question(), *(block for part in exercise.parts for block in exercise.working(part.label))]
+        lines = "\n".join(map(unicode_text, (*every, *map(exercise.answer, exercise.parts))))
+    assert not re.search(r"V\^|Q\^|Pₛₛ|Rₛₛ|\b[ras][ₜ₀₁₂]|R₀|R⁽", lines)
 
 
 def test_the_lectures_notation_is_untouched() -> None:

@@ -6,16 +6,18 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
     Script,
     Tabular,
 )
+from rldrill.render.mathematics.unicode import ABOVE, BELOW
 
 _COMMANDS = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ε": r"\varepsilon", "θ": r"\theta",
-    "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi",
+    "λ": r"\lambda", "μ": r"\mu", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "φ": r"\phi", "χ": r"\chi",
     "ξ": r"\xi", "∞": r"\infty", "∇": r"\nabla", "𝔼": r"\mathbb{E}", "·": r"\cdot", "×": r"\times", "±": r"\pm",
     "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "←": r"\leftarrow", "→": r"\to",
     "∈": r"\in", "…": r"\dots", "|": r"\mid", "‖": r"\Vert", "∀": r"\forall", "Σ": r"\sum", "Π": r"\prod",
@@ -30,8 +32,8 @@ _SPELLED = {
     "…": r"\dots{}",
     "√": r"\ensuremath{\surd}", "′": r"\ensuremath{'}", "\u200b": "", "\u0302": "", "\u0304": "", "\u0303": "",
 }  # fmt: skip
-_LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", "0123456789+-aehijklmnoprstuvx", strict=True))
-_RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵃᵀᵏⁿᵗᵢ", "0123456789+-aTknti", strict=True))
+_LOWERED = {small: _COMMANDS.get(sign, sign) for sign, small in BELOW.items()}
+_RAISED = {small: _COMMANDS.get(sign, sign) for sign, small in ABOVE.items()}
 _PLAIN_WORDS = {"max", "min", "ln", "exp", "log", "sin", "cos", "tan"}
 
 
@@ -80,6 +82,8 @@ def latex(math: Math) -> str:
             return rf"\sqrt{{{latex(body)}}}"
         case Accent(body, mark):
             return rf"\{mark}{{{latex(body)}}}"
+        case Marked(body):  # MathJax takes the braces behind a colour for all that it colours, LaTeX does not
+            return rf"{{\color{{red}}{{\underline{{{latex(body)}}}}}}}"
         case Tabular(rows, left, right):
             lines = r" \\ ".join(" & ".join(map(latex, line)) for line in rows)
             return rf"\left{_fence(left)} \begin{{matrix}} {lines} \end{{matrix}} \right{_fence(right)}"

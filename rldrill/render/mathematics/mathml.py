@@ -10,18 +10,19 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
     Script,
     Tabular,
 )
+from rldrill.render.mathematics.unicode import unmarked
 
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _BIGS = {"Σ": "∑", "Π": "∏", "∏": "∏", "∑": "∑", "∫": "∫"}
 _MARKS = {"hat": "^", "bar": "‾", "tilde": "~"}
-_FUNCTIONS = {"max", "min", "arg max", "arg min", "ln", "exp", "log", "sin", "cos", "tan", "tr", "det"}
 _BLOCK = ' display="block"'
 #: A sign that belongs to what follows, as in −5.
 _SIGNED: dict[Math, str] = {
@@ -49,13 +50,17 @@ def element(math: Math) -> str:
         case Script(body, below, above):
             return _script(body, below, above)
         case Fence(body, left, right):
-            return f"<mrow>{_fence(left, 'prefix')}{element(body)}{_fence(right, 'postfix')}</mrow>"
+            grows = _is_tall(body)
+            brackets = _fence(left, "prefix", grows=grows), _fence(right, "postfix", grows=grows)
+            return f"<mrow>{brackets[0]}{element(body)}{brackets[1]}</mrow>"
         case Big(sign, below, above):
             return _limits(_big(sign), below, above)
         case Root(body):
             return f"<msqrt>{element(body)}</msqrt>"
         case Accent(body, mark):
             return f'<mover accent="true">{element(body)}<mo stretchy="false">{_MARKS[mark]}</mo></mover>'
+        case Marked(body):
+            return f'<mrow class="marked">{element(body)}</mrow>'
         case Tabular(rows, left, right):
             lines = "".join(f"<mtr>{''.join(f'<mtd>{element(cell)}</mtd>' for cell in line)}</mtr>" for line in rows)
             return f"<mrow>{_fence(left, 'prefix')}<mtable>{lines}</mtable>{_fence(right, 'postfix')}</mrow>"
@@ -66,8 +71,24 @@ def relation(sign: str) -> str:
     return f"<mo>{escape(sign)}</mo>" if sign else ""
 
 
-def _fence(sign: str, form: str) -> str:
-    return f'<mo fence="true" stretchy="true" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>' if sign else ""
+def _fence(sign: str, form: str, *, grows: bool = True) -> str:
+    """A bracket; one that may grow takes the room of the largest in some browsers, also where it does not grow."""
+    if not sign:
+        return ""
+    stretchy = "true" if grows else "false"
+    return f'<mo fence="true" stretchy="{stretchy}" form="{form}" lspace="0" rspace="0">{escape(sign)}</mo>'
+
+
+def _is_tall(math: Math) -> bool:
+    match math:
+        case Fraction() | Tabular() | Big():
+            return True
+        case Row(items):
+            return any(map(_is_tall, items))
+        case Glyph():
+            return False
+        case _:
+            return _is_tall(math.body)
 
 
 def _big(sign: str) -> str:
@@ -102,8 +123,8 @@ def _sign(text: str, style: str) -> str:
             return f"<mn>{shown}</mn>"
         case "variable":
             return f"<mi>{shown}</mi>"
-        case "word":
-            return f"<mi>{shown}</mi>" if text in _FUNCTIONS else f"<mtext>{shown}</mtext>"
+        case "word":  # no mtext: beside that an operator's space moves to the end of the row
+            return f"<mi>{shown}</mi>" if len(text) > 1 else f'<mi mathvariant="normal">{shown}</mi>'
         case "punctuation" if text == "|":
             return '<mo stretchy="false" lspace="0.2em" rspace="0.2em" form="infix">|</mo>'
         case "punctuation" if text == "/":
@@ -144,8 +165,9 @@ def _on_one_line(math: Math) -> Math:
 
 def _row(items: tuple[Math, ...]) -> str:
     written: list[str] = []
-    for before, item in zip((None, *items), items, strict=False):
-        if before is not None and _needs_space(before, item):
+    bare = tuple(map(unmarked, items))
+    for before, after, item in zip((None, *bare), bare, items, strict=False):
+        if before is not None and _needs_space(before, after):
             written.append(_THIN)
         written.append(_SIGNED[item] if item in _SIGNED and (before is None or _opens(before)) else element(item))
     return "".join(written)

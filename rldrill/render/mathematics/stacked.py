@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rldrill.problems.mathematics import Fence, Math, Row, Script, Tabular, word
+from rldrill.problems.mathematics import Fence, Marked, Math, Row, Script, Tabular, word
 from rldrill.render.mathematics.unicode import unicode
 
 _BRACKETS = {
@@ -43,7 +43,7 @@ def _has_grid(math: Math) -> bool:
             return len(rows) > 1
         case Row(items):
             return any(map(_has_grid, items))
-        case Fence(body) | Script(body):
+        case Fence(body) | Script(body) | Marked(body):
             return _has_grid(body)
         case _:
             return False
@@ -57,6 +57,8 @@ def _box(math: Math, write: Write) -> Stack:
             return _beside(items, write)
         case Fence(body, left, right) if _has_grid(math):
             return _fenced(_box(body, write), left, right)
+        case Marked(body):
+            return _box(body, write)
         case Script(body, below, above) if _has_grid(math):
             box = _box(body, write)
             raised = write(Script(word(""), below, above))

@@ -13,6 +13,7 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
@@ -66,6 +67,10 @@ def typst(math: Math) -> str:
             return f"sqrt({typst(body)})"
         case Accent(body, mark):
             return f"{_ACCENTS[mark]}({typst(body)})"
+        case Marked(body):
+            kind = CLASSES.get(body.style) if isinstance(body, Glyph) else None
+            marked = f"marked({typst(body)})"
+            return f'class("{kind}", {marked})' if kind else marked
         case Tabular(rows, left, right):
             lines = "; ".join(", ".join(map(typst, line)) for line in rows)
             return f"lr({typst_fence(left)} mat(delim: #none, {lines}) {typst_fence(right)})"

@@ -7,6 +7,7 @@ from rldrill.problems.mathematics import (
     Fence,
     Fraction,
     Glyph,
+    Marked,
     Math,
     Root,
     Row,
@@ -38,7 +39,7 @@ def unicode(math: Math) -> str:
                 return f"{text} "
             return text
         case Row(items):
-            return _row(items)
+            return _row(tuple(map(unmarked, items)))
         case Fraction(numerator, denominator):
             above = unicode(numerator).strip() if _is_plain_product(numerator) else _grouped(numerator)
             return f"{above}/{_grouped(denominator)}"
@@ -52,9 +53,16 @@ def unicode(math: Math) -> str:
             return f"√({unicode(body)})" if isinstance(body, Script) else f"√{_grouped(body)}"
         case Accent(body, mark):
             return unicode(body) + _MARKS[mark]
+        case Marked(body):
+            return unicode(body)
         case Tabular(rows, left, right):
             lines = ["  ".join(unicode(cell) for cell in line) for line in rows]
             return f"{left}{' ; '.join(lines)}{right}"
+
+
+def unmarked(math: Math) -> Math:
+    """What is marked by itself: as it is spaced among others."""
+    return math.body if isinstance(math, Marked) else math
 
 
 #: Stands for the spaces of a formula while its paragraph is broken into lines.

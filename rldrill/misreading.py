@@ -1,0 +1,13 @@
+"""How a mistake reads a formula, marked where it differs."""
+
+from rldrill.problems.document import Equation
+from rldrill.render.differences import marked
+from rldrill.solutions.formula.formula import Misconception
+from rldrill.solutions.solution import Solution
+
+
+def misreading(solution: Solution, mistake: Misconception) -> Equation | None:
+    """The formula as somebody reads it who makes the mistake; None where it is a slip in the procedure."""
+    if (formula := solution.misread(mistake)) is None:
+        return None
+    return marked(formula.equation(formula.misread[mistake]), formula.equation(formula.right))
