@@ -1,6 +1,6 @@
 """``rldrill quiz``."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -11,6 +11,7 @@ import typer
 from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
+    from rldrill.exercise import Exercise
     from rldrill.history.attempts import Attempt
     from rldrill.quiz.planning import Plan
 
@@ -46,6 +47,10 @@ def command(
     minutes: Annotated[
         int | None, typer.Option("--minutes", "-m", min=1, max=600, help="End after so many minutes.")
     ] = None,
+    mistake: Annotated[
+        str | None,
+        typer.Option("--mistake", metavar="NAME", help="Only problems in which this mistake gives a wrong answer."),
+    ] = None,
     exam: Annotated[
         Path | None,
         typer.Option("--exam", metavar="FILE", help="Sit an exam: its blueprint or manifest."),
@@ -64,6 +69,8 @@ def command(
     Without names, a level or a seed your history chooses: what is due for review, and something new.
 
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
+
+    Only the problems in which one mistake is made: rldrill quiz --mistake forgot-gamma
     """
     from rldrill.problems.errors import UsageError
     from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
@@ -81,8 +88,15 @@ def command(
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
     wanted = list(names or ())
-    plan = None
-    if exam_date is not None or not (wanted or level or seed is not None):
+    plan, drilled = None, None
+    if mistake is not None:
+        if exam_date is not None:
+            raise UsageError("--mistake says what is asked; leave --exam-date out.")
+        from rldrill.quiz.drilling import drill
+
+        drilled = drill(mistake, keeper.read(), wanted, level)
+        typer.echo(drilled.says())
+    elif exam_date is not None or not (wanted or level or seed is not None):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
@@ -97,7 +111,10 @@ def command(
 
     recorder = Recorder(keeper.keep)
     total = number or (_MOST if minutes else _NUMBER)
-    if plan is None:
+    exercises: Iterator[Exercise]
+    if drilled is not None:
+        exercises = islice(drilled.exercises(announced_seed(seed)), total)
+    elif plan is None:
         exercises, total = questions(wanted, total, level, lambda: announced_seed(seed))
     else:
         exercises = islice(planned(plan, recorder, utc_now, fresh_seed), total)
@@ -106,7 +123,12 @@ def command(
     again = (
         "rldrill quiz" if exam_date is None else " ".join(["rldrill quiz", *wanted, f"--exam-date {exam_date.date()}"])
     )
-    session = Session(total if number or not minutes else None, minutes=minutes, again=again)
+    session = Session(
+        total if number or not minutes else None,
+        minutes=minutes,
+        again=again,
+        drilled="" if drilled is None else drilled.name,
+    )
     attempts = keeper.read()
     screen = Screen(
         console(plain=plain),

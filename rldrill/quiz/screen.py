@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from enum import Enum
 
 from rich.console import Console, Group, RenderableType
@@ -9,8 +10,10 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.diagnosis import Diagnosis
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
+from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
 from rldrill.quiz.ahead import Ahead
@@ -361,7 +364,10 @@ class Screen:
         if drawn:
             self._signed(("read as", "dim"), renderable(answer_block(part.part, verdict.value)))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
-            self._print(compared(diagnosis.wrong, diagnosis.right))
+            # What comes out of the right line may be the answer, and is left to whoever tries again.
+            right = _without_value(diagnosis) if part.state is State.OPEN else diagnosis.right
+            if right is not None:
+                self._print(compared(diagnosis.wrong, right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
         if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
             self._indented(words((_OR_ELSE if part.tries == 1 else _FIRST_LINE, "dim")))
@@ -433,6 +439,16 @@ class Screen:
 
     def _print(self, content: RenderableType = "") -> None:
         self._console.print(content, width=min(self._console.width, WIDEST))
+
+
+def _without_value(diagnosis: Diagnosis) -> Equation | None:
+    """The line as it should be, without what comes out of it; None where nothing else stands there."""
+    right = diagnosis.right
+    if right is None or diagnosis.place is None or diagnosis.place.step is None:
+        return right  # a formula has no value
+    if len(right.rights) == 1:
+        return None
+    return replace(right, rights=right.rights[:-1], signs=right.signs[:-1])
 
 
 def _how(part: PartRecord) -> str:

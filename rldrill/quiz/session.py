@@ -155,12 +155,14 @@ class Session:
         records: the problems so far.
         minutes: how long it lasts, where the time decides.
         again: the command for another day.
+        drilled: the mistake that is drilled, if one is.
     """
 
     total: int | None
     records: list[Record] = field(default_factory=list)
     minutes: int | None = None
     again: str = "rldrill quiz"
+    drilled: str = ""
 
     @property
     def parts(self) -> list[PartRecord]:
