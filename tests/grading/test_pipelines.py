@@ -180,3 +180,19 @@ def test_every_pipeline_pins_the_release_and_has_a_short_readme() -> None:
     ):
         assert __version__ in (CI / name).read_text(encoding="utf-8")
     assert __version__ in (ROOT / "action.yml").read_text(encoding="utf-8")
+
+
+def test_ci_runs_on_every_system_and_python_that_the_wheel_is_tested_on() -> None:
+    workflows = (YAML(typ="safe").load(ROOT / ".github" / "workflows" / f"{name}.yml") for name in ("ci", "release"))
+    runs, wheels = (
+        {
+            (system, python)
+            for job in workflow["jobs"].values()
+            for matrix in [job.get("strategy", {}).get("matrix")]
+            if matrix
+            for system in matrix.get("system", [job["runs-on"]])
+            for python in matrix["python"]
+        }
+        for workflow in workflows
+    )
+    assert runs == wheels
