@@ -6,6 +6,7 @@ from dataclasses import replace
 from enum import Enum
 
 from rich.console import Console, Group, RenderableType
+from rich.control import Control
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
@@ -103,6 +104,7 @@ class Screen:
         self._ahead = Ahead(iter(()))
         self._redraw: Callable[[], object] = Text
         self._prompt = ""
+        self._begun = False
 
     def redraw(self) -> str:
         """Show what is asked now once more; what is returned is its prompt."""
@@ -158,6 +160,7 @@ class Screen:
         if self._seen is None or exercise.id is None or family.name in self._seen:
             return Then.NEXT
         self._seen.add(family.name)
+        self._page()
         self._print(words("New: ", (family.title, "bold"), "."))
         wanted = self._line("Enter shows one worked example · n goes to the problem > ").strip().lower()
         if wanted == "q":
@@ -191,7 +194,15 @@ class Screen:
                 session.records.remove(record)
             record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
+    def _page(self) -> None:
+        """Begin at the top of the screen; what was there is scrolled away, not erased. Not before the first problem."""
+        begun, self._begun = self._begun, True
+        if begun and self._console.is_terminal and not self._console.is_dumb_terminal and not self._plain:
+            self._console.print("\n" * self._console.height, end="")
+            self._console.control(Control.home())
+
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
+        self._page()
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
         line = [(f"Problem {number}", "bold")]

@@ -145,3 +145,14 @@ def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -
     running.types("hand in", "1 of 2 parts have no answer. Hand in?")
     running.types("yes", "of 2 points", "1b 0 of 1 not answered")
     assert running.ends() == 0
+
+
+def test_the_next_problem_begins_at_the_top_of_the_screen_and_what_was_there_is_scrolled_away(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "return/1/7", "return/1/8")
+    running.sees("(a) > ")
+    running.types("s", "(b) > ")
+    running.types("s", "Enter next", "> ")
+    running.child.sendline("")
+    running.child.expect("(?:\r\n){30}\x1b\\[H")  # the terminal has 30 lines
+    running.sees("Problem 2 of 2")
+    running.child.close(force=True)
