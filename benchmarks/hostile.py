@@ -2,8 +2,8 @@
 
 python benchmarks/hostile.py [FAMILY …]
 
-To every part of a problem of every family and level everything below is answered, in the shape that the part asks for
-and without one, and to the part after it the right answer, so that the problem is also gone on with from it.
+To every part of a problem of every family and level, and to those after it, everything below is answered, in the shape
+that the part asks for and without one.
 """
 
 import sys
@@ -16,7 +16,6 @@ from rldrill.exercise import Exercise, draw
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import UserError
 from rldrill.problems.parts import Kind, Matrix, Numbers, Part, Policy, Values
-from rldrill.solutions.answers.kinds import answer_kind
 
 PRIMES = [number for number in range(2, 400) if all(number % other for other in range(2, number))]
 #: So many characters are read, and so many of the worst answers are told.
@@ -118,29 +117,27 @@ def shaped(number: Callable[[int, str], str], kind: Kind, letter: str) -> str:
             return number(LONGEST, letter)
 
 
-def answers(part: Part, letter: str) -> Iterator[tuple[str, str]]:
-    """Hostile answers to a part, each with its name."""
+def submissions(exercise: Exercise, first: Part) -> Iterator[tuple[str, dict[str, str]]]:
+    """Hostile answers to a part and all after it, which are judged as what follows from it, too; each with a name."""
+    letter = next(iter(exercise.problem.parameters), "gamma")
+    parts = [part for part in exercise.parts if part.label >= first.label]
     for name, number in NUMBERS.items():
-        yield name, shaped(number, part.kind, letter)
+        yield name, {part.label: shaped(number, part.kind, letter) for part in parts}
     for whole in WHOLES:
-        yield f"{whole[:12]!r} × {len(whole)}", whole
+        yield f"{whole[:12]!r} × {len(whole)}", {part.label: whole for part in parts}
 
 
-def judged(exercise: Exercise, part: Part, text: str) -> None:
-    """Judge an answer, and go on from it."""
-    given: dict[str, str] = {part.label: text}
-    for other in exercise.parts:
-        if other.label > part.label:
-            given[other.label] = answer_kind(other.kind).write(exercise.solution.answers[other.label])
+def judged(exercise: Exercise, typed: dict[str, str]) -> None:
+    """Judge a submission."""
     with suppress(UserError):
-        exercise.grade(given)
+        exercise.grade(typed)
 
 
-def taken(exercise: Exercise, part: Part, text: str) -> float:
-    """The processor time of judging an answer, in seconds."""
+def taken(exercise: Exercise, typed: dict[str, str]) -> float:
+    """The processor time of judging a submission, in seconds for each of its answers."""
     begun = time.process_time()
-    judged(exercise, part, text)
-    return time.process_time() - begun
+    judged(exercise, typed)
+    return (time.process_time() - begun) / len(typed)
 
 
 def main(names: list[str]) -> None:
@@ -151,19 +148,18 @@ def main(names: list[str]) -> None:
     for name in names:
         for level in family(name).levels:
             exercise = draw(name, level, 3)
-            letter = next(iter(exercise.problem.parameters), "gamma")
             for part in exercise.parts:
-                judged(exercise, part, "1")  # what is worked out once for a problem is no answer's doing
-                for called, text in answers(part, letter):
-                    count += 1
+                judged(exercise, {part.label: "1"})  # what is worked out once for a problem is no answer's doing
+                for called, typed in submissions(exercise, part):
+                    count += len(typed)
                     where = f"{name}/{level} ({part.label})  {called}"
-                    seconds = taken(exercise, part, text)
+                    seconds = taken(exercise, typed)
                     if seconds > TOLD:  # a busy machine takes longer, now and then
-                        seconds = min(seconds, taken(exercise, part, text), taken(exercise, part, text))
+                        seconds = min(seconds, taken(exercise, typed), taken(exercise, typed))
                     slow.append((seconds, where))
                     if seconds > TOLD:  # what takes much memory takes its time
                         tracemalloc.start()
-                        judged(exercise, part, text)
+                        judged(exercise, typed)
                         large.append((tracemalloc.get_traced_memory()[1] / 2**20, where))
                         tracemalloc.stop()
     print(f"{count} answers")
