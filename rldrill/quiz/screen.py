@@ -6,7 +6,6 @@ from dataclasses import replace
 from enum import Enum
 
 from rich.console import Console, Group, RenderableType
-from rich.control import Control
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
@@ -28,7 +27,7 @@ from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, compared, render, renderable, words
+from rldrill.render.terminal import asked, compared, render, renderable, turn_page, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
@@ -195,11 +194,10 @@ class Screen:
             record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
     def _page(self) -> None:
-        """Begin at the top of the screen; what was there is scrolled away, not erased. Not before the first problem."""
+        """Every problem begins at the top of the screen; but before the first it is said what comes."""
         begun, self._begun = self._begun, True
-        if begun and self._console.is_terminal and not self._console.is_dumb_terminal and not self._plain:
-            self._console.print("\n" * self._console.height, end="")
-            self._console.control(Control.home())
+        if begun and not self._plain:
+            turn_page(self._console)
 
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
         self._page()

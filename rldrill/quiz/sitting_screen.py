@@ -18,7 +18,7 @@ from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, render, renderable, words
+from rldrill.render.terminal import asked, render, renderable, turn_page, words
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
@@ -55,7 +55,7 @@ class SittingScreen:
         self._console = console
         self._ask = ask
         self._now = now
-        self._kept, self._told = True, False
+        self._kept, self._told, self._begun = True, False, False
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -211,7 +211,11 @@ class SittingScreen:
         exercise = sitting.version.exercises[number]
         points = sum(part.points for part in exercise.parts)
         title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
-        self._print()
+        if self._begun and not self._plain:
+            turn_page(self._console)
+        else:
+            self._print()
+        self._begun = True
         self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
         self._print()
         if self._plain:
