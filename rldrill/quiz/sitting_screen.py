@@ -1,6 +1,7 @@
 """An exam in the terminal: part after part, back and forth, and a report once it is handed in."""
 
 import re
+import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from fractions import Fraction
@@ -271,9 +272,11 @@ class SittingScreen:
         if not self._kept:
             self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
             return
-        exam = "" if sitting.manifest is None else f"--for {sitting.manifest} "
-        again = f"rldrill verify {exam}{sitting.path}"
-        self._whole(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))
+        again = ["rldrill", "verify", str(sitting.path)]
+        if sitting.manifest is not None:
+            again += ["--for", str(sitting.manifest)]
+            again += ["--version", sitting.version.code] if len(sitting.exam.versions) > 1 else []
+        self._whole(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"))
 
     def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
         says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)
