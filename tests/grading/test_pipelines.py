@@ -57,6 +57,7 @@ def run(script: str, folder: Path, **more: str) -> "subprocess.CompletedProcess[
             "github-workflows",
             [".github/workflows/ci.yml", ".github/workflows/release.yml", "examples/ci/github/rldrill.yml"],
         ),
+        ("dependabot", [".github/dependabot.yml"]),
         ("gitlab-ci", ["examples/ci/gitlab/.gitlab-ci.yml"]),
     ],
 )
@@ -68,7 +69,7 @@ def test_the_pipelines_fit_the_schemas_of_their_services(schema: str, files: lis
 
 
 def test_the_workflows_are_safe() -> None:
-    files = [ROOT / "action.yml", ROOT / ".github" / "workflows", CI / "github" / "rldrill.yml"]
+    files = [ROOT / "action.yml", ROOT / ".github", CI / "github" / "rldrill.yml"]
     settings = ["--offline", "--no-progress", "--config", str(ROOT / ".github" / "zizmor.yml")]
     command = [str(Path(sys.executable).with_name("zizmor")), *settings, *map(str, files)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
