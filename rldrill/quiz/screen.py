@@ -161,11 +161,11 @@ class Screen:
         self._seen.add(family.name)
         self._page()
         self._print(words("New: ", (family.title, "bold"), "."))
-        wanted = self._line("Enter shows one worked example · n goes to the problem > ").strip().lower()
+        wanted = self._key("Enter shows one worked example · n goes to the problem > ")
         if wanted == "q":
             return Then.QUIT
         self._print()
-        if wanted in ("n", "next"):
+        if wanted in ("n", "next", "s"):
             return Then.NEXT
         shown = variant(exercise)
         self._question(shown)
@@ -174,9 +174,21 @@ class Screen:
             self._indented(render(shown.working(part.label)))
             self._signed(("The answer:", "dim"), renderable(shown.answer(part)))
             self._print()
-        wanted = self._line("Enter: your turn > ").strip().lower()
+        wanted = self._key("Enter: your turn > ")
         self._print()
         return Then.QUIT if wanted == "q" else Then.NEXT
+
+    def _key(self, prompt: str) -> str:
+        """The key that is meant where no answer is asked for; help and the map are shown, and it is asked again."""
+        while True:
+            text = self._line(prompt).strip().lower().removeprefix(":")
+            match COMMANDS.get(text, text):
+                case "?":
+                    self._help()
+                case "t":
+                    self._print(self._topics())
+                case key:
+                    return key
 
     def _problem(self, exercise: Exercise, number: int, session: Session) -> Then:
         record = Record.of(exercise)

@@ -113,9 +113,18 @@ def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: 
 def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
     running.sees("Your first quiz", "New: ", "n goes to the problem > ")
+    running.types("topics", "fundamentals", "0 of", "n goes to the problem > ")
+    running.types("?", "this help", "n goes to the problem > ")
     running.types("", "your turn > ")
     running.types("", "Problem 1 of 10", "h hint", "> ")
     running.types("q", "Nothing was answered")
+    assert running.ends() == 0
+
+
+def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80)
+    running.sees("n goes to the problem > ")
+    running.types("quit", "Nothing was answered")
     assert running.ends() == 0
 
 
