@@ -24,8 +24,9 @@ _IN_STEPS = frozenset().union(weights.IDEAS, weights.VALUES, weights.INSIDE)
 _KINDS = _IN_STEPS.union(weights.PROCEDURE, weights.ANSWERS)
 #: So many problems of a skill are drawn in search of one in which the mistake can be made; then it is given up.
 _TRIES = 8
-#: So many seconds are spent on what can be done wrongly in a part, where the mistake is none that is listed.
-_SEARCH = 0.5
+#: So many seconds at most are spent on what can be done wrongly in a part, where the mistake is none that is listed; it
+#: is looked at what has been found every so often.
+_SEARCH, _STEP = 2.0, 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +128,11 @@ def _can_be_made(name: str, exercise: Exercise) -> bool:
 
 def _spoils(kind: str, exercise: Exercise, label: str) -> bool:
     outcomes = exercise.diagnosing.outcomes(label, {})
-    outcomes.grow(Clock(_SEARCH))
-    causes = (outcome.cause for outcome in outcomes.single.every if outcome.cause.kind == kind)
-    # Any number can be written down wrongly; what is made in a step has a formula or an application.
-    return any(kind not in _IN_STEPS or cause.edit is not None or cause.application is not None for cause in causes)
+    clock, finished = Clock(_SEARCH), False
+    while not finished and not clock.over:
+        finished = outcomes.grow(Clock(_STEP))
+        causes = (outcome.cause for outcome in outcomes.single.every if outcome.cause.kind == kind)
+        # Any number can be written down wrongly; what is made in a step has a formula or an application.
+        if any(kind not in _IN_STEPS or cause.edit is not None or cause.application is not None for cause in causes):
+            return True
+    return False
