@@ -31,7 +31,7 @@ def command(
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=_complete,
-            help="Topics, families, problem IDs or problem files; what your history says, if none.",
+            help="Topics, families, problem IDs or problem files; all families, if none.",
         ),
     ] = None,
     number: Annotated[
@@ -66,13 +66,15 @@ def command(
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 
-    Without names, a level or a seed your history chooses: what is due for review, and something new.
+    Your history chooses what is asked, of all or of what is named: what is due for review, and something new, the easy
+    before the hard. With a level or a seed it is drawn at random.
 
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
 
     Only the problems in which one mistake is made: rldrill quiz --mistake forgot-gamma
     """
     from rldrill.problems.errors import UsageError
+    from rldrill.problems.identity import names_a_problem
     from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
 
     if not is_interactive():
@@ -96,13 +98,14 @@ def command(
 
         drilled = drill(mistake, keeper.read(), wanted, level)
         typer.echo(drilled.says())
-    elif exam_date is not None or not (wanted or level or seed is not None):
+    elif exam_date is not None or not (level or seed is not None or any(map(names_a_problem, wanted))):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        typer.echo(plan.says())  # before the libraries that take a while
+        if plan is not None:
+            typer.echo(plan.says())  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
-    from rldrill.quiz.questions import is_problem, planned, questions, timed
+    from rldrill.quiz.questions import planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
@@ -134,7 +137,7 @@ def command(
         console(plain=plain),
         line_editor(),
         recorder,
-        None if any(map(is_problem, wanted)) else {attempt.family for attempt in attempts},
+        None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
         lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
         plain=plain,
     )
@@ -181,9 +184,10 @@ def _expected(minutes: int | None) -> int:
     return _NUMBER if minutes is None else max(1, minutes // _MINUTES_EACH)
 
 
-def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan":
-    from rldrill.problems.catalogue import selection
+def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan | None":
+    """What your history chooses of the families that are named; None where it is not known what they take."""
+    from rldrill.problems.catalogue import chosen
     from rldrill.quiz.planning import Plan, skills
 
-    families = [family.name for family in selection(names)] if names else None
-    return Plan(skills(families), attempts, number, datetime.now(UTC), exam_date and exam_date.date())
+    order = skills(chosen(names) if names else None)
+    return Plan(order, attempts, number, datetime.now(UTC), exam_date and exam_date.date()) if order else None

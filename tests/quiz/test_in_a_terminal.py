@@ -121,6 +121,13 @@ def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     assert running.ends() == 0
 
 
+def test_of_a_topic_that_is_named_the_easy_problems_come_first(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "bayes")
+    running.sees("Your first quiz: 10 problems, easy ones before others.", "n goes to the problem > ")
+    running.types("n", "Problem 1 of 10", "level 1", "> ")
+    running.child.close(force=True)
+
+
 def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
     running.sees("n goes to the problem > ")
