@@ -131,6 +131,7 @@ def command(
         minutes=minutes,
         again=again,
         drilled="" if drilled is None else drilled.name,
+        more=None if drilled is None else lambda: drilled.exercises(fresh_seed()),
     )
     attempts = keeper.read()
     screen = Screen(

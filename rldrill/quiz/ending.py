@@ -36,7 +36,8 @@ def ending(session: Session, seconds: float) -> Iterator[RenderableType]:
     commands.add_column(overflow="fold")
     if (weak := weakest(session)) is not None:
         yield words("Weakest: ", (weak.title, "bold"), ".")
-        commands.add_row("Five more:", weak.command)
+        if session.more is None:
+            commands.add_row("Five more:", weak.command)
     if made:
         alone = "This mistake:" if len(made) == 1 else "The first mistake:"
         commands.add_row(alone, f"rldrill quiz --mistake {made[0][0].name}")

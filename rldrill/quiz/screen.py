@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from enum import Enum
+from itertools import islice
 
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
@@ -127,7 +128,7 @@ class Screen:
                     if session.parts or more is exercises:
                         self.summary(session, self._recorder.elapsed - begin)
                 more = self._five_more(session)
-                session = Session(_FIVE, again=session.again)
+                session = Session(_FIVE, again=session.again, drilled=session.drilled, more=session.more)
         except EOFError:
             self._print()
         except KeyboardInterrupt:
@@ -146,12 +147,12 @@ class Screen:
             raise
 
     def _five_more(self, session: Session) -> Iterator[Exercise] | None:
-        """Problems of the weakest skill, if there is one and they are wanted."""
-        weak = weakest(session) if session.parts else None
-        if weak is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
+        """Problems of the mistake that is drilled, or of the weakest skill, if there is one and they are wanted."""
+        more = (session.more or _of_the_weakest(session)) if session.parts else None
+        if more is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
             return None
         self._print()
-        return (draw(weak.family, weak.level or _LEVEL, fresh_seed()) for _ in range(_FIVE))
+        return islice(more(), _FIVE)
 
     def _example(self, exercise: Exercise) -> Then:
         """Show one of a family that is new worked out, if that is wanted."""
@@ -460,6 +461,14 @@ class Screen:
 
     def _print(self, content: RenderableType = "") -> None:
         self._console.print(content, width=min(self._console.width, WIDEST))
+
+
+def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None:
+    weak = weakest(session)
+    if weak is None:
+        return None
+    family, level = weak.family, weak.level or _LEVEL
+    return lambda: (draw(family, level, fresh_seed()) for _ in range(_FIVE))
 
 
 def _without_value(diagnosis: Diagnosis) -> Equation | None:

@@ -128,6 +128,16 @@ def test_of_a_topic_that_is_named_the_easy_problems_come_first(tmp_path: Path) -
     running.child.close(force=True)
 
 
+def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 120, "--mistake", "forgot gamma", "bellman", "-n", "1", "--seed", "5")
+    running.sees("Only “forgot gamma”, not made so far", "n goes to the problem > ")
+    running.types("n", "Problem 1 of 1", "Bellman backup", "> ")
+    running.types("s", "The answer:", "Enter next")
+    running.types("", "“forgot gamma”: made in none of 1 problem.", "f five more of these")
+    running.types("f", "Problem 1 of 5", "> ")
+    running.child.close(force=True)
+
+
 def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
     running.sees("n goes to the problem > ")
