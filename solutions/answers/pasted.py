@@ -1,7 +1,7 @@
 """What programs print (numpy, MATLAB, LaTeX, JSON, tables, rldrill itself) in the marks that people type.
 
 Signs become other signs or blanks, one for one, so that complaints still name the right column; only matrices in
-brackets of several lines are put together anew.
+brackets of several lines, and numbers that are longer than a line, are put together anew.
 """
 
 import re
@@ -45,6 +45,10 @@ _OPTION = re.compile(r",\s*[A-Za-z_]\w*\s*=")
 _TYPE = re.compile(r"<[^<>\n]*>\s*,")
 
 _CONTINUED = re.compile(r"(?<=[\s,;\[])\.\.\.[^\S\n]*\n")
+#: Nobody puts so many digits on a line and then others that go with them: the terminal's edge tore the number.
+_TORN = re.compile(r"(?<=[0-9/]{40})\n[^\S\n]*(?=[0-9/]+[^\S\n]*(?:\n|\Z))")
+#: A sign of equality on a line of its own.
+_ALONE = re.compile(r"\n[^\S\n]*[=≈][^\S\n]*\n")
 _FOLLOWS = re.compile(r"\n\s*(?=[=≈])(?!==)")
 _HEADER = re.compile(r"\A\s*(?:\d+(?:×\d+|-element) [^\n:]*:[^\S\n]*(?=\n)|\[1\](?=\s+[-+.\d]))")
 _FOOTER = re.compile(r"\n(?:Name: [^\n]*?)?(?:dtype|Length): [^\n]*\Z")
@@ -175,6 +179,8 @@ def _bracketed(text: str) -> Iterator[tuple[int, int]]:
 def _tables(text: str) -> str:
     """Cells parted by ``|``, whatever parted them, without the lines that are drawn around them."""
     text = _CONTINUED.sub(_blank, text)
+    text = _TORN.sub("", text)
+    text = _ALONE.sub(lambda match: match[0].replace("\n", " "), text)
     text = _FOLLOWS.sub(_blank, text)
     text = _HEADER.sub(_blank, text)
     text = _FOOTER.sub(_blank, text)

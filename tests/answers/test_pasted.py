@@ -399,3 +399,9 @@ def test_coordinates_are_names_of_states(typed: str) -> None:
     given = {"gamma": "1/2", "sweeps": 1, "mdp": {"transitions": rows}}
     exercise = rldrill.read({"family": "value-iteration", "given": given})
     assert exercise.check(typed).outcome is rldrill.Outcome.RIGHT
+
+
+def test_a_number_that_the_edge_of_the_terminal_tore_is_one() -> None:
+    digits = "1234567890" * 4
+    assert laid_out(f"R_0\n=\n{digits}\n{digits}/7\n11\n≈ 1.5") == f"R_0 = {digits}{digits}/711 ≈ 1.5"
+    assert laid_out("1/4\n3") == "1/4\n3"
