@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 from rldrill.problems.errors import UsageError
 
@@ -46,3 +47,8 @@ def split_id(text: str) -> tuple[str, int, int, int | None]:
         int(match["seed"]),
         None if revision is None else int(revision),
     )
+
+
+def names_a_problem(name: str) -> bool:
+    """Whether a name is that of one problem: an ID, or a file."""
+    return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")

@@ -1,6 +1,6 @@
 """``rldrill quiz``."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -11,6 +11,7 @@ import typer
 from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
+    from rldrill.exercise import Exercise
     from rldrill.history.attempts import Attempt
     from rldrill.quiz.planning import Plan
 
@@ -30,7 +31,7 @@ def command(
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
             autocompletion=_complete,
-            help="Topics, families, problem IDs or problem files; what your history says, if none.",
+            help="Topics, families, problem IDs or problem files; all families, if none.",
         ),
     ] = None,
     number: Annotated[
@@ -45,6 +46,10 @@ def command(
     ] = None,
     minutes: Annotated[
         int | None, typer.Option("--minutes", "-m", min=1, max=600, help="End after so many minutes.")
+    ] = None,
+    mistake: Annotated[
+        str | None,
+        typer.Option("--mistake", metavar="NAME", help="Only problems in which this mistake gives a wrong answer."),
     ] = None,
     exam: Annotated[
         Path | None,
@@ -61,11 +66,15 @@ def command(
 ) -> None:
     """Drill in the terminal: fresh problems, judged answers, mistakes explained.
 
-    Without names, a level or a seed your history chooses: what is due for review, and something new.
+    Your history chooses what is asked, of all or of what is named: what is due for review, and something new, the easy
+    before the hard. With a level or a seed it is drawn at random.
 
     Examples: rldrill quiz · rldrill quiz --minutes 15 · rldrill quiz bellman -n 5 --level 2 · rldrill quiz td-zero/2/7
+
+    Only the problems in which one mistake is made: rldrill quiz --mistake forgot-gamma
     """
     from rldrill.problems.errors import UsageError
+    from rldrill.problems.identity import names_a_problem
     from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
 
     if not is_interactive():
@@ -81,14 +90,22 @@ def command(
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
     wanted = list(names or ())
-    plan = None
-    if exam_date is not None or not (wanted or level or seed is not None):
+    plan, drilled = None, None
+    if mistake is not None:
+        if exam_date is not None:
+            raise UsageError("--mistake says what is asked; leave --exam-date out.")
+        from rldrill.quiz.drilling import drill
+
+        drilled = drill(mistake, keeper.read(), wanted, level)
+        typer.echo(drilled.says())
+    elif exam_date is not None or not (level or seed is not None or any(map(names_a_problem, wanted))):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        typer.echo(plan.says())  # before the libraries that take a while
+        if plan is not None:
+            typer.echo(plan.says())  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
-    from rldrill.quiz.questions import is_problem, planned, questions, timed
+    from rldrill.quiz.questions import planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
@@ -97,7 +114,10 @@ def command(
 
     recorder = Recorder(keeper.keep)
     total = number or (_MOST if minutes else _NUMBER)
-    if plan is None:
+    exercises: Iterator[Exercise]
+    if drilled is not None:
+        exercises = islice(drilled.exercises(announced_seed(seed)), total)
+    elif plan is None:
         exercises, total = questions(wanted, total, level, lambda: announced_seed(seed))
     else:
         exercises = islice(planned(plan, recorder, utc_now, fresh_seed), total)
@@ -106,13 +126,19 @@ def command(
     again = (
         "rldrill quiz" if exam_date is None else " ".join(["rldrill quiz", *wanted, f"--exam-date {exam_date.date()}"])
     )
-    session = Session(total if number or not minutes else None, minutes=minutes, again=again)
+    session = Session(
+        total if number or not minutes else None,
+        minutes=minutes,
+        again=again,
+        drilled="" if drilled is None else drilled.name,
+        more=None if drilled is None else lambda: drilled.exercises(fresh_seed()),
+    )
     attempts = keeper.read()
     screen = Screen(
         console(plain=plain),
         line_editor(),
         recorder,
-        None if any(map(is_problem, wanted)) else {attempt.family for attempt in attempts},
+        None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
         lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
         plain=plain,
     )
@@ -159,9 +185,10 @@ def _expected(minutes: int | None) -> int:
     return _NUMBER if minutes is None else max(1, minutes // _MINUTES_EACH)
 
 
-def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan":
-    from rldrill.problems.catalogue import selection
+def _plan(names: list[str], attempts: Sequence["Attempt"], number: int, exam_date: datetime | None) -> "Plan | None":
+    """What your history chooses of the families that are named; None where it is not known what they take."""
+    from rldrill.problems.catalogue import chosen
     from rldrill.quiz.planning import Plan, skills
 
-    families = [family.name for family in selection(names)] if names else None
-    return Plan(skills(families), attempts, number, datetime.now(UTC), exam_date and exam_date.date())
+    order = skills(chosen(names) if names else None)
+    return Plan(order, attempts, number, datetime.now(UTC), exam_date and exam_date.date()) if order else None

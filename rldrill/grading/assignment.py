@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rldrill.exam.manifest import Printed, printed, read_exam
 from rldrill.files import read_text, shown
-from rldrill.grading.answers_file import PLACE, Entry, table
+from rldrill.grading.answers_file import JOINERS, PLACE, Entry, table
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import looks_like_id, split_id
 
@@ -142,5 +142,6 @@ class Assignment:
 
 
 def folded(name: str) -> str:
-    """A name as names are compared: without regard to case, normal form and spaces."""
-    return " ".join(unicodedata.normalize("NFC", unicodedata.normalize("NFKC", name).casefold()).split())
+    """A name as names are compared: without regard to case, normal form, spaces and joiners that are not seen."""
+    seen = "".join(sign for sign in name if sign not in JOINERS)
+    return " ".join(unicodedata.normalize("NFC", unicodedata.normalize("NFKC", seen).casefold()).split())

@@ -5,9 +5,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rich.console import RenderableType
+from rich.table import Table
 from rich.text import Text
 
-from rldrill.quiz.session import Session, State
+from rldrill.quiz.mistakes import called
+from rldrill.quiz.session import Mistake, Session, State
 from rldrill.render.terminal import words
 
 #: So many mistakes are told.
@@ -19,14 +21,28 @@ def ending(session: Session, seconds: float) -> Iterator[RenderableType]:
     parts = session.parts
     right = sum(part.state is State.DONE for part in parts)
     first = sum(part.first_time for part in parts)
-    yield (Text(f"{right} of {len(parts)} parts right, {first} of them at the first try.", style="bold"))
+    counted = "1 part" if len(parts) == 1 else f"{len(parts)} parts"
+    tries = f", {first} of them at the first try" if right > 1 else ", at the first try" if first else ""
+    yield (Text(f"{right} of {counted} right{tries}.", style="bold"))
     earned, possible = sum(part.points for part in parts), sum(part.part.points for part in parts)
     yield (Text(f"{float(earned):.3g} of {possible} points in {_time(seconds)}."))
-    for says, times in mistakes(session).most_common(_FEW):
-        yield (words((f"  ✗ {'' if times == 1 else f'{times} times: '}", "red"), says))
+    if session.drilled:
+        yield words(_drilled(session))
+    made = mistakes(session).most_common(_FEW)
+    for mistake, times in made:
+        yield (words((f"  ✗ {'' if times == 1 else f'{times} times: '}", "red"), mistake.says))
+    commands = Table.grid(padding=(0, 2, 0, 0))
+    commands.add_column(no_wrap=True)
+    commands.add_column(overflow="fold")
     if (weak := weakest(session)) is not None:
-        yield (words("Weakest: ", (weak.title, "bold"), f". Five more of these: {weak.command}"))
-    yield (words("Tomorrow: ", (session.again, "bold")))
+        yield words("Weakest: ", (weak.title, "bold"), ".")
+        if session.more is None:
+            commands.add_row("Five more:", weak.command)
+    if made:
+        alone = "This mistake:" if len(made) == 1 else "The first mistake:"
+        commands.add_row(alone, f"rldrill quiz --mistake {made[0][0].name}")
+    commands.add_row("Tomorrow:", Text(session.again, style="bold"))
+    yield commands
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +55,20 @@ class Weak:
     level: int | None
 
 
-def mistakes(session: Session) -> Counter[str]:
+def mistakes(session: Session) -> Counter[Mistake]:
     """The mistakes that were made, and how often."""
-    return Counter(mistake.says for part in session.parts for made in part.made for mistake in made)
+    return Counter(mistake for part in session.parts for made in part.made for mistake in made)
+
+
+def _drilled(session: Session) -> str:
+    """In how many problems the mistake was made that was drilled."""
+    begun = [record for record in session.records if record.begun]
+    made = sum(
+        any(mistake.name == session.drilled for part in record.parts for each in part.made for mistake in each)
+        for record in begun
+    )
+    problems = "1 problem" if len(begun) == 1 else f"{len(begun)} problems"
+    return f"“{called(session.drilled)}”: made in {made or 'none'} of {problems}."
 
 
 def weakest(session: Session) -> Weak | None:

@@ -167,8 +167,10 @@ class Plan:
         """One line: how much is due and new, and why the first problem is asked."""
         now = self._begin
         if not self._attempts:
+            several = len({self._topic[skill.family] for skill in self._order}) > 1
+            of_topics = " of the first topics" if several else ""
             return (
-                f"Your first quiz: {self._number} problems, easy ones of the first topics before others. "
+                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others. "
                 "What you answer is kept, and decides what comes next."
             )
         due, first = len(self.due(now)), self._peek(now)

@@ -22,6 +22,8 @@ _SHADES, _ASCII = "·░▒▓█", ".-+x#"
 #: From so many answers on a day is as dark as it gets.
 _FULL = 20
 _DAY = timedelta(days=1)
+#: So many of the mistakes have a command that drills them.
+_DRILLS = 3
 
 
 def shown(progress: Progress) -> RenderableType:
@@ -113,8 +115,9 @@ def _mistakes(mistakes: tuple[Mistake, ...]) -> Iterator[RenderableType]:
     for each in mistakes:
         table.add_row(f"{each.times} ×", words(called(each.name)), words((each.family, "dim")))
     yield table
-    families = dict.fromkeys(each.family for each in mistakes[:3])
-    yield words(("To drill these: ", "dim"), f"rldrill quiz {' '.join(families)}")
+    yield words(("To drill one of them alone:", "dim"))
+    for name in dict.fromkeys(each.name for each in mistakes[:_DRILLS]):
+        yield Text(f"  rldrill quiz --mistake {name}", no_wrap=True)
 
 
 def _due(due: tuple[int, ...]) -> str:

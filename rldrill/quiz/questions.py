@@ -3,12 +3,11 @@
 from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
 from itertools import islice
-from pathlib import Path
 
 from rldrill.exam.selection import sequence
 from rldrill.exercise import Exercise, draw, load
 from rldrill.problems.catalogue import selection
-from rldrill.problems.identity import looks_like_id
+from rldrill.problems.identity import names_a_problem
 from rldrill.quiz.planning import Plan
 from rldrill.quiz.recording import Recorder
 
@@ -21,7 +20,7 @@ def questions(
     Raises:
         UsageError: a name is neither a topic, a family, an ID nor a file.
     """
-    named = [name for name in names if is_problem(name)]
+    named = [name for name in names if names_a_problem(name)]
     if named and len(named) == len(names):
         return iter([load(name) for name in named]), len(named)
     rest = [name for name in names if name not in named]
@@ -29,11 +28,6 @@ def questions(
     drawn = (draw(family.name, wanted, own) for family, wanted, own in sequence(rest, level, seed()))
     first = [load(name) for name in named]
     return _both(first, islice(drawn, max(0, number - len(first)))), max(number, len(first))
-
-
-def is_problem(name: str) -> bool:
-    """Whether a name is that of one problem: an ID or a file."""
-    return looks_like_id(name) or Path(name).suffix.lower() in (".toml", ".json")
 
 
 def _both(first: list[Exercise], drawn: Iterator[Exercise]) -> Iterator[Exercise]:

@@ -2,15 +2,19 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from enum import Enum
+from itertools import islice
 
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from rldrill.diagnosis import Diagnosis
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
+from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
 from rldrill.quiz.ahead import Ahead
@@ -24,7 +28,7 @@ from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, compared, render, renderable, words
+from rldrill.render.terminal import asked, compared, render, renderable, turn_page, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
@@ -100,6 +104,7 @@ class Screen:
         self._ahead = Ahead(iter(()))
         self._redraw: Callable[[], object] = Text
         self._prompt = ""
+        self._begun = False
 
     def redraw(self) -> str:
         """Show what is asked now once more; what is returned is its prompt."""
@@ -123,7 +128,7 @@ class Screen:
                     if session.parts or more is exercises:
                         self.summary(session, self._recorder.elapsed - begin)
                 more = self._five_more(session)
-                session = Session(_FIVE, again=session.again)
+                session = Session(_FIVE, again=session.again, drilled=session.drilled, more=session.more)
         except EOFError:
             self._print()
         except KeyboardInterrupt:
@@ -142,12 +147,12 @@ class Screen:
             raise
 
     def _five_more(self, session: Session) -> Iterator[Exercise] | None:
-        """Problems of the weakest skill, if there is one and they are wanted."""
-        weak = weakest(session) if session.parts else None
-        if weak is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
+        """Problems of the mistake that is drilled, or of the weakest skill, if there is one and they are wanted."""
+        more = (session.more or _of_the_weakest(session)) if session.parts else None
+        if more is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
             return None
         self._print()
-        return (draw(weak.family, weak.level or _LEVEL, fresh_seed()) for _ in range(_FIVE))
+        return islice(more(), _FIVE)
 
     def _example(self, exercise: Exercise) -> Then:
         """Show one of a family that is new worked out, if that is wanted."""
@@ -155,12 +160,13 @@ class Screen:
         if self._seen is None or exercise.id is None or family.name in self._seen:
             return Then.NEXT
         self._seen.add(family.name)
+        self._page()
         self._print(words("New: ", (family.title, "bold"), "."))
-        wanted = self._line("Enter shows one worked example · n goes to the problem > ").strip().lower()
+        wanted = self._key("Enter shows one worked example · n goes to the problem > ")
         if wanted == "q":
             return Then.QUIT
         self._print()
-        if wanted in ("n", "next"):
+        if wanted in ("n", "next", "s"):
             return Then.NEXT
         shown = variant(exercise)
         self._question(shown)
@@ -169,9 +175,21 @@ class Screen:
             self._indented(render(shown.working(part.label)))
             self._signed(("The answer:", "dim"), renderable(shown.answer(part)))
             self._print()
-        wanted = self._line("Enter: your turn > ").strip().lower()
+        wanted = self._key("Enter: your turn > ")
         self._print()
         return Then.QUIT if wanted == "q" else Then.NEXT
+
+    def _key(self, prompt: str) -> str:
+        """The key that is meant where no answer is asked for; help and the map are shown, and it is asked again."""
+        while True:
+            text = self._line(prompt).strip().lower().removeprefix(":")
+            match COMMANDS.get(text, text):
+                case "?":
+                    self._help()
+                case "t":
+                    self._print(self._topics())
+                case key:
+                    return key
 
     def _problem(self, exercise: Exercise, number: int, session: Session) -> Then:
         record = Record.of(exercise)
@@ -188,7 +206,14 @@ class Screen:
                 session.records.remove(record)
             record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
+    def _page(self) -> None:
+        """Every problem begins at the top of the screen; but before the first it is said what comes."""
+        begun, self._begun = self._begun, True
+        if begun and not self._plain:
+            turn_page(self._console)
+
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
+        self._page()
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
         line = [(f"Problem {number}", "bold")]
@@ -361,7 +386,10 @@ class Screen:
         if drawn:
             self._signed(("read as", "dim"), renderable(answer_block(part.part, verdict.value)))
         if diagnosis is not None and diagnosis.wrong is not None and diagnosis.right is not None:
-            self._print(compared(diagnosis.wrong, diagnosis.right))
+            # What comes out of the right line may be the answer, and is left to whoever tries again.
+            right = _without_value(diagnosis) if part.state is State.OPEN else diagnosis.right
+            if right is not None:
+                self._print(compared(diagnosis.wrong, right))
         counted = not verdict.accepted and verdict.outcome is not Outcome.UNREADABLE
         if counted and part.state is State.OPEN and part.tries in (1, _MISSES):
             self._indented(words((_OR_ELSE if part.tries == 1 else _FIRST_LINE, "dim")))
@@ -433,6 +461,24 @@ class Screen:
 
     def _print(self, content: RenderableType = "") -> None:
         self._console.print(content, width=min(self._console.width, WIDEST))
+
+
+def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None:
+    weak = weakest(session)
+    if weak is None:
+        return None
+    family, level = weak.family, weak.level or _LEVEL
+    return lambda: (draw(family, level, fresh_seed()) for _ in range(_FIVE))
+
+
+def _without_value(diagnosis: Diagnosis) -> Equation | None:
+    """The line as it should be, without what comes out of it; None where nothing else stands there."""
+    right = diagnosis.right
+    if right is None or diagnosis.place is None or diagnosis.place.step is None:
+        return right  # a formula has no value
+    if len(right.rights) == 1:
+        return None
+    return replace(right, rights=right.rights[:-1], signs=right.signs[:-1])
 
 
 def _how(part: PartRecord) -> str:

@@ -1,6 +1,7 @@
 """What happened in a quiz, part by part: plain data, without a clock or a terminal."""
 
 import secrets
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -155,12 +156,16 @@ class Session:
         records: the problems so far.
         minutes: how long it lasts, where the time decides.
         again: the command for another day.
+        drilled: the mistake that is drilled, if one is.
+        more: more problems of the same, where they are not those of the weakest skill.
     """
 
     total: int | None
     records: list[Record] = field(default_factory=list)
     minutes: int | None = None
     again: str = "rldrill quiz"
+    drilled: str = ""
+    more: Callable[[], Iterator[Exercise]] | None = None
 
     @property
     def parts(self) -> list[PartRecord]:

@@ -1,6 +1,7 @@
 """An exam in the terminal: part after part, back and forth, and a report once it is handed in."""
 
 import re
+import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from fractions import Fraction
@@ -18,7 +19,7 @@ from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
 from rldrill.render.compact import WIDEST, Compact
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, render, renderable, words
+from rldrill.render.terminal import asked, render, renderable, turn_page, words
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
@@ -55,7 +56,7 @@ class SittingScreen:
         self._console = console
         self._ask = ask
         self._now = now
-        self._kept, self._told = True, False
+        self._kept, self._told, self._begun = True, False, False
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -211,7 +212,11 @@ class SittingScreen:
         exercise = sitting.version.exercises[number]
         points = sum(part.points for part in exercise.parts)
         title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
-        self._print()
+        if self._begun and not self._plain:
+            turn_page(self._console)
+        else:
+            self._print()
+        self._begun = True
         self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
         self._print()
         if self._plain:
@@ -267,9 +272,11 @@ class SittingScreen:
         if not self._kept:
             self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
             return
-        exam = "" if sitting.manifest is None else f"--for {sitting.manifest} "
-        again = f"rldrill verify {exam}{sitting.path}"
-        self._whole(words(f"Your answers are in {sitting.path}; '{again}' grades them again."))
+        again = ["rldrill", "verify", str(sitting.path)]
+        if sitting.manifest is not None:
+            again += ["--for", str(sitting.manifest)]
+            again += ["--version", sitting.version.code] if len(sitting.exam.versions) > 1 else []
+        self._whole(words(f"Your answers are in {sitting.path}. To grade them again: {shlex.join(again)}"))
 
     def _graded(self, name: str, part: GradedPart, kind: Kind) -> None:
         says = "not answered" if part.verdict is None else by_name(part.verdict.says, kind)

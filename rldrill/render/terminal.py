@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from rich import box
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.control import Control
 from rich.measure import Measurement
 from rich.padding import Padding
 from rich.table import Table as RichTable
@@ -269,6 +270,13 @@ def _line(math: Math, further: bool, spelling: Spelling) -> list[str]:
 
 def _wide(lines: Iterable[str]) -> int:
     return max(map(len, lines), default=0)
+
+
+def turn_page(screen: Console) -> None:
+    """Go on at the top of the screen, where there is one; what was there is scrolled away, not erased."""
+    if screen.is_terminal and not screen.is_dumb_terminal:
+        screen.print("\n" * screen.height, end="")
+        screen.control(Control.home())
 
 
 def compared(wrong: Equation, right: Equation) -> RenderableType:

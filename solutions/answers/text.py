@@ -195,7 +195,8 @@ def _matrix(
     read = (len(matrix), len(matrix[0]))
     if shape is not None and read != shape:
         if not (plain and 1 in read and read == shape[::-1]):
-            sizes = f"A {read[0]}×{read[1]} matrix was read, {shape[0]}×{shape[1]} is needed."
+            needed = "one number" if shape == (1, 1) else f"{shape[0]}×{shape[1]}"
+            sizes = f"A {read[0]}×{read[1]} matrix was read, {needed} is needed."
             raise source.unreadable(sizes + _comma(source, read[0] * read[1], shape[0] * shape[1]))
         matrix = list(zip(*matrix, strict=True))
     return tuple(matrix)

@@ -399,6 +399,7 @@ def test_a_single_entry_may_be_typed_as_a_number(text):
     [
         ("[1 2 3; 4 5 6]", (2, 2), "A 2×3 matrix was read, 2×2 is needed."),
         ("[[1, 2]]", (2, 1), "A 1×2 matrix was read, 2×1 is needed."),
+        ("[[1, 2]]", (1, 1), "A 1×2 matrix was read, one number is needed."),
         ("[1 2; 3]", (2, 2), "Row 2 has length 1, row 1 has 2"),
         ("[1, 2; 3, x]", (2, 2), "row 2, entry 2: 'x' is not"),
         ("[[1, 2], [3, 1/0]]", (2, 2), "row 2, entry 2: It divides by zero."),

@@ -76,6 +76,15 @@ def test_a_mistake_is_named_with_its_formula_and_may_be_corrected() -> None:
     assert session.parts[0].tries == 2
 
 
+def test_the_right_line_is_shown_without_the_answer_to_whoever_may_try_again() -> None:
+    # 3/4·(−2 + 4/5·30) + 1/4·(3 + 4/5·15) = 3/4·22 + 1/4·15 = 81/4; without the brackets behind π it is 3/4 + 1/4 = 1.
+    typist, _, _ = quiz("1", names=("bellman-backup/1/169269",))
+    assert "right: V^π(medium) = 3/4·1·(−2 + 4/5·30)" in typist.seen
+    assert "81/4" not in typist.seen
+    typist, _, _ = quiz("1", "s", names=("bellman-backup/1/169269",))
+    assert "The answer: 81/4" in typist.seen
+
+
 def test_what_cannot_be_read_costs_nothing() -> None:
     typist, session, _ = quiz("3,5; 2,5", "", "?", "[s0] [bold]x[/bold]", "3.5 2.5", "3.5, 2.5")
     assert typist.seen.count("Not understood, and not counted") >= 2

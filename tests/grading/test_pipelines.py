@@ -57,6 +57,7 @@ def run(script: str, folder: Path, **more: str) -> "subprocess.CompletedProcess[
             "github-workflows",
             [".github/workflows/ci.yml", ".github/workflows/release.yml", "examples/ci/github/rldrill.yml"],
         ),
+        ("dependabot", [".github/dependabot.yml"]),
         ("gitlab-ci", ["examples/ci/gitlab/.gitlab-ci.yml"]),
     ],
 )
@@ -68,7 +69,7 @@ def test_the_pipelines_fit_the_schemas_of_their_services(schema: str, files: lis
 
 
 def test_the_workflows_are_safe() -> None:
-    files = [ROOT / "action.yml", ROOT / ".github" / "workflows", CI / "github" / "rldrill.yml"]
+    files = [ROOT / "action.yml", ROOT / ".github", CI / "github" / "rldrill.yml"]
     settings = ["--offline", "--no-progress", "--config", str(ROOT / ".github" / "zizmor.yml")]
     command = [str(Path(sys.executable).with_name("zizmor")), *settings, *map(str, files)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
@@ -180,3 +181,19 @@ def test_every_pipeline_pins_the_release_and_has_a_short_readme() -> None:
     ):
         assert __version__ in (CI / name).read_text(encoding="utf-8")
     assert __version__ in (ROOT / "action.yml").read_text(encoding="utf-8")
+
+
+def test_ci_runs_on_every_system_and_python_that_the_wheel_is_tested_on() -> None:
+    workflows = (YAML(typ="safe").load(ROOT / ".github" / "workflows" / f"{name}.yml") for name in ("ci", "release"))
+    runs, wheels = (
+        {
+            (system, python)
+            for job in workflow["jobs"].values()
+            for matrix in [job.get("strategy", {}).get("matrix")]
+            if matrix
+            for system in matrix.get("system", [job["runs-on"]])
+            for python in matrix["python"]
+        }
+        for workflow in workflows
+    )
+    assert runs == wheels

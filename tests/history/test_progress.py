@@ -66,7 +66,13 @@ def test_it_fits_the_terminal(width: int) -> None:
     screen.print(shown(progress(tuple(log()), GROUPS, NOW)))
     text = screen.export_text()
     assert max(map(len, text.splitlines())) <= width
-    for piece in ("bellman", "1/2 seen", "33 % of the questions right", "1 ×  forgot gamma", "rldrill quiz td-zero"):
+    for piece in (
+        "bellman",
+        "1/2 seen",
+        "33 % of the questions right",
+        "1 ×  forgot gamma",
+        "quiz --mistake forgot-gamma",
+    ):
         assert piece in text
 
 

@@ -113,9 +113,35 @@ def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: 
 def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
     running.sees("Your first quiz", "New: ", "n goes to the problem > ")
+    running.types("topics", "fundamentals", "0 of", "n goes to the problem > ")
+    running.types("?", "this help", "n goes to the problem > ")
     running.types("", "your turn > ")
     running.types("", "Problem 1 of 10", "h hint", "> ")
     running.types("q", "Nothing was answered")
+    assert running.ends() == 0
+
+
+def test_of_a_topic_that_is_named_the_easy_problems_come_first(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "bayes")
+    running.sees("Your first quiz: 10 problems, easy ones before others.", "n goes to the problem > ")
+    running.types("n", "Problem 1 of 10", "level 1", "> ")
+    running.child.close(force=True)
+
+
+def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 120, "--mistake", "forgot gamma", "bellman", "-n", "1", "--seed", "5")
+    running.sees("Only “forgot gamma”, not made so far", "n goes to the problem > ")
+    running.types("n", "Problem 1 of 1", "Bellman backup", "> ")
+    running.types("s", "The answer:", "Enter next")
+    running.types("", "“forgot gamma”: made in none of 1 problem.", "f five more of these")
+    running.types("f", "Problem 1 of 5", "> ")
+    running.child.close(force=True)
+
+
+def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80)
+    running.sees("n goes to the problem > ")
+    running.types("quit", "Nothing was answered")
     assert running.ends() == 0
 
 
@@ -145,3 +171,14 @@ def test_an_exam_that_is_killed_goes_on_with_what_was_answered(tmp_path: Path) -
     running.types("hand in", "1 of 2 parts have no answer. Hand in?")
     running.types("yes", "of 2 points", "1b 0 of 1 not answered")
     assert running.ends() == 0
+
+
+def test_the_next_problem_begins_at_the_top_of_the_screen_and_what_was_there_is_scrolled_away(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "return/1/7", "return/1/8")
+    running.sees("(a) > ")
+    running.types("s", "(b) > ")
+    running.types("s", "Enter next", "> ")
+    running.child.sendline("")
+    running.child.expect("(?:\r\n){30}\x1b\\[H")  # the terminal has 30 lines
+    running.sees("Problem 2 of 2")
+    running.child.close(force=True)

@@ -199,9 +199,16 @@ def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path
     a, _, last = right(sitting)
     _, text, _ = sit(sitting, a, "0", last, "yes", width=400)
     assert "9 of 12 points" in text
-    assert f"rldrill verify --for {tmp_path / 'exam.json'}" in text
+    assert f"rldrill verify {tmp_path / 'answers.toml'} --for {tmp_path / 'exam.json'}\n" in text
     settings = Settings(assignment=Assignment(tmp_path / "exam.json"))
     assert verify([sitting.path], settings).score.points == 9
+
+
+def test_where_there_are_several_versions_the_command_names_the_one_that_was_sat(tmp_path: Path) -> None:
+    planned = plan(Blueprint(problems=(Entry(family="return", level=1),), seed=1, versions=2))
+    sitting = Sitting(planned, planned.versions[1], tmp_path / "my answers.toml", START, tmp_path / "exam.json")
+    _, text, _ = sit(sitting, "5", "hand in", "yes", width=400)
+    assert f"rldrill verify '{sitting.path}' --for {tmp_path / 'exam.json'} --version B\n" in text
 
 
 def test_the_manifest_makes_the_same_exam(sitting: Sitting, tmp_path: Path) -> None:
