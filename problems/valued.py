@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Scalar, dot
+from rldrill.problems.exact import Parameter, Scalar, dot
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     PARTLY_LISTED,
@@ -235,6 +235,41 @@ def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma:
         best = max(worth(model, (state, action), values, gamma) for action in actions)
         if abs(best - values[state]) > _ROUNDING * max(Fraction(1), abs(best)):
             raise ValueError(f"values: {state!r} is given as {values[state]}, but its best action is worth {best}")
+
+
+def open_reward(model: Model) -> Transition:
+    """The one transition whose reward is left open; nothing else may be.
+
+    Raises:
+        ValueError: it is not exactly one reward that is left open.
+    """
+    rows = [row for row in model.transitions if isinstance(row.reward, Parameter)]
+    if len(rows) != 1 or any(isinstance(row.probability, Parameter) for row in model.transitions):
+        raise ValueError("mdp: leave exactly one number open, a reward, such as x; it is asked for")
+    return rows[0]
+
+
+def with_reward(model: Model, reward: Fraction) -> Model:
+    """The model with a number for the reward that is left open."""
+    rows = tuple(row._replace(reward=reward) if isinstance(row.reward, Parameter) else row for row in model.transitions)
+    return Model(story=model.story, transitions=rows, terminal=model.terminal)
+
+
+def policy_values(model: Model, policy: Mapping[str, str], gamma: Fraction) -> dict[str, Fraction]:
+    """The values of a policy of one action for each state, by elimination; γ is below 1, and nothing is left open."""
+    lines = {}
+    for state in model.states:
+        rows = model.outcomes[state, policy[state]]
+        chances = {row.next: Fraction(row.probability) for row in rows}
+        line = [int(other == state) - gamma * chances.get(other, 0) for other in model.states]
+        lines[state] = [*line, worth(model, (state, policy[state]), {}, gamma)]
+    for place, state in enumerate(model.states):  # the diagonal is never 0, for γ is below 1
+        lines[state] = [number / lines[state][place] for number in lines[state]]
+        for other in model.states:
+            if other != state:
+                factor = lines[other][place]
+                lines[other] = [a - factor * b for a, b in zip(lines[other], lines[state], strict=True)]
+    return {state: line[-1] for state, line in lines.items()}
 
 
 def deterministic(policy: Mapping[str, str]) -> dict[str, dict[str, Fraction]]:

@@ -51,7 +51,7 @@ class PutIn:
             return product_of(arguments)
         if expression.is_Pow:
             base, exponent = arguments
-            return power_of(base, evaluated(exponent))  # an exponent counts steps; it is not part of the working
+            return _raised(base, evaluated(exponent))  # an exponent counts steps; it is not part of the working
         return expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
 
     def knowing(self, name: str, value: Any) -> "PutIn":
@@ -130,14 +130,17 @@ def _without_ones(factors: list[Expr]) -> list[Expr]:
     return kept if any(f.is_commutative is False for f in kept) else [*kept, *ones[:1]]
 
 
+def _raised(base: Expr, exponent: Expr) -> Expr:
+    """A power with what was put in: an exponent of 0 or 1 keeps its place in the rule, as other zeros and ones do."""
+    return Pow(base, Slot(exponent) if exponent in (0, 1) else exponent, evaluate=False)
+
+
 def power_of(base: Expr, exponent: Expr) -> Expr:
     """A power, unevaluated, unless it is plain."""
-    if sympy.S.One in (base, exponent):
-        return base
-    if isinstance(base, Slot) and exponent.is_positive:
-        return base
     if exponent == 0 or base == 1:
         return sympy.S.One
+    if exponent == 1 or (base == 0 and exponent.is_positive):
+        return base
     return Pow(base, exponent, evaluate=False)
 
 

@@ -33,6 +33,7 @@ from rldrill.solutions.formula.notation import (
     s1,
 )
 from rldrill.solutions.sheet.bellman import (
+    BELLMAN_Q,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
     FORGOT_POLICY,
@@ -275,10 +276,11 @@ with evaluate(False):
 
 
 @cache
-def of_round(number: int) -> tuple[Formula, Formula]:
-    """Evaluation and improvement of policy iteration in the symbols of a round: V^{π₀} and π₀."""
+def of_round(number: int) -> tuple[Formula, Formula, Formula]:
+    """Evaluation, improvement and the values of actions in the symbols of a round of policy iteration: V^{π₀}, π₀."""
     policy = numbered(pi, number)
-    values = quantity("V", called(Script(variable("V"), above=Script(variable("π"), variable(str(number))))))
+    mark = Script(variable("π"), variable(str(number)))
+    values, worth = (quantity(code, called(Script(variable(code), above=mark))) for code in "VQ")
     with evaluate(False):
         ahead = R(s, policy(s), s1) + gamma * values(s1)
         lookahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * values(s1)), s1, Successors(s, a))
@@ -289,4 +291,5 @@ def of_round(number: int) -> tuple[Formula, Formula]:
                 right=SumOver(P(s, policy(s), s1) * ahead, s1, Successors(s, policy(s))),
             ),
             replace(POLICY_IMPROVEMENT, right=ArgMaxOver(lookahead, a, Actions(s)), also=()),
+            replace(BELLMAN_Q, left=worth(s, a), right=lookahead),
         )

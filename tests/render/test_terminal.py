@@ -18,3 +18,10 @@ def test_a_pipe_is_wide_enough_and_columns_decide(monkeypatch: pytest.MonkeyPatc
     assert console().width == PIPED
     monkeypatch.setenv("COLUMNS", "72")
     assert console().width == 72
+
+
+def test_a_hat_takes_no_place_of_its_own() -> None:
+    equation = Equation(
+        Accent(variable("M"), "hat"), (row(*map(variable, "abcdefgh"), operator("+"), variable("i")),), ("=",)
+    )
+    assert text([equation]).splitlines() == ["  M̂ = abcdefgh + i"]
