@@ -2,7 +2,9 @@
 
 import pytest
 
-from rldrill.render.terminal import PIPED, console
+from rldrill.problems.document import Equation
+from rldrill.problems.mathematics import Accent, operator, row, variable
+from rldrill.render.terminal import PIPED, console, plain
 
 
 def test_it_writes_to_the_output_unless_it_is_told_to_complain(capsys: pytest.CaptureFixture[str]) -> None:
@@ -24,4 +26,4 @@ def test_a_hat_takes_no_place_of_its_own() -> None:
     equation = Equation(
         Accent(variable("M"), "hat"), (row(*map(variable, "abcdefgh"), operator("+"), variable("i")),), ("=",)
     )
-    assert text([equation]).splitlines() == ["  M̂ = abcdefgh + i"]
+    assert plain([equation]).splitlines() == ["  M̂ = abcdefgh + i"]
