@@ -93,13 +93,15 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     policy: dict[str, dict[str, Scalar]] = {}
-    worths = {}
+    worths: dict[tuple[str, str], Fraction] = {}
     for state, value in values.items():
         actions = setting.actions[: shape.actions]
-        chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
+        numbers = None
+        while numbers is None:  # else actions would be worth the same, and their probabilities would not matter
+            chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
+            numbers = averaging(rng, chances, value)
         policy[state] = dict(zip(actions, chances, strict=True))
-        for action, number in zip(actions, averaging(rng, chances, value) or [value] * len(actions), strict=True):
-            worths[state, action] = number
+        worths |= {(state, action): number for action, number in zip(actions, numbers, strict=True)}
     return Mixed(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)
 
 
@@ -255,14 +257,17 @@ def with_reward(model: Model, reward: Fraction) -> Model:
     return Model(story=model.story, transitions=rows, terminal=model.terminal)
 
 
-def policy_values(model: Model, policy: Mapping[str, str], gamma: Fraction) -> dict[str, Fraction]:
-    """The values of a policy of one action for each state, by elimination; γ is below 1, and nothing is left open."""
+def policy_values(model: Model, policy: Mapping[str, Mapping[str, Fraction]], gamma: Fraction) -> dict[str, Fraction]:
+    """The values of a policy by elimination; γ is below 1, and nothing is left open."""
     lines = {}
     for state in model.states:
-        rows = model.outcomes[state, policy[state]]
-        chances = {row.next: Fraction(row.probability) for row in rows}
-        line = [int(other == state) - gamma * chances.get(other, 0) for other in model.states]
-        lines[state] = [*line, worth(model, (state, policy[state]), {}, gamma)]
+        line = [Fraction(other == state) for other in (*model.states, None)]
+        for action, chance in policy[state].items():
+            line[-1] += chance * worth(model, (state, action), {}, gamma)
+            for row in model.outcomes[state, action]:
+                if row.next in policy:
+                    line[model.states.index(row.next)] -= gamma * chance * Fraction(row.probability)
+        lines[state] = line
     for place, state in enumerate(model.states):  # the diagonal is never 0, for γ is below 1
         lines[state] = [number / lines[state][place] for number in lines[state]]
         for other in model.states:

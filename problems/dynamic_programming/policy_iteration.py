@@ -124,7 +124,8 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     rows = tuple(each._replace(reward=Parameter("x")) if each is row else each for each in mdp.transitions)
     opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
     for above in rng.shuffled(_ABOVE):
-        better = policy_values(with_reward(opened, bound + above), start | {pair[0]: pair[1]}, gamma)
+        improved = deterministic(start | {pair[0]: pair[1]})
+        better = policy_values(with_reward(opened, bound + above), improved, gamma)
         if bound and bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
             return Threshold(mdp=opened, start=start, gamma=gamma, reward=bound + above)
     return _draw_threshold(gamma, rng)

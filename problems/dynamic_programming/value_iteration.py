@@ -18,7 +18,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Sweeps):
@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
     mdp = _paying(rng, draw_model(rng, setting, shape), 1 if level == 1 else 2)
     while over_actions and not _decided(mdp, gamma):
         mdp = _paying(rng, draw_model(rng, setting, shape), 2)
-    return Given(
+    given = Given(
         mdp=mdp,
         gamma=gamma,
         sweeps=level,
@@ -90,6 +90,18 @@ def draw(level: int, rng: Draws) -> Given:
         in_place=not over_actions and rng.chance(Fraction(1, 2)),
         action_values=over_actions,
     )
+    return draw(level, rng) if level == 1 and _ends_at_once(given, gamma) else given
+
+
+def _ends_at_once(given: Given, gamma: Fraction) -> bool:
+    """Whether a second sweep changes nothing, so that it does not matter how many there are."""
+    values = dict(given.start or {})
+    for _ in range(2):
+        old = dict(values)
+        for state, actions in given.mdp.actions.items():
+            ahead = values if given.in_place else old
+            values[state] = max(worth(given.mdp, (state, action), ahead, gamma) for action in actions)
+    return values == old
 
 
 def _paying(rng: Draws, mdp: Model, scale: int) -> Model:

@@ -111,7 +111,7 @@ def _demand_sense(given: Threshold) -> None:
         NoSolution: it is not so.
     """
     mdp, row = with_reward(given.mdp, given.reward), given.row
-    values = policy_values(mdp, given.start, given.gamma)
+    values = policy_values(mdp, deterministic(given.start), given.gamma)
     for state, action in mdp.pairs:
         better = worth(mdp, (state, action), values, given.gamma) > values[state]
         if better and (state, action) != (row.state, row.action):
