@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from itertools import product
+from itertools import count, product
 from typing import Any, TypeAlias
 
 from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought
@@ -13,6 +13,7 @@ from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, parameters, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.notation import numbered, pi
 from rldrill.solutions.optimality import Optimum, optimum
 from rldrill.solutions.oracle import (
     Answers,
@@ -34,7 +35,7 @@ from rldrill.solutions.sheet.bellman import (
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
 )
-from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, POLICY_IMPROVEMENT, POLICY_ITERATION
+from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, of_round
 from rldrill.solutions.work import Work
 
 #: Of so many states policy iteration is written out.
@@ -128,17 +129,19 @@ def _iterated(given: Optimal, work: Work) -> dict[str, Value]:
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     policy = optimum(mdp, Fraction(0)).policy
-    work.say(f"Policy iteration, starting with the action that earns most at once: {_told(policy)}.")
-    while True:
-        values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy})
-        greedy = {state: work.value(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+    work.say(f"Policy iteration, starting with the action that earns most at once, $π_0$: {_told(policy)}.")
+    for number in count():
+        evaluate, improve, _ = of_round(number)
+        values = evaluated(work, evaluate, mdp, known | {"pi": policy})
+        greedy = {state: work.value(improve, s=state, V=values, **known) for state in mdp.states}
         if all(policy[state] in greedy[state] for state in mdp.states):
-            work.say("No other action is better now: these values solve the optimality equation.")
-            return values
+            break
         for state in mdp.states:
-            work.step(POLICY_IMPROVEMENT, s=state, V=values, **known)
+            work.step(improve, s=state, V=values, into=numbered(pi, number + 1), **known)
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
-        work.say(f"This changes the policy, so it is evaluated again: {_told(policy)}.")
+        work.say(f"This changes the policy, so $π_{{{number + 1}}}$ is evaluated: {_told(policy)}.")
+    work.say(f"No action is better than that of $π_{{{number}}}$: its values solve the optimality equation:")
+    return values
 
 
 def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:

@@ -15,12 +15,14 @@ from rldrill.solutions.formula.notation import (
     P,
     Q,
     Qpi,
+    Qstar,
     R,
     States,
     Successors,
     SumOver,
     V,
     Vpi,
+    Vstar,
     a,
     a1,
     called,
@@ -38,6 +40,8 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_GAMMA,
     FORGOT_POLICY,
     LOOKAHEAD,
+    LOOKAHEAD_PI,
+    LOOKAHEAD_STAR,
     MAX_FOR_MEAN,
     OPTIMAL_Q_BY_REWARD,
     WITHOUT_GAMMA,
@@ -68,6 +72,8 @@ Change = quantity("change", lambda _: _distance(_V_1, _V_0))
 
 with evaluate(False):
     _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
+    _NEXT_POLICY_VALUE = SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a))
+    _NEXT_OPTIMAL_VALUE = SumOver(P(s, a, s1) * Vstar(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
 
     POLICY_EVALUATION = Formula(
@@ -116,13 +122,13 @@ with evaluate(False):
     POLICY_IMPROVEMENT = Formula(
         "policy-iteration-improvement",
         pi(s),
-        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        ArgMaxOver(LOOKAHEAD_PI, a, Actions(s)),
         title="Policy iteration: improvement",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="In every state take the action whose average of reward plus γ times the old policy's value is greatest.",
         also=(ArgMaxOver(Qpi(s, a), a, Actions(s)),),
         misread={
-            IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+            IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_POLICY_VALUE, a, Actions(s)),
             IMPROVEMENT_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
         },
     )
@@ -162,10 +168,23 @@ with evaluate(False):
     GREEDY_FROM_V = Formula(
         "greedy-from-v",
         pi_star(s),
-        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        ArgMaxOver(LOOKAHEAD_STAR, a, Actions(s)),
         title="Optimal policy given V",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="Take the action whose average of reward plus γ times the next value is greatest.",
+        misread={
+            GREEDY_BY_VALUE: ArgMaxOver(_NEXT_OPTIMAL_VALUE, a, Actions(s)),
+            GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+        },
+    )
+    GREEDY_FOR_V = Formula(
+        "greedy-for-v",
+        pi(s),
+        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        title="Greedy policy for current values",
+        source="Sutton & Barto 2018, section 4.4",
+        hint="Take the action whose average of reward plus γ times the next value is greatest.",
+        place=Place.WORKING,
         misread={
             GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
             GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
@@ -197,10 +216,22 @@ with evaluate(False):
     GREEDY_FROM_Q = Formula(
         "greedy-from-q",
         pi_star(s),
-        ArgMaxOver(Q(s, a), a, Actions(s)),
+        ArgMaxOver(Qstar(s, a), a, Actions(s)),
         title="Optimal policy given Q",
         source="Sutton & Barto 2018, section 3.6",
         hint="In every state take the action with the greatest value; no model is needed.",
+        misread={
+            SMALLEST_Q: ArgMaxOver(-Qstar(s, a), a, Actions(s)),
+        },
+    )
+    GREEDY_FOR_Q = Formula(
+        "greedy-for-q",
+        pi(s),
+        ArgMaxOver(Q(s, a), a, Actions(s)),
+        title="Greedy policy for current action values",
+        source="Sutton & Barto 2018, section 4.4",
+        hint="In every state take the action with the greatest value; no model is needed.",
+        place=Place.WORKING,
         misread={
             SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s)),
         },
