@@ -8,7 +8,7 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Name, Transition, model_blocks
+from rldrill.problems.models import Model, Named, Transition, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -37,7 +37,7 @@ class Sought(Givens):
 
     mdp: Model = Field(description="The Markov decision process: two states, in one of which a reward is left open.")
     gamma: Probability = Field(description="The discount.")
-    optimum: dict[Name, Exact] = Field(
+    optimum: Named[Exact] = Field(
         min_length=1,
         max_length=1,
         description="The optimal value of the state in which no reward is left open.",

@@ -10,7 +10,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
-from rldrill.solutions.formula.notation import V, numbered, pi
+from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.bellman import (

@@ -182,7 +182,25 @@ def reduced(expression: Expr) -> Expr:
     """
     written = without_slots(expression)
     plain = _plain_powers(written)
-    return _reduced(written) if plain == written else plain
+    return _numbers_first(_reduced(written)) if plain == written else plain
+
+
+def _numbers_first(expression: Expr) -> Expr:
+    """The step with the numbers of its products before the letters left open: 8γ, not γ·8."""
+    if isinstance(expression, Node):
+        return expression
+    if expression.is_Add:
+        return Add(*map(_numbers_first, expression.args), evaluate=False)
+    if not expression.is_Mul:
+        return expression
+    numbers = [factor for factor in expression.args if factor.is_number]
+    letters = [factor for factor in expression.args if factor.is_Symbol and not isinstance(factor, Node)]
+    if not numbers or not letters or len(numbers) + len(letters) < len(expression.args):
+        return expression
+    value = evaluated(Mul(*numbers, evaluate=False))
+    if len(numbers) == 1 and value.is_negative:
+        return Mul(-1, *(() if value == -1 else (-value,)), *letters, evaluate=False)
+    return Mul(*numbers, *letters, evaluate=False)
 
 
 def _plain_powers(expression: Expr) -> Expr:
