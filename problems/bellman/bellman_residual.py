@@ -79,6 +79,8 @@ def draw(level: int, rng: Draws) -> Given:
         claimed |= {state: values[state] + UNITS[gamma] * rng.nonzero(-most, most) for state in wrong}
         if all(_decided(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states):
             break
+    else:
+        return draw(level, rng)
     return Given(mdp=mdp, policy=policy, gamma=gamma, values=claimed, optimal=optimal, verdict=verdict)
 
 

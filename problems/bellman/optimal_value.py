@@ -81,7 +81,7 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
     gamma = rng.fraction("1/2", "2/3")
     if level == 3:
         shape = Shape(states=2, actions=3, branches=2, denominators=(2,))
-        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
+        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1), forked="own")
         known, other = rng.shuffled(mdp.states)
         ways = [row.action for row in mdp.transitions if (row.state, row.next) == (known, other)]
         if policy[known] not in ways or len(ways) < 2:

@@ -75,7 +75,7 @@ def draw(level: int, rng: Draws) -> Given:
     visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
     shape = rng.choice(again if replacing else visits)
     trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
-    gamma, lam = map(Fraction, rng.choice(_DECAYS[: 1 if replacing else level]))
+    gamma, lam = map(Fraction, rng.choice(_DECAYS[: 1 if level == 2 and len(set(shape)) < len(shape) else level]))
     traces = None
     if level == 1:
         traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))

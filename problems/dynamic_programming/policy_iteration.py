@@ -117,7 +117,7 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     """An optimal policy, and a reward that makes it worse than another one, which has readable values, too."""
     states = 2 + rng.below(2)
     shape = Shape(states=states, actions=5 - states, branches=2, denominators=(2,))
-    mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1))
+    mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
     row = rng.choice(mdp.outcomes[pair])
     bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)

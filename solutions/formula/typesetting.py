@@ -321,7 +321,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
     closes = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
     if closes and (before.is_Integer or before is sympy.pi):
         return False
-    if second is Look.NUMBER or before == factor:
+    if second is Look.NUMBER or (before == factor and first is Look.LETTER):
         return True
     if first is Look.NUMBER:
         return second is not Look.LETTER
