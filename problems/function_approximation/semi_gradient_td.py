@@ -164,8 +164,8 @@ def question(given: Given) -> Question:
     )
     errors = tuple(f"δ_{{{time}}}" for time in range(steps))
     which = "is the TD error" if steps == 1 else "are the TD errors"
-    first = f"What {which} ${', '.join(errors)}${in_open(given, several=steps > 1)}?"
+    first = f"What {which} ${', '.join(errors)}${in_open(given)}?"
     learnt = "after the transition" if steps == 1 else "after the last transition"
-    second = f"What are the weights $θ$ {learnt}{in_open(given, several=len(given.theta) > 1)}?"
+    second = f"What are the weights $θ$ {learnt}{in_open(given)}?"
     names = weight_names(range(size * max(1, len(given.actions))))
     return Question(blocks, (Part(first, Numbers(errors)), Part(second, Numbers(names))))

@@ -98,14 +98,14 @@ def draw(level: int, rng: Draws) -> Given:
     They are such that the root in P comes out.
     """
     if level == 1:
-        return _scalar(*map(Fraction, rng.choice(_scalars())))
+        return _scalar(*rng.choice(_scalars()))
     if level == 2:
         kind = rng.choice(("discount", "cross", "two", "two"))
         if kind == "two":
             gamma = rng.fraction("1", "1/2", "3/4")
             systems = _scalars() if gamma == 1 else [each[:4] for each in _discounted() if each[4] == gamma]
             first, second = (rng.choice(systems) for _ in range(2))
-            A, B, Q, R = (diagonal(*map(Fraction, pair)) for pair in zip(first, second, strict=True))
+            A, B, Q, R = (diagonal(*pair) for pair in zip(first, second, strict=True))
             return Given(A=A, B=B, Q=Q, R=R, gamma=gamma)
         a, b, q, r, added = rng.choice(_discounted() if kind == "discount" else _crossed())
         if kind == "discount":
@@ -143,10 +143,10 @@ _LOOPS = (
 
 
 @cache
-def _scalars() -> tuple[tuple[int, ...], ...]:
+def _scalars() -> tuple[tuple[Fraction, ...], ...]:
     """Whole numbers A, B, Q, R of scalar systems in which the root comes out."""
     return tuple(
-        (a, b, q, r)
+        (Fraction(a), Fraction(b), Fraction(q), Fraction(r))
         for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7))
         if _is_square(Fraction((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r))
     )

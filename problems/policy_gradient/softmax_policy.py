@@ -146,11 +146,11 @@ def question(given: Given) -> Question:
         )
     parts = [
         Part(
-            f"What is the preference $h(s, a)$ of every action{in_open(given, several=True)}?",
+            f"What is the preference $h(s, a)$ of every action{in_open(given)}?",
             Values("h", actions),
             zero=True,
         ),
-        Part(f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?", Values("π", actions)),
+        Part(f"What is the probability $π(a|s)$ of every action{in_open(given)}?", Values("π", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"

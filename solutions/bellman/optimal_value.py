@@ -78,7 +78,7 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     (best, *_) = (action for action, end in ends.items() if end == value)
     if len(ends) > 1:
         work.say(
-            f'With a greater $y$ {best} would be worth more than $V^*("{state}")$: so the smallest of them is right.'
+            f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the smallest of them is right.'
         )
     else:
         work.say(f"The other actions are worth less than ${to_sympy(target)}$: so {best} is best in {state}.")

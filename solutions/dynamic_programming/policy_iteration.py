@@ -91,14 +91,14 @@ def _of_threshold(given: Threshold, work: Work, evaluation: Evaluation) -> None:
         work.say(
             f"Whatever ${letter}$ is, {joined(rest)} {'is' if len(rest) == 1 else 'are'} worth less than $V^{{π_0}}$."
         )
-    work.say(f"In {row.state} {row.action} is worth as much as {start[row.state]} if")
+    work.say(f"In {row.state}, {row.action} is worth as much as {start[row.state]} if")
     bound = work.equate(str(row.reward), worths[pair], values[row.state])
-    more = f"With a larger ${letter}$ {row.action} is better there"
+    more = f"With a larger ${letter}$, {row.action} is better there"
     work.say(f"{more}, so $π_0$ is optimal for all ${letter} ≤ {to_sympy(bound)}$.")
     work.answer(bound)
     policy = given.improved
     told = joined([f'$π_1("{state}")$ = {action}' for state, action in policy.items()])
-    work.say(f"With ${letter} = {shown(given.reward)}$ improvement changes the action in {row.state} only: {told}.")
+    work.say(f"With ${letter} = {shown(given.reward)}$, improvement changes the action in {row.state} only: {told}.")
     closed = knowns.model(with_reward(mdp, given.reward)) | {"gamma": exact(given.gamma)}
     values = evaluation(work, of_round(1)[0], mdp, closed | {"pi": policy, "V": {}})
     work.answer(of_states(mdp, values))
