@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
     replacing = level == 2 and rng.chance(Fraction(1, 4))
     again = ("aba.", "abab", "abac")  # the first pair's trace decays, and is visited again
     visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
-    shape = rng.choice(again if replacing else visits)
+    shape = rng.choice(again[::2] if replacing else visits)
     trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
     gamma, lam = map(Fraction, rng.choice(_DECAYS[: 1 if level == 2 and len(set(shape)) < len(shape) else level]))
     traces = None

@@ -140,7 +140,7 @@ def draw(level: int, rng: Draws) -> Given:
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
     else:
         totals = dict(zip(histories, (5 * count for count in rng.distinct(len(histories), 1, 8)), strict=True))
-    matters = _where_it_matters(rng, nows, Fraction(1, 2) if level < 3 or finding else Fraction(7, 20))
+    matters = _where_it_matters(rng, nows, Fraction(1, 2) if level < 3 or finding else Fraction(1, 4))
     if finding:
         matters = matters[:1]
     chances = {now: rng.split(len(nexts), (5,)) for now in nows}
