@@ -77,9 +77,8 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     value = chosen(ends.values())
     (best, *_) = (action for action, end in ends.items() if end == value)
     if len(ends) > 1:
-        work.say(
-            f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the smallest of them is right.'
-        )
+        which = "smaller" if len(ends) == 2 else "smallest"
+        work.say(f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the {which} $y$ is right.')
     else:
         work.say(f"The other actions are worth less than ${to_sympy(target)}$: so {best} is best in {state}.")
     V[row.state] = work.answer(value)
@@ -93,9 +92,7 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         )
     work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
-    work.say(
-        f'The value of {best} is $V^*("{state}")$, and the other actions in {state} are worth less: {best} is best.'
-    )
+    work.say(f'{best.capitalize()} is worth $V^*("{state}")$, and the other actions in {state} are worth less.')
     work.answer({state: (best,)})
 
 

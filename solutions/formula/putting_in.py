@@ -12,6 +12,7 @@ from rldrill.solutions.exact import NotGiven, ordered
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import (
+    Factor,
     Leaf,
     MatrixLeaf,
     Negative,
@@ -23,6 +24,7 @@ from rldrill.solutions.formula.nodes.leaves import (
 )
 
 Known = Mapping[str, Any]
+_ANGULAR = (sympy.sin, sympy.cos, sympy.tan)
 
 
 class PutIn:
@@ -178,7 +180,7 @@ def without_slots(expression: Expr) -> Expr:
 def reduced(expression: Expr) -> Expr:
     """The step with its inner brackets worked out: what one writes between putting in and the result.
 
-    Where powers of e are plain numbers, such as exp(ln 3) and exp(0), that is all that is worked out.
+    Where powers of e or sines are plain numbers, such as exp(ln 3) and cos(π/3), that is all that is worked out.
     """
     written = without_slots(expression)
     plain = _plain_powers(written)
@@ -194,21 +196,29 @@ def _numbers_first(expression: Expr) -> Expr:
     if not expression.is_Mul:
         return expression
     numbers = [factor for factor in expression.args if factor.is_number]
-    letters = [factor for factor in expression.args if factor.is_Symbol and not isinstance(factor, Node)]
+    letters = [factor for factor in expression.args if _is_letter(factor.args[0] if factor.is_Pow else factor)]
     if not numbers or not letters or len(numbers) + len(letters) < len(expression.args):
         return expression
     value = evaluated(Mul(*numbers, evaluate=False))
-    if len(numbers) == 1 and value.is_negative:
-        return Mul(-1, *(() if value == -1 else (-value,)), *letters, evaluate=False)
-    return Mul(*numbers, *letters, evaluate=False)
+    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *letters]
+    return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
+
+
+def _is_letter(factor: Expr) -> bool:
+    return bool(factor.is_Symbol) and not isinstance(factor, Node)
 
 
 def _plain_powers(expression: Expr) -> Expr:
-    """The step with numbers in the place of powers of e that are plain."""
+    """The step with numbers in the place of powers of e, sines, cosines and tangents that are plain."""
     if isinstance(expression, sympy.exp):
         value = evaluated(expression)
         return computed(value) if value.is_rational_function(*value.free_symbols) else expression
-    if isinstance(expression, Node) or not expression.has(sympy.exp):
+    if isinstance(expression, _ANGULAR):
+        value = evaluated(expression)
+        if not value.is_algebraic:
+            return expression
+        return Factor(value) if value.is_Mul and not value.could_extract_minus_sign() else computed(value)
+    if isinstance(expression, Node) or not expression.has(sympy.exp, *_ANGULAR):
         return expression
     arguments = map(_plain_powers, expression.args)
     if expression.is_Add:
@@ -222,8 +232,14 @@ def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:
-        return Add(*map(_term, expression.args), evaluate=False)
+        kept = [term for term in expression.args if not _is_zero_number(term)]
+        return Add(*map(_term, kept), evaluate=False) if len(kept) > 1 else _inner(expression)
     return _inner(expression)
+
+
+def _is_zero_number(term: Expr) -> bool:
+    """Whether a term is a multiple of a 1×1 matrix of zero."""
+    return any(isinstance(f, MatrixLeaf) and f.scalar and f.args[0][0] == 0 for f in Mul.make_args(term))
 
 
 def _term(term: Expr) -> Expr:
@@ -266,6 +282,8 @@ def _inner(term: Expr) -> Expr:
 
 def _worked_out(expression: Expr) -> Expr:
     value = evaluated(expression)
+    if isinstance(value, Expr) and value.is_polynomial(*value.free_symbols):
+        value = sympy.expand(value)
     # What holds exponentials or roots does not get simpler, only reordered.
     if expression.has(VectorLeaf):
         return VectorLeaf(value.applyfunc(sympy.cancel))

@@ -71,9 +71,7 @@ class _Typesetter(Printer):
         return _sum(expression.args)
 
     def _print_Mul(self, expression: Expr) -> Math:
-        head, *rest = expression.args
-        angle = rest == [sympy.pi] and head.is_Rational and not head.is_Integer
-        return typeset_value(expression) if angle else _product(expression.args)
+        return typeset_value(expression) if _is_angle(expression) else _product(expression.args)
 
     def _print_Pow(self, expression: Expr) -> Math:
         return _power(*expression.args)
@@ -136,9 +134,15 @@ def typeset(expression: Expr) -> Math:
 
 def alone(expression: Expr) -> Math:
     """An expression that stands alone, as between commas: a put-in negative number needs no brackets there."""
-    if expression.is_Mul and not isinstance(expression, Node):
+    if expression.is_Mul and not isinstance(expression, Node) and not _is_angle(expression):
         return _product(expression.args, leads=True)
     return expression._alone(typeset) if isinstance(expression, Node) else typeset(expression)
+
+
+def _is_angle(expression: Expr) -> bool:
+    """Whether it is a fraction of π."""
+    head, *rest = expression.args
+    return bool(rest == [sympy.pi] and head.is_Rational and not head.is_Integer)
 
 
 def look(expression: Expr) -> Look:
