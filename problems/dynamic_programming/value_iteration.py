@@ -90,13 +90,13 @@ def draw(level: int, rng: Draws) -> Given:
         in_place=not over_actions and rng.chance(Fraction(1, 2)),
         action_values=over_actions,
     )
-    return draw(level, rng) if level == 1 and _ends_at_once(given, gamma) else given
+    return draw(level, rng) if not over_actions and _is_over(given, gamma) else given
 
 
-def _ends_at_once(given: Given, gamma: Fraction) -> bool:
-    """Whether a second sweep changes nothing, so that it does not matter how many there are."""
-    values = dict(given.start or {})
-    for _ in range(2):
+def _is_over(given: Given, gamma: Fraction) -> bool:
+    """Whether one sweep more changes nothing, so that it does not matter how many there are."""
+    values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
+    for _ in range(given.sweeps + 1):
         old = dict(values)
         for state, actions in given.mdp.actions.items():
             ahead = values if given.in_place else old
