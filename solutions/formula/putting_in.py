@@ -166,15 +166,21 @@ def without_slots(expression: Expr) -> Expr:
         return expression.args[0]
     if isinstance(expression, Leaf) or not expression.has(Slot):
         return expression
+    if expression.is_Mul:
+        return product_of(map(_bracket, expression.args))
     arguments = map(without_slots, expression.args)
     if expression.is_Add and not isinstance(expression, Node):
         return sum_of(arguments)
-    if expression.is_Mul:
-        return product_of(arguments)
     if expression.is_Pow:
         return power_of(*arguments)
     plain = expression.is_Function and not isinstance(expression, Node)
     return expression.func(*arguments, evaluate=False) if plain else expression.func(*arguments)
+
+
+def _bracket(factor: Expr) -> Expr:
+    """A factor without its zeros and ones; a bracket in which a product of numbers is left is worked out."""
+    kept = without_slots(factor)
+    return computed(evaluated(kept)) if factor.is_Add and kept.is_Mul and kept.is_number else kept
 
 
 def reduced(expression: Expr) -> Expr:
