@@ -18,12 +18,11 @@ from rldrill.solutions.sheet.bellman import (
     OPTIMAL_Q_BY_REWARD,
 )
 from rldrill.solutions.sheet.dynamic_programming import (
-    GREEDY_FOR_Q,
-    GREEDY_FOR_V,
     MEAN_FOR_MAX,
     Q_OF_VALUES,
     SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
+    greedy,
 )
 from rldrill.solutions.work import Work
 
@@ -51,7 +50,7 @@ def solve(
         _tie(given.tie, work, known | {"V": values})
         return
     work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(GREEDY_FOR_V, s=state, V=values, **known) for state in mdp.states})
+    work.answer({state: work.step(greedy()[0], s=state, V=values, **known) for state in mdp.states})
 
 
 def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
@@ -83,7 +82,7 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(GREEDY_FOR_Q, s=state, Q=Q, **known) for state in mdp.states})
+    work.answer({state: work.step(greedy()[1], s=state, Q=Q, **known) for state in mdp.states})
 
 
 @slip(

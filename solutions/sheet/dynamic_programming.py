@@ -34,8 +34,8 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
+from rldrill.solutions.sheet import bellman
 from rldrill.solutions.sheet.bellman import (
-    BELLMAN_Q,
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
     FORGOT_POLICY,
@@ -177,19 +177,6 @@ with evaluate(False):
             GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
         },
     )
-    GREEDY_FOR_V = Formula(
-        "greedy-for-v",
-        pi(s),
-        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
-        title="Greedy policy for current values",
-        source="Sutton & Barto 2018, section 4.4",
-        hint="Take the action whose average of reward plus γ times the next value is greatest.",
-        place=Place.WORKING,
-        misread={
-            GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
-            GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
-        },
-    )
     IMPROVEMENT_FROM_Q = Formula(
         "policy-improvement-from-q",
         pi(s),
@@ -222,18 +209,6 @@ with evaluate(False):
         hint="In every state take the action with the greatest value; no model is needed.",
         misread={
             SMALLEST_Q: ArgMaxOver(-Qstar(s, a), a, Actions(s)),
-        },
-    )
-    GREEDY_FOR_Q = Formula(
-        "greedy-for-q",
-        pi(s),
-        ArgMaxOver(Q(s, a), a, Actions(s)),
-        title="Greedy policy for current action values",
-        source="Sutton & Barto 2018, section 4.4",
-        hint="In every state take the action with the greatest value; no model is needed.",
-        place=Place.WORKING,
-        misread={
-            SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s)),
         },
     )
 
@@ -307,6 +282,29 @@ with evaluate(False):
 
 
 @cache
+def greedy() -> tuple[Formula, Formula]:
+    """The greedy policy for current values of states, and for those of actions: no optimal ones yet."""
+    with evaluate(False):
+        return (
+            replace(
+                GREEDY_FROM_V,
+                left=pi(s),
+                right=ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+                misread={
+                    GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+                    GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+                },
+            ),
+            replace(
+                GREEDY_FROM_Q,
+                left=pi(s),
+                right=ArgMaxOver(Q(s, a), a, Actions(s)),
+                misread={SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s))},
+            ),
+        )
+
+
+@cache
 def of_round(number: int) -> tuple[Formula, Formula, Formula]:
     """Evaluation, improvement and the values of actions in the symbols of a round of policy iteration: V^{π₀}, π₀."""
     policy = numbered(pi, number)
@@ -322,5 +320,5 @@ def of_round(number: int) -> tuple[Formula, Formula, Formula]:
                 right=SumOver(P(s, policy(s), s1) * ahead, s1, Successors(s, policy(s))),
             ),
             replace(POLICY_IMPROVEMENT, right=ArgMaxOver(lookahead, a, Actions(s)), also=()),
-            replace(BELLMAN_Q, left=worth(s, a), right=lookahead),
+            replace(bellman.BELLMAN_Q, left=worth(s, a), right=lookahead),
         )
