@@ -108,7 +108,7 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
     if level == 3:
         return _draw_threshold(gamma, rng)
     shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
-    others = (-4, -1) if rng.chance(Fraction(3, 5) if level == 1 else Fraction(1, 10)) else (-3, 5)
+    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-3, 5)
     mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
     return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
 
