@@ -21,7 +21,7 @@ from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Elimination, Equality, Step
 
 SEEDS = range(40, 43)
-LETTERS = tuple(PARAMETERS)
+LETTERS = (*PARAMETERS, "y")
 
 
 @cache
@@ -55,7 +55,7 @@ def lines(solution: Solution) -> list[tuple[str, Any]]:
     """The right sides of steps that give a number, each with the number."""
     found = []
     for line in solution.lines:
-        if isinstance(line, Step) and isinstance(line.value, fmpq | RationalFunction):
+        if isinstance(line, Step) and isinstance(line.value, fmpq | RationalFunction | Expr):
             written = line.equation().rights[line.own :]  # a derivative is written in letters first
             found += [(unicode(right), line.value) for right in written]
     return found
