@@ -1,5 +1,6 @@
 """The optimal values of a small MDP: V*, a best action in every state, and Q*; or a reward, from one of them."""
 
+from itertools import product
 from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -12,7 +13,7 @@ from rldrill.problems.models import Model, Named, Transition, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import draw_valued, open_reward
+from rldrill.problems.valued import deterministic, draw_valued, open_reward, policy_values, worth
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
@@ -51,6 +52,8 @@ class Sought(Givens):
             raise ValueError("mdp: a reward can be asked for where there are two states, not more or less")
         if self.state == row.state or self.state not in self.mdp.states:
             raise ValueError(f"optimum: give the optimal value of the state that is not {row.state!r}")
+        if len(self.mdp.actions[row.state]) < 2:
+            raise ValueError(f"mdp: {row.state!r} has no action beside {row.action!r}; give it another one")
         if self.gamma in (0, 1):
             raise ValueError("gamma: give a discount above 0 and below 1")
         return self
@@ -68,6 +71,12 @@ class Sought(Givens):
     def state(self) -> str:
         """The state whose optimal value is known."""
         return next(iter(self.optimum))
+
+    @property
+    def without(self) -> Model:
+        """The model without the action whose reward is left open."""
+        rows = tuple(each for each in self.mdp.transitions if each[:2] != self.row[:2])
+        return Model(transitions=rows, terminal=self.mdp.terminal)
 
 
 Given = Annotated[
@@ -89,10 +98,23 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
         asked = rng.choice(mdp.outcomes[other, policy[other]])
         rows = tuple(row._replace(reward=Parameter("x")) if row is asked else row for row in mdp.transitions)
         opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
-        return Sought(mdp=opened, gamma=gamma, optimum={known: values[known]})
+        given = Sought(mdp=opened, gamma=gamma, optimum={known: values[known]})
+        return given if _is_readable(given) else draw(level, rng)
     shape = Shape(states=2, actions=2, branches=level, denominators=(2,))
     mdp, _, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
     return Optimal(mdp=mdp, gamma=gamma)
+
+
+def _is_readable(given: Sought) -> bool:
+    """Whether the optimal values without the action are readable, and not those of what earns most at once."""
+    mdp = given.without
+    policies = [dict(zip(mdp.states, chosen, strict=True)) for chosen in product(*mdp.actions.values())]
+    every = [policy_values(mdp, deterministic(policy), given.gamma) for policy in policies]
+    best = {state: max(values[state] for values in every) for state in mdp.states}
+    greedy = {state: max(actions, key=lambda a: worth(mdp, (state, a), {}, given.gamma))
+              for state, actions in mdp.actions.items()}  # fmt: skip
+    greedy_values = policy_values(mdp, deterministic(greedy), given.gamma)
+    return greedy_values != best and all(value.denominator <= 2 for value in best.values())
 
 
 def question(given: Optimal | Sought) -> Question:
@@ -126,5 +148,6 @@ def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
             Part(f'What is $V^*("{row.state}")$?', Number()),
             Part(f"What is ${x}$?", Number(), zero=True),
             Part(f"Which action is best in {state}?", Policy({state: given.mdp.actions[state]}, "π^*")),
+            Part(f"From which ${x}$ on is {row.action} a best action in {row.state}?", Number(), zero=True),
         ),
     )

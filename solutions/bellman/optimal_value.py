@@ -14,6 +14,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, parameters, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import numbered, pi
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.optimality import Optimum, optimum
 from rldrill.solutions.oracle import (
     Answers,
@@ -23,6 +24,7 @@ from rldrill.solutions.oracle import (
     lookahead,
     optimal_values,
     policy_values,
+    root,
     tensors,
     without_loss,
 )
@@ -94,6 +96,11 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
     work.say(f'{best.capitalize()} is worth $V^*("{state}")$, and the other actions in {state} are worth less.')
     work.answer({state: (best,)})
+    work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
+    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work)
+    work.say(f"With these values {row.action} is as good in {row.state} as the best of the others if")
+    worth = work.step(Q_STAR_FROM_V, s=row.state, a=row.action, **known, V=V)
+    work.answer(work.equate(str(row.reward), worth, V[row.state]))
 
 
 def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
@@ -137,7 +144,7 @@ def _iterated(given: Optimal, work: Work) -> dict[str, Value]:
             work.step(improve, s=state, V=values, into=numbered(pi, number + 1), **known)
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
         work.say(f"This changes the policy, so $π_{{{number + 1}}}$ is evaluated: {_told(policy)}.")
-    work.say(f"No action is better than that of $π_{{{number}}}$: its values solve the optimality equation:")
+    work.say(f"No action is better than that of $π_{{{number}}}$: its values solve the optimality equation.")
     return values
 
 
@@ -240,8 +247,19 @@ def _tried(given: Sought) -> Answers:
         V = optimal_values(P, R, gamma, n)
         if abs(V[place] - known) < 1e-6:
             best = best_actions(mdp, lookahead(P, R, V, gamma)[:n])
-            return V[other], x, {given.state: best[given.state]}
+            return V[other], x, {given.state: best[given.state]}, _threshold(given, P, R)
     raise AssertionError("no policy is optimal")
+
+
+def _threshold(given: Sought, P: Array, R: Array) -> float:
+    """Where the action starts to be worth as much as the optimum without it, from two trials."""
+    mdp, gamma, states = given.mdp, at(given.gamma), (*given.mdp.states, *given.mdp.terminal)
+    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    place = states.index(given.row.state), names.index(given.row.action)
+    barred = R.copy()
+    barred[place] = -np.inf
+    V = optimal_values(P, barred, gamma, len(mdp.states))
+    return root(lambda x: float(lookahead(*tensors(mdp, states, x), V, gamma)[place] - V[place[0]]))
 
 
 def _swept(given: Optimal) -> Answers:
