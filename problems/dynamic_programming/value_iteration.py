@@ -123,6 +123,7 @@ def _decided(mdp: Model, gamma: Fraction) -> bool:
 
 def _to_tie(rng: Draws, setting: Setting) -> Given:
     """Two actions in one state that are both greedy for the values of the first sweep, with a discount below 1."""
+    pays_more = rng.choice((1, -1))  # the first action at once, or the second
     while True:
         mdp = draw_model(rng, setting, Shape(states=3, actions=2, branches=1, reward=8))
         first = {
@@ -132,7 +133,7 @@ def _to_tie(rng: Draws, setting: Setting) -> Given:
             one, other = (next(row for row in mdp.transitions if row[:2] == (tie, a)) for a in mdp.actions[tie])
             gain = Fraction(one.reward) - Fraction(other.reward)
             later = first.get(other.next, Fraction(0)) - first.get(one.next, Fraction(0))
-            if later and 0 < gain / later < 1:
+            if later and 0 < gain / later < 1 and gain * pays_more > 0:
                 return Given(mdp=mdp, gamma=Parameter("gamma"), sweeps=1, tie=tie)
 
 

@@ -100,7 +100,7 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 1:
         return _scalar(*rng.choice(_scalars()))
     if level == 2:
-        kind = rng.choice(("discount", "cross", "two", "two"))
+        kind = rng.choice(("discount", "cross", "cross", "two"))
         if kind == "two":
             gamma = rng.fraction("1", "1/2", "3/4")
             systems = _scalars() if gamma == 1 else [each[:4] for each in _discounted() if each[4] == gamma]
