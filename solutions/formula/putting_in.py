@@ -281,7 +281,7 @@ def _inner(term: Expr) -> Expr:
         return Mul(*factors, evaluate=False)
     if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
         return Pow(_inner(term.args[0]), -1, evaluate=False)
-    if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
+    if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
 
