@@ -1,6 +1,6 @@
 """The optimal values of a small MDP: V*, a best action in every state, and Q*; or a reward, from one of them."""
 
-from itertools import product
+from itertools import permutations, product
 from typing import Annotated, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -91,9 +91,11 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
     if level == 3:
         shape = Shape(states=2, actions=3, branches=2, denominators=(2,))
         mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1), forked="own")
-        known, other = rng.shuffled(mdp.states)
-        ways = [row.action for row in mdp.transitions if (row.state, row.next) == (known, other)]
-        if policy[known] not in ways or len(ways) < 2:
+        for known, other in permutations(rng.shuffled(mdp.states)):
+            ways = [row.action for row in mdp.transitions if (row.state, row.next) == (known, other)]
+            if policy[known] in ways and len(ways) > 1:
+                break
+        else:
             return draw(level, rng)
         asked = rng.choice(mdp.outcomes[other, policy[other]])
         rows = tuple(row._replace(reward=Parameter("x")) if row is asked else row for row in mdp.transitions)
@@ -114,7 +116,7 @@ def _is_readable(given: Sought) -> bool:
     greedy = {state: max(actions, key=lambda a: worth(mdp, (state, a), {}, given.gamma))
               for state, actions in mdp.actions.items()}  # fmt: skip
     greedy_values = policy_values(mdp, deterministic(greedy), given.gamma)
-    return greedy_values != best and all(value.denominator <= 2 for value in best.values())
+    return greedy_values != best and all(value.denominator <= 3 for value in best.values())
 
 
 def question(given: Optimal | Sought) -> Question:
