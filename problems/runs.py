@@ -1,5 +1,6 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
+from abc import abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -276,7 +277,21 @@ class ValueMoves(Givens):
         return tuple(dict.fromkeys(move.state for move in self.moves))
 
 
-class ActionRun(Givens):
+class ActionUpdates(Givens):
+    """What updates action values: transitions, one after the other."""
+
+    @property
+    @abstractmethod
+    def moves(self) -> tuple[ActionMove, ...]:
+        """The transitions one by one."""
+
+    @property
+    def updated(self) -> tuple[tuple[str, str], ...]:
+        """The pairs of state and action that are updated, in the order of their first visit."""
+        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
+
+
+class ActionRun(ActionUpdates):
     """A run with its actions, the action values before it, the step size and the discount."""
 
     trajectory: Trajectory = Field(description="What the agent did.")
@@ -322,18 +337,13 @@ class ActionRun(Givens):
         return self.trajectory.terminal
 
     @property
-    def updated(self) -> tuple[tuple[str, str], ...]:
-        """The pairs of state and action that are updated, in the order of their first visit."""
-        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
-
-    @property
     def last_action_known(self) -> bool:
         """Whether something is known to be done in the last state, or nothing is because the run ends there."""
         run = self.trajectory
         return run.ends or len(run.actions) == len(run.states)
 
 
-class ActionMoves(Givens):
+class ActionMoves(ActionUpdates):
     """Transitions that need not join, the action values before them, the step size and the discount."""
 
     transitions: tuple[ActionMove, ...] = Field(
@@ -378,11 +388,6 @@ class ActionMoves(Givens):
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
         return self.transitions
-
-    @property
-    def updated(self) -> tuple[tuple[str, str], ...]:
-        """The pairs of state and action that are updated, in the order of their first visit."""
-        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
 
     @property
     def last_action_known(self) -> bool:
@@ -564,7 +569,7 @@ def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part
     return Part(ask, Numbers(errors), zero=True)
 
 
-def after(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> str:
+def after(given: ValueRun | ValueMoves | ActionUpdates) -> str:
     """When the values are asked for."""
     return "after these transitions" if isinstance(given, ValueMoves | ActionMoves) else "after the run"
 
