@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Markov property"
 SOURCE = "Sutton & Barto 2018, section 3.1"
-REVISION = 3
+REVISION = 2
 
 
 class Seen(NamedTuple):
@@ -140,7 +140,7 @@ def draw(level: int, rng: Draws) -> Given:
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
     else:
         totals = dict(zip(histories, (5 * count for count in rng.distinct(len(histories), 1, 8)), strict=True))
-    matters = _where_it_matters(rng, nows, Fraction(1, 2) if level < 3 or finding else Fraction(1, 4))
+    matters = _where_it_matters(rng, nows)
     if finding:
         matters = matters[:1]
     chances = {now: rng.split(len(nexts), (5,)) for now in nows}
@@ -158,9 +158,9 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(table=table, asked=rng.choice(nexts), story=setting.told(()))
 
 
-def _where_it_matters(rng: Draws, nows: tuple[str, ...], nowhere: Fraction) -> tuple[str, ...]:
-    """The present states in which the history matters: none with that probability, else one or all."""
-    if rng.chance(nowhere):
+def _where_it_matters(rng: Draws, nows: tuple[str, ...]) -> tuple[str, ...]:
+    """The present states in which the history matters: in half of the problems none, else one or all."""
+    if rng.chance(Fraction(1, 2)):
         return ()
     return rng.choice((*((now,) for now in nows), *([nows] if len(nows) > 1 else [])))
 
