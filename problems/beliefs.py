@@ -24,8 +24,8 @@ _MOST_SUMMANDS = 1024**2
 #: What stands above the table of a motion, and above that of a sensor.
 MOTION_TOLD = "Taking action $a$ in state $s$ leads to the next state $s'$ with probability $p(s'|s, a)$:"
 SENSOR_TOLD = "In state $s$ the sensor reads $z$ with probability $p(z|s)$:"
-#: What stands above a first belief.
-BELIEF_TOLD = "The first belief $p(s)$ is:"
+#: What stands above an initial belief.
+BELIEF_TOLD = "The initial belief $p(s)$ is:"
 
 
 class Outcome(Givens):

@@ -36,11 +36,10 @@ def exploration(epsilon: Scalar | None) -> str:
     return f"The exploration rate is $ε = {shown(epsilon)}$."
 
 
-def in_open(given: Givens, *, several: bool = False) -> str:
-    """What is added to a question whose answer is an expression in what is left open, or whose answers are."""
+def in_open(given: Givens) -> str:
+    """What is added to a question whose answer is an expression in what is left open."""
     left_open = given.parameters()
-    words = "as expressions in" if several else "as an expression in"
-    return f", {words} ${shown(Parameter(left_open[0]))}$" if left_open else ""
+    return f", in terms of ${shown(Parameter(left_open[0]))}$" if left_open else ""
 
 
 def unknown(letter: str) -> str:

@@ -565,9 +565,7 @@ def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part
     errors = tuple(f"δ_{{{time}}}" for time in range(len(given.moves)))
     if len(errors) == 1:
         return Part(f"What is the TD error $δ_0$ of the transition{in_open(given)}?", Number(), zero=True)
-    ask = (
-        f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given, several=True)}?"
-    )
+    ask = f"What are the TD errors ${', '.join(errors)}$ of the transitions, in this order{in_open(given)}?"
     return Part(ask, Numbers(errors), zero=True)
 
 

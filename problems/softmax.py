@@ -95,15 +95,15 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
         entries: the same as mathematics, for every step.
     """
     names = weight_names(given.theta)
-    asked = f"What are the {weighted} ${', '.join(entries)}${in_open(given, several=len(entries) > 1)}?"
+    asked = f"What are the {weighted} ${', '.join(entries)}${in_open(given)}?"
     return (
         Part(asked, Numbers(entries), zero=True),
         Part(
-            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given, several=len(names) > 1)}?",
+            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
         ),
         Part(
-            f"What are the weights $θ$ after one step of gradient ascent{in_open(given, several=len(names) > 1)}?",
+            f"What are the weights $θ$ after one step of gradient ascent{in_open(given)}?",
             Numbers(names),
         ),
     )

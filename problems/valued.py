@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Scalar, dot
+from rldrill.problems.exact import Parameter, Scalar, dot
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     PARTLY_LISTED,
@@ -93,13 +93,15 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
     """
     values = draw_values(rng, setting.states[: shape.states], gamma)
     policy: dict[str, dict[str, Scalar]] = {}
-    worths = {}
+    worths: dict[tuple[str, str], Fraction] = {}
     for state, value in values.items():
         actions = setting.actions[: shape.actions]
-        chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
+        numbers = None
+        while numbers is None:  # else actions would be worth the same, and their probabilities would not matter
+            chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
+            numbers = averaging(rng, chances, value)
         policy[state] = dict(zip(actions, chances, strict=True))
-        for action, number in zip(actions, averaging(rng, chances, value) or [value] * len(actions), strict=True):
-            worths[state, action] = number
+        worths |= {(state, action): number for action, number in zip(actions, numbers, strict=True)}
     return Mixed(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)
 
 
@@ -235,6 +237,44 @@ def check_optimal_values(values: Mapping[str, Fraction], model: Dynamics, gamma:
         best = max(worth(model, (state, action), values, gamma) for action in actions)
         if abs(best - values[state]) > _ROUNDING * max(Fraction(1), abs(best)):
             raise ValueError(f"values: {state!r} is given as {values[state]}, but its best action is worth {best}")
+
+
+def open_reward(model: Model) -> Transition:
+    """The one transition whose reward is left open; nothing else may be.
+
+    Raises:
+        ValueError: it is not exactly one reward that is left open.
+    """
+    rows = [row for row in model.transitions if isinstance(row.reward, Parameter)]
+    if len(rows) != 1 or any(isinstance(row.probability, Parameter) for row in model.transitions):
+        raise ValueError("mdp: leave exactly one number open, a reward, such as x; it is asked for")
+    return rows[0]
+
+
+def with_reward(model: Model, reward: Fraction) -> Model:
+    """The model with a number for the reward that is left open."""
+    rows = tuple(row._replace(reward=reward) if isinstance(row.reward, Parameter) else row for row in model.transitions)
+    return Model(story=model.story, transitions=rows, terminal=model.terminal)
+
+
+def policy_values(model: Model, policy: Mapping[str, Mapping[str, Fraction]], gamma: Fraction) -> dict[str, Fraction]:
+    """The values of a policy by elimination; γ is below 1, and nothing is left open."""
+    lines = {}
+    for state in model.states:
+        line = [Fraction(other == state) for other in (*model.states, None)]
+        for action, chance in policy[state].items():
+            line[-1] += chance * worth(model, (state, action), {}, gamma)
+            for row in model.outcomes[state, action]:
+                if row.next in policy:
+                    line[model.states.index(row.next)] -= gamma * chance * Fraction(row.probability)
+        lines[state] = line
+    for place, state in enumerate(model.states):  # the diagonal is never 0, for γ is below 1
+        lines[state] = [number / lines[state][place] for number in lines[state]]
+        for other in model.states:
+            if other != state:
+                factor = lines[other][place]
+                lines[other] = [a - factor * b for a, b in zip(lines[other], lines[state], strict=True)]
+    return {state: line[-1] for state, line in lines.items()}
 
 
 def deterministic(policy: Mapping[str, str]) -> dict[str, dict[str, Fraction]]:

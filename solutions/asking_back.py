@@ -18,7 +18,7 @@ def find(work: Work, outcome: Outcome, letter: str, Q: Mapping[Any, Value]) -> N
     Raises:
         NoSolution: no value of the letter leads there, every one does, or the equation is not linear.
     """
-    work.say(f"The value of ({outcome.state}, {outcome.action}) has to be ${shown(outcome.value)}$:")
+    work.say(f"The value of ({outcome.state}, {outcome.action}) must be ${shown(outcome.value)}$:")
     work.answer(work.equate(letter, Q[outcome.state, outcome.action], exact(outcome.value)))
 
 

@@ -18,9 +18,9 @@ from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
-from rldrill.solutions.formula.notation import Negative, Quantity
+from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
-from rldrill.solutions.formula.typesetting import tabular, typeset, typeset_value, vector
+from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import generator, linear, without_quotients
@@ -84,9 +84,9 @@ class Step:
     def _written(self) -> Equation:
         written = self.put_in
         rights = [typeset(self.right)] if self.own else []
-        rights.append(typeset(_alone(written)))
+        rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [typeset(_alone(reduced(written))), shown_value(self.value)]
+            rights += [alone(reduced(written)), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
         if label := self._label():
@@ -166,11 +166,6 @@ class Elimination:
         """The lines of it."""
         for line in elimination(self.names, self.equations):
             yield Note(line) if isinstance(line, str) else Equality(*line)
-
-
-def _alone(expression: Expr) -> Expr:
-    """A number that stands alone needs no brackets."""
-    return expression.args[0] if isinstance(expression, Negative) else expression
 
 
 Line = Step | Note | Recalled | Drawn | Result | Equality | Elimination

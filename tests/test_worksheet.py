@@ -153,13 +153,13 @@ def test_twelve_problems_for_an_hour_take_seven_pages_at_most(tmp_path: Path) ->
 
 
 def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
-    long, short = draw("optimal-value", 3, 1), draw("markov-property", 1, 1)
+    long, short = draw("expected-return", 3, 1), draw("markov-property", 1, 1)
     rooms = {
         (item.problem.family.name, part.label): space_of(item, part, "normal")
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["optimal-value", "a"] == 4  # eight minutes' worth, the most
+    assert rooms["expected-return", "a"] == 4  # eight minutes' worth, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
     part = long.parts[0]

@@ -145,5 +145,5 @@ def question(given: Given) -> Question:
         ]
     for action in given.actions[given.after if given.outcome else 0 :]:
         told = f"The {'next ' if parts else ''}action is “{action}”; nothing is measured."
-        parts.append(Part(f"{told} What is the belief afterwards{in_open(given, several=True)}?", Values("p", states)))
+        parts.append(Part(f"{told} What is the belief afterwards{in_open(given)}?", Values("p", states)))
     return Question(blocks, tuple(parts))

@@ -167,7 +167,5 @@ def question(given: Given) -> Question:
             known = f"Afterwards the belief is $p({given.outcome.state}) = {shown(given.outcome.probability)}$."
             parts.append(Part(f"{first} {known} What is ${letter}$?", Number()))
         else:
-            parts.append(
-                Part(f"{first} What is the belief afterwards{in_open(given, several=True)}?", Values("p", hypotheses))
-            )
+            parts.append(Part(f"{first} What is the belief afterwards{in_open(given)}?", Values("p", hypotheses)))
     return Question(blocks, tuple(parts))

@@ -25,7 +25,7 @@ from rldrill.problems.parts import LETTERS, Matrix, Number, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
-REVISION = 3
+REVISION = 4
 
 _ONE = ((Fraction(1),),)
 #: From so many steps on they stand below each other.
@@ -136,7 +136,7 @@ class Given(Givens):
 
 _BOTH, _MOVE = True, False
 #: The greatest numerator or denominator of a mean or variance, by level.
-_MOST = {1: 60, 2: 90, 3: 60}
+_MOST = {1: 60, 2: 50, 3: 60}
 
 
 def draw(level: int, rng: Draws) -> Given:

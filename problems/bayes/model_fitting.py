@@ -170,6 +170,11 @@ def _balanced(rng: Draws, size: int, low: int, high: int) -> tuple[Fraction, ...
             return values
 
 
+def _power(base: str, exponent: Fraction) -> str:
+    """A power as one writes it: nothing for the exponent 0, the base alone for 1."""
+    return "" if exponent == 0 else base if exponent == 1 else f"{base}^{{{shown(exponent)}}}"
+
+
 def question(given: Given) -> Question:
     """The data; first what fits best, then what is most probable with a prior."""
     if given.coin is not None:
@@ -189,7 +194,8 @@ def _coin(coin: Coin) -> Question:
         ),
     )
     prior = f'Now $θ$ has the prior $"Beta"({shown(coin.a)}, {shown(coin.b)})$, whose density is proportional to '
-    power = f"$θ^{{{shown(coin.a - 1)}}} (1 − θ)^{{{shown(coin.b - 1)}}}$."
+    factors = (_power("θ", coin.a - 1), _power("(1 − θ)", coin.b - 1))
+    power = f"${' '.join(filter(None, factors)) or '1'}$."
     return Question(
         blocks,
         (

@@ -27,7 +27,7 @@ from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_a
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Lookahead):
@@ -60,7 +60,7 @@ def draw(level: int, rng: Draws) -> Given:
     state = rng.choice(setting.states[1:3])
     current = level == 2 and rng.chance(Fraction(1, 2))
     gamma = rng.fraction("1/2", "4/5")
-    shape = Shape(states=4, actions=2, branches=level, reward=8)
+    shape = Shape(states=4, actions=2, branches=level, reward=8, denominators=(2,))
     actions = setting.actions[: 2 if level == 1 else 2 + rng.below(2)]
     values = draw_values(rng, setting.states, gamma)
     rows: list[Transition] = []

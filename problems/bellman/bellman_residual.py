@@ -27,7 +27,7 @@ from rldrill.problems.valued import UNITS, draw_mixed, draw_valued, draw_values,
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 3
+REVISION = 4
 
 
 class Given(ModelAndPolicy):
@@ -60,6 +60,7 @@ def draw(level: int, rng: Draws) -> Given:
     """
     setting = draw_setting(rng)
     optimal = level == 3 or (level == 2 and rng.chance(Fraction(1, 2)))
+    most = level + 1
     gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
     shape = Shape(states=3 if level == 3 else 2, actions=min(level, 2), branches=2, denominators=(2,))
     policy: PolicyField | None = None
@@ -71,12 +72,15 @@ def draw(level: int, rng: Draws) -> Given:
         values = draw_values(rng, setting.states[:2], gamma)
         mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})
     verdict = rng.chance(Fraction(1, 8 if level == 1 else 4))
-    wrong = (() if rng.chance(Fraction(1, 2)) else (rng.choice(mdp.states),)) if verdict else mdp.states
+    right = verdict and rng.chance(Fraction(1, 2))
+    wrong = () if right else (rng.choice(mdp.states),) if verdict else mdp.states
     claimed = dict(values)
     for _ in range(20):
-        claimed |= {state: values[state] + UNITS[gamma] * rng.nonzero(-2, 2) for state in wrong}
+        claimed |= {state: values[state] + UNITS[gamma] * rng.nonzero(-most, most) for state in wrong}
         if all(_decided(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states):
             break
+    else:
+        return draw(level, rng)
     return Given(mdp=mdp, policy=policy, gamma=gamma, values=claimed, optimal=optimal, verdict=verdict)
 
 

@@ -1,25 +1,26 @@
-"""The optimal values of a small MDP: V*, a best action in every state, and Q*."""
+"""The optimal values of a small MDP: V*, a best action in every state, and Q*; or a reward, from one of them."""
 
-from typing import Self
+from itertools import permutations, product
+from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability
+from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, model_blocks
-from rldrill.problems.parts import Part, Policy, Values
+from rldrill.problems.models import Model, Named, Transition, model_blocks
+from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import draw_valued
+from rldrill.problems.valued import deterministic, draw_valued, open_reward, policy_values, worth
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 2
+REVISION = 3
 
 
-class Given(Givens):
+class Optimal(Givens):
     """A model and the discount."""
 
     mdp: Model = Field(description="The Markov decision process.")
@@ -32,21 +33,123 @@ class Given(Givens):
         return self
 
 
-def draw(level: int, rng: Draws) -> Given:
-    """Two states without chance; then with chance; then three states."""
-    gamma = rng.fraction("1/2", "2/3") if level < 3 else rng.fraction("1/2", "2/3", "4/5")
-    shape = Shape(states=max(2, level), actions=2, branches=min(level, 2), denominators=(2,) if level < 3 else (2, 4))
+class Sought(Givens):
+    """A model of two states with one reward left open, the discount, and the optimal value of the other state."""
+
+    mdp: Model = Field(description="The Markov decision process: two states, in one of which a reward is left open.")
+    gamma: Probability = Field(description="The discount.")
+    optimum: Named[Exact] = Field(
+        min_length=1,
+        max_length=1,
+        description="The optimal value of the state in which no reward is left open.",
+        examples=[{"cool": 12}],
+    )
+
+    @model_validator(mode="after")
+    def _follows(self) -> Self:
+        row = open_reward(self.mdp)
+        if len(self.mdp.states) != 2:
+            raise ValueError("mdp: a reward can be asked for where there are two states, not more or less")
+        if self.state == row.state or self.state not in self.mdp.states:
+            raise ValueError(f"optimum: give the optimal value of the state that is not {row.state!r}")
+        if len(self.mdp.actions[row.state]) < 2:
+            raise ValueError(f"mdp: {row.state!r} has no action beside {row.action!r}; give it another one")
+        if self.gamma in (0, 1):
+            raise ValueError("gamma: give a discount above 0 and below 1")
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """No answer is an expression in what is left open: it is asked for."""
+        return ()
+
+    @property
+    def row(self) -> Transition:
+        """The transition whose reward is left open."""
+        return open_reward(self.mdp)
+
+    @property
+    def state(self) -> str:
+        """The state whose optimal value is known."""
+        return next(iter(self.optimum))
+
+    @property
+    def without(self) -> Model:
+        """The model without the action whose reward is left open."""
+        rows = tuple(each for each in self.mdp.transitions if each[:2] != self.row[:2])
+        return Model(transitions=rows, terminal=self.mdp.terminal)
+
+
+Given = Annotated[
+    Annotated[Optimal, Tag("optimal")] | Annotated[Sought, Tag("sought")],
+    Discriminator(lambda given: "sought" if isinstance(given, dict) and "optimum" in given else "optimal"),
+]
+
+
+def draw(level: int, rng: Draws) -> Optimal | Sought:
+    """Two states without chance; then with chance; then a reward from an optimal value."""
+    gamma = rng.fraction("1/2", "2/3")
+    if level == 3:
+        shape = Shape(states=2, actions=3, branches=2, denominators=(2,))
+        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1), forked="own")
+        for known, other in permutations(rng.shuffled(mdp.states)):
+            ways = [row.action for row in mdp.transitions if (row.state, row.next) == (known, other)]
+            if policy[known] in ways and len(ways) > 1:
+                break
+        else:
+            return draw(level, rng)
+        asked = rng.choice(mdp.outcomes[other, policy[other]])
+        rows = tuple(row._replace(reward=Parameter("x")) if row is asked else row for row in mdp.transitions)
+        opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
+        given = Sought(mdp=opened, gamma=gamma, optimum={known: values[known]})
+        return given if _is_readable(given) else draw(level, rng)
+    shape = Shape(states=2, actions=2, branches=level, denominators=(2,))
     mdp, _, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
-    return Given(mdp=mdp, gamma=gamma)
+    return Optimal(mdp=mdp, gamma=gamma)
 
 
-def question(given: Given) -> Question:
-    """The model; the optimal values of states, the best actions, the optimal values of states with actions."""
+def _is_readable(given: Sought) -> bool:
+    """Whether the optimal values without the action are readable, and not those of what earns most at once."""
+    mdp = given.without
+    policies = [dict(zip(mdp.states, chosen, strict=True)) for chosen in product(*mdp.actions.values())]
+    every = [policy_values(mdp, deterministic(policy), given.gamma) for policy in policies]
+    best = {state: max(values[state] for values in every) for state in mdp.states}
+    greedy = {state: max(actions, key=lambda a: worth(mdp, (state, a), {}, given.gamma))
+              for state, actions in mdp.actions.items()}  # fmt: skip
+    greedy_values = policy_values(mdp, deterministic(greedy), given.gamma)
+    return greedy_values != best and all(value.denominator <= 3 for value in best.values())
+
+
+def question(given: Optimal | Sought) -> Question:
+    """The model; all optimal values and the best actions; or what follows from one optimal value."""
+    blocks = model_blocks(given.mdp)
+    return _of_all(given, blocks) if isinstance(given, Optimal) else _of_reward(given, blocks)
+
+
+def _of_all(given: Optimal, blocks: tuple[Block, ...]) -> Question:
+    """The optimal values of states, the best actions, the optimal values of states with actions."""
     return Question(
-        (*model_blocks(given.mdp), Paragraph(discount(given.gamma))),
+        (*blocks, Paragraph(discount(given.gamma))),
         (
             Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states)),
             Part("Which action is best in every state?", Policy(given.mdp.actions, "π^*")),
             Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
+        ),
+    )
+
+
+def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
+    """One optimal value is known; the other one, the reward and a best action are asked for."""
+    x, state, row = shown(Parameter(given.row.reward)), given.state, given.row
+    told = (
+        f"{discount(given.gamma)} The reward ${x}$ of {row.action} in {row.state} is not known, but the optimal value "
+        f'of {state} is: $V^*("{state}") = {shown(given.optimum[state])}$.'
+    )
+    return Question(
+        (*blocks, Paragraph(told)),
+        (
+            Part(f'What is $V^*("{row.state}")$?', Number()),
+            Part(f"What is ${x}$?", Number(), zero=True),
+            Part(f"Which action is best in {state}?", Policy({state: given.mdp.actions[state]}, "π^*")),
+            Part(f"From which ${x}$ on is {row.action} a best action in {row.state}?", Number(), zero=True),
         ),
     )

@@ -9,11 +9,11 @@ from rldrill.problems.models import ModelAndPolicy, PolicyField, model_blocks, o
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Shape, draw_model, draw_setting
-from rldrill.problems.valued import deterministic, draw_mixed, draw_valued
+from rldrill.problems.valued import deterministic, draw_mixed, draw_valued, policy_values, tells_apart
 
 TITLE = "Action values of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ModelAndPolicy):
@@ -30,14 +30,17 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 2:
         mixed = draw_mixed(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)), gamma, (2, 4))
         return Given(mdp=mixed.mdp, policy=mixed.policy, gamma=gamma)
-    mdp = draw_model(rng, setting, Shape(states=2, actions=2, branches=2, denominators=(2,)))
-    first, second = mdp.states
-    onward, back = setting.actions[:2]
-    policy: PolicyField = {
-        first: {onward: Parameter("p"), back: Parameter("1-p")},
-        second: {rng.choice((onward, back)): Fraction(1)},
-    }
-    return Given(mdp=mdp, policy=policy, gamma=rng.fraction("1/2", "2/3"))
+    shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
+    gamma, (onward, back) = rng.fraction("1/2", "2/3"), setting.actions[:2]
+    third = Fraction(1, 3)
+    values: dict[str, Fraction] = {}
+    while not values or not tells_apart(mdp.transitions, values, gamma):
+        mdp = draw_model(rng, setting, shape)
+        taken = {rng.choice((onward, back)): Fraction(1)}
+        first, second = mdp.states
+        values = policy_values(mdp, {first: {onward: third, back: 1 - third}, second: taken}, gamma)
+    policy: PolicyField = {first: {onward: Parameter("p"), back: Parameter("1-p")}, second: {**taken}}
+    return Given(mdp=mdp, policy=policy, gamma=gamma)
 
 
 def question(given: Given) -> Question:

@@ -28,7 +28,7 @@ from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
-REVISION = 3
+REVISION = 4
 
 
 class Given(ModelAndPolicy):

@@ -110,7 +110,7 @@ def question(given: Given) -> Question:
             (f"$φ_{i}$ of link ${i}$", f"$(x_{i}, y_{i})$ of link ${i}$", (f"x_{i}", f"y_{i}")) for i in given.asked
         ]
     if given.x is not None:
-        ask = f"One length is unknown, $w$. The end point of the last link has $x = {shown(given.x)}$. What is $w$?"
+        ask = f"One length, $w$, is unknown. The end point of the last link has $x = {shown(given.x)}$. What is $w$?"
         return Question(
             _situation(given), (Part(ask, Number()), Part("What is the $y$ coordinate of this end point?", Number()))
         )

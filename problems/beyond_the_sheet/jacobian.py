@@ -15,7 +15,7 @@ from rldrill.problems.parts import Matrix, Numbers, Part, YesNo
 
 TITLE = "Jacobian of an arm"
 SOURCE = "Siciliano et al. 2009, section 3.2.1"
-REVISION = 4
+REVISION = 5
 
 _STRAIGHT = (read_angle("0"), read_angle("pi"))
 
@@ -69,7 +69,7 @@ def draw(level: int, rng: Draws) -> Given:
     """Two links, perhaps in a line; then at other angles, or three; then with the orientation, or the joints' rates."""
     singular = rng.chance(Fraction(1, 2))
     count = 3 if level > 1 and rng.chance(Fraction(level - 1, 4)) else 2
-    lengths = tuple(rng.whole(1, 3) for _ in range(count))
+    lengths = tuple((rng.whole(1, 3) if level < 3 else rng.whole(2, 6)) for _ in range(count))
     rates = tuple(rng.nonzero(-2, 3) for _ in range(count))
     if level == 3 and count == 2:
         first, second = rng.choice(_RIGHT), rng.choice((_RIGHT[1], _RIGHT[3]))

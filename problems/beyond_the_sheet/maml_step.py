@@ -145,7 +145,7 @@ def _parts(given: Given) -> Iterator[Part]:
         yield Part(f"What is the adapted parameter ${adapted[0]}${opened}?", Number(), zero=True)
     else:
         yield Part(
-            f"What are the adapted parameters ${', '.join(adapted)}${in_open(given, several=True)}?",
+            f"What are the adapted parameters ${', '.join(adapted)}${in_open(given)}?",
             Numbers(adapted),
             zero=True,
         )

@@ -348,7 +348,7 @@ def _in_order(given: Balance) -> tuple[str, ...]:
 def _preferences(given: Preferences) -> tuple[Block, ...]:
     pulls = len(given.pulls)
     return (
-        Paragraph("A gradient bandit has these preferences after them:"),
+        Paragraph("A gradient bandit has these preferences after these pulls:"),
         Cells(
             header=("$a$", *given.preferences),
             rows=(("$H(a)$", *(f"${shown(value)}$" for value in given.preferences.values())),),

@@ -154,7 +154,7 @@ def question(given: Given) -> Question:
         asked = (
             f'$Q_{table}("{pairs[0][0]}", "{pairs[0][1]}")$'
             if len(pairs) == 1
-            else f"the value in $Q_{table}$ of every pair that is updated there"
+            else f"the value in $Q_{table}$ of every pair that was updated there"
         )
-        parts.append(Part(f"What is {asked} after the run{in_open(given)}?", Values(f"Q_{table}", pairs)))
+        parts.append(Part(f"After the run, what is {asked}{in_open(given)}?", Values(f"Q_{table}", pairs)))
     return Question(blocks, tuple(parts))

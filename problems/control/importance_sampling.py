@@ -208,7 +208,7 @@ def question(given: Given) -> Question:
     return Question(
         blocks,
         (
-            Part(f"{ratios}{in_open(given, several=True)}?", Numbers(entries)),
+            Part(f"{ratios}{in_open(given)}?", Numbers(entries)),
             Part(f"What is the estimate of {value} by ordinary importance sampling{in_open(given)}?", Number()),
             Part(f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
         ),

@@ -78,7 +78,7 @@ def question(given: Given) -> Question:
     if given.outcome:
         return Question(blocks, (back_asked(given, given.outcome, given.values),))
     pairs = given.updated
-    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every pair that is updated"
+    asked = f'$Q("{pairs[0][0]}", "{pairs[0][1]}")$' if len(pairs) == 1 else "the value of every updated pair"
     return Question(
         blocks,
         (

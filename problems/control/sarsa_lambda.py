@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 4
+REVISION = 5
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -73,9 +73,9 @@ def draw(level: int, rng: Draws) -> Given:
     replacing = level == 2 and rng.chance(Fraction(1, 4))
     again = ("aba.", "abab", "abac")  # the first pair's trace decays, and is visited again
     visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
-    shape = rng.choice(again if replacing else visits)
+    shape = rng.choice(again[::2] if replacing else visits)
     trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
-    gamma, lam = map(Fraction, rng.choice(_DECAYS[:level]))
+    gamma, lam = map(Fraction, rng.choice(_DECAYS[: 1 if level == 2 and len(set(shape)) < len(shape) else level]))
     traces = None
     if level == 1:
         traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))

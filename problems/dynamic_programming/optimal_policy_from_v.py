@@ -78,7 +78,7 @@ def question(given: Given) -> Question:
     """The model and its optimal values; an action is asked for in every state."""
     told = "The optimal values are known."
     if given.missing is not None:
-        told = f"The optimal values are known, but for that of {given.missing}."
+        told = f"The optimal values are known, except that of {given.missing}."
     blocks = (
         *model_blocks(given.mdp),
         Paragraph(f"{told} {discount(given.gamma)}"),

@@ -4,7 +4,7 @@ from pydantic import Field
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter
+from rldrill.problems.exact import Parameter, dot
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.model_forms import ALONE
@@ -22,11 +22,11 @@ from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
 from rldrill.problems.sweeps import SYNCHRONOUS, Sweeps, begin, counted, in_place
-from rldrill.problems.valued import draw_values, tells_apart
+from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 3
+REVISION = 4
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -76,7 +76,7 @@ def draw(level: int, rng: Draws) -> Given:
         if level == 3 and not open_gamma:
             chosen = rng.choice(mdp.states)
             policy[chosen] = dict(zip(policy[chosen], (Parameter("p"), Parameter("1-p")), strict=True))
-    return Given(
+    given = Given(
         mdp=mdp,
         policy=policy,
         gamma=Parameter("gamma") if open_gamma else gamma,
@@ -84,6 +84,21 @@ def draw(level: int, rng: Draws) -> Given:
         start=start if started else None,
         in_place=in_place,
     )
+    return given if level == 3 or _readable(given, gamma) else draw(level, rng)
+
+
+def _readable(given: Given, gamma: Fraction) -> bool:
+    """Whether all probabilities matter in every sweep, and whether the numbers stay small."""
+    values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
+    for _ in range(given.sweeps):
+        old = dict(values)
+        for state, row in given.chances.items():
+            ahead = values if given.in_place else old
+            if not tells_apart([each for each in given.mdp.transitions if each.state == state], ahead, gamma):
+                return False
+            worths = [worth(given.mdp, (state, action), ahead, gamma) for action in row]
+            values[state] = dot([Fraction(chance) for chance in row.values()], worths)
+    return all(value.denominator <= 100 and abs(value.numerator) <= 300 for value in values.values())
 
 
 def _used(rows: list[Transition], states: tuple[str, ...], *, in_place: bool) -> bool:

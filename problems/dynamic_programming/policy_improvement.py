@@ -25,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -58,11 +58,11 @@ def draw(level: int, rng: Draws) -> Given:
     gamma = rng.choice(tuple(UNITS)[: max(level, 2)])
     states = 2 if level == 1 else 2 + rng.below(2)
     shape = Shape(states=states, actions=3 if states == 2 else 2, branches=min(level, 2), denominators=(2,))
-    others = (-4, -1) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 2)) else (-4, 4)
+    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 2 else Fraction(2, 5)) else (-4, 4)
     forked: Literal["own", "others"] = "own" if level == 3 else "others"
     setting = draw_setting(rng)
     mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
-    while level == 1 and len({_greedy(mdp, state, values, gamma) for state in mdp.states}) == 1:
+    while level == 1 and not _varied(mdp, policy, values, gamma):
         mdp, policy, values = draw_valued(rng, setting, shape, gamma, others, forked=forked)
     return Given(
         mdp=mdp,
@@ -71,6 +71,12 @@ def draw(level: int, rng: Draws) -> Given:
         gamma=gamma,
         action_values=level == 2,
     )
+
+
+def _varied(mdp: Model, policy: dict[str, str], values: dict[str, Fraction], gamma: Fraction) -> bool:
+    """Whether not every state has the same greedy action, and the policy goes on somewhere, so that γ matters."""
+    goes_on = any(row.next in values for row in mdp.transitions if policy[row.state] == row.action)
+    return goes_on and len({_greedy(mdp, state, values, gamma) for state in mdp.states}) > 1
 
 
 def _greedy(mdp: Model, state: str, values: dict[str, Fraction], gamma: Fraction) -> str:

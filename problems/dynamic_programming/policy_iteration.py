@@ -1,32 +1,44 @@
-"""Values and policies of some rounds of policy iteration, and whether it has ended."""
+"""Values and policies of some rounds of policy iteration; or the reward up to which it ends at once."""
 
-from typing import Self
+from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Probability
+from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, Named, check_policy, model_blocks
-from rldrill.problems.parts import Part, Policy, Values, YesNo
+from rldrill.problems.models import Model, Name, Named, Transition, check_policy, model_blocks
+from rldrill.problems.parts import Number, Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import UNITS, choices_table, deterministic, draw_valued
+from rldrill.problems.valued import (
+    UNITS,
+    choices_table,
+    deterministic,
+    draw_valued,
+    open_reward,
+    policy_values,
+    with_reward,
+    worth,
+)
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 3
+REVISION = 4
+
+#: How far above its bound the reward is that policy iteration goes on with.
+_ABOVE = tuple(range(1, 13))
+_LARGEST = 15
 
 
-class Given(Givens):
-    """A model, the policy to start from, the discount, and how many rounds of evaluation and improvement."""
+class Started(Givens):
+    """A model, the policy to start from, and the discount."""
 
     mdp: Model = Field(description="The Markov decision process.")
     start: Named[Name] = Field(description="The action of the policy to start from in every state.")
     gamma: Probability = Field(description="The discount.")
-    rounds: int = Field(ge=1, le=12, description="How many rounds of evaluation and improvement.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -34,43 +46,133 @@ class Given(Givens):
         return self
 
 
-def draw(level: int, rng: Draws) -> Given:
-    """One round over two states whose moves are certain; then two rounds; then two over three states."""
+class Rounds(Started):
+    """A model, the policy to start from, the discount, and how many rounds of evaluation and improvement."""
+
+    rounds: int = Field(ge=1, le=12, description="How many rounds of evaluation and improvement.")
+
+
+class Threshold(Started):
+    """A model with one reward left open, the policy to start from, the discount, and a number for the reward."""
+
+    reward: Exact = Field(
+        description="A number for the reward that is left open, with which its action is better than the policy's own."
+    )
+
+    @model_validator(mode="after")
+    def _leaves_one_open(self) -> Self:
+        row = open_reward(self.mdp)
+        if self.start[row.state] == row.action:
+            raise ValueError(f"start: the reward of {row.action!r} in {row.state!r} is left open; start with another")
+        if self.gamma == 1:
+            raise ValueError("gamma: with a discount of 1 a policy need not have a value; choose a smaller one")
+        return self
+
+    def parameters(self) -> tuple[str, ...]:
+        """No answer is an expression in what is left open: it is asked for."""
+        return ()
+
+    @property
+    def row(self) -> Transition:
+        """The transition whose reward is left open."""
+        return open_reward(self.mdp)
+
+    @property
+    def improved(self) -> dict[str, str]:
+        """The policy with the action whose reward is left open, in its state."""
+        return self.start | {self.row.state: self.row.action}
+
+
+def _kind(given: object) -> str | None:
+    match given:
+        case {"rounds": _, "reward": _}:
+            return None
+        case {"reward": _}:
+            return "threshold"
+    return "rounds"
+
+
+Given = Annotated[
+    Annotated[Rounds, Tag("rounds")] | Annotated[Threshold, Tag("threshold")],
+    Discriminator(
+        _kind,
+        custom_error_type="kind",
+        custom_error_message="rounds are worked out, or a reward is taken for the one left open; give one of them",
+    ),
+]
+
+
+def draw(level: int, rng: Draws) -> Rounds | Threshold:
+    """One round over two states whose moves are certain; then two rounds; then a reward is left open."""
     gamma = rng.choice(tuple(UNITS)[:2])
-    shape = {
-        1: Shape(states=2, actions=3, branches=1),
-        2: Shape(states=2, actions=2 + rng.below(2), branches=2, denominators=(2,)),
-        3: Shape(states=3, actions=2, branches=2, denominators=(2,)),
-    }[level]
-    others = (-4, -1) if rng.chance({1: Fraction(3, 5), 2: Fraction(1, 10), 3: Fraction(0)}[level]) else (-3, 5)
+    if level == 3:
+        return _draw_threshold(gamma, rng)
+    shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
+    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-3, 5)
     mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
-    return Given(mdp=mdp, start=policy, gamma=gamma, rounds=min(level, 2))
+    return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
 
 
-def question(given: Given) -> Question:
-    """The model and the first policy; values and policy of every round are asked for."""
-    states = given.mdp.states
+def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
+    """An optimal policy, and a reward that makes it worse than another one, which has readable values, too."""
+    states = 2 + rng.below(2)
+    shape = Shape(states=states, actions=5 - states, branches=2, denominators=(2,))
+    mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
+    pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
+    row = rng.choice(mdp.outcomes[pair])
+    bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)
+    rows = tuple(each._replace(reward=Parameter("x")) if each is row else each for each in mdp.transitions)
+    opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
+    for above in rng.shuffled(_ABOVE):
+        improved = deterministic(start | {pair[0]: pair[1]})
+        better = policy_values(with_reward(opened, bound + above), improved, gamma)
+        if bound and bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
+            return Threshold(mdp=opened, start=start, gamma=gamma, reward=bound + above)
+    return _draw_threshold(gamma, rng)
+
+
+def question(given: Rounds | Threshold) -> Question:
+    """The model and the first policy; values and policies are asked for, or when the first is optimal."""
     blocks = (
         *model_blocks(given.mdp),
         Paragraph("Policy iteration starts from this policy:"),
         choices_table(given.start, "π_0"),
-        Paragraph(
-            f"{discount(given.gamma)} Each policy is evaluated exactly. Improvement changes an action only where "
-            "another one is better: on a tie the old action is kept."
-        ),
+    )
+    return _of_rounds(given, blocks) if isinstance(given, Rounds) else _of_threshold(given, blocks)
+
+
+def _of_rounds(given: Rounds, blocks: tuple[Block, ...]) -> Question:
+    """Values and policy of every round are asked for."""
+    rule = Paragraph(
+        f"{discount(given.gamma)} Each policy is evaluated exactly. Improvement changes an action only where "
+        "another one is better: on a tie the old action is kept."
     )
     parts = []
     for number in range(given.rounds):
-        before, after = f"π_{{{number}}}", f"π_{{{number + 1}}}"
-        of = f"V^{{{before}}}"
+        after = f"π_{{{number + 1}}}"
         parts += [
-            Part(f"What is ${of}(s)$, the value of every state?", Values(of, states)),
+            _values_asked(given.mdp, number),
             Part(f"Which policy ${after}$ does improvement give?", Policy(given.mdp.actions, after)),
         ]
+    last = Part(f"Is $π_{{{given.rounds - 1}}}$ an optimal policy?", YesNo())
+    return Question((*blocks, rule), (*parts, last))
+
+
+def _of_threshold(given: Threshold, blocks: tuple[Block, ...]) -> Question:
+    """The values of the first policy, the reward up to which it is optimal, and the values of the next one."""
+    x, row = shown(Parameter(given.row.reward)), given.row
+    told = Paragraph(f"{discount(given.gamma)} The reward ${x}$ of {row.action} in {row.state} is not known yet.")
     return Question(
-        blocks,
+        (*blocks, told),
         (
-            *parts,
-            Part(f"Is ${before}$ an optimal policy?", YesNo()),
+            _values_asked(given.mdp, 0),
+            Part(f"Up to which ${x}$ is $π_0$ an optimal policy?", Number(), zero=True),
+            _values_asked(given.mdp, 1, f"Now let ${x} = {shown(given.reward)}$. "),
         ),
     )
+
+
+def _values_asked(mdp: Model, number: int, before: str = "") -> Part:
+    of = f"V^{{π_{{{number}}}}}"
+    policy = "every state" if not before else "every state under the policy that improvement gives"
+    return Part(f"{before}What is ${of}(s)$, the value of {policy}?", Values(of, mdp.states))

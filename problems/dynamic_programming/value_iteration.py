@@ -18,7 +18,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Sweeps):
@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
     mdp = _paying(rng, draw_model(rng, setting, shape), 1 if level == 1 else 2)
     while over_actions and not _decided(mdp, gamma):
         mdp = _paying(rng, draw_model(rng, setting, shape), 2)
-    return Given(
+    given = Given(
         mdp=mdp,
         gamma=gamma,
         sweeps=level,
@@ -90,6 +90,18 @@ def draw(level: int, rng: Draws) -> Given:
         in_place=not over_actions and rng.chance(Fraction(1, 2)),
         action_values=over_actions,
     )
+    return draw(level, rng) if not over_actions and _is_over(given, gamma) else given
+
+
+def _is_over(given: Given, gamma: Fraction) -> bool:
+    """Whether one sweep more changes nothing, so that it does not matter how many there are."""
+    values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
+    for _ in range(given.sweeps + 1):
+        old = dict(values)
+        for state, actions in given.mdp.actions.items():
+            ahead = values if given.in_place else old
+            values[state] = max(worth(given.mdp, (state, action), ahead, gamma) for action in actions)
+    return values == old
 
 
 def _paying(rng: Draws, mdp: Model, scale: int) -> Model:
@@ -111,6 +123,7 @@ def _decided(mdp: Model, gamma: Fraction) -> bool:
 
 def _to_tie(rng: Draws, setting: Setting) -> Given:
     """Two actions in one state that are both greedy for the values of the first sweep, with a discount below 1."""
+    pays_more = rng.choice((1, -1))  # the first action at once, or the second
     while True:
         mdp = draw_model(rng, setting, Shape(states=3, actions=2, branches=1, reward=8))
         first = {
@@ -120,7 +133,7 @@ def _to_tie(rng: Draws, setting: Setting) -> Given:
             one, other = (next(row for row in mdp.transitions if row[:2] == (tie, a)) for a in mdp.actions[tie])
             gain = Fraction(one.reward) - Fraction(other.reward)
             later = first.get(other.next, Fraction(0)) - first.get(one.next, Fraction(0))
-            if later and 0 < gain / later < 1:
+            if later and 0 < gain / later < 1 and gain * pays_more > 0:
                 return Given(mdp=mdp, gamma=Parameter("gamma"), sweeps=1, tie=tie)
 
 

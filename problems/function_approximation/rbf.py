@@ -142,11 +142,7 @@ def question(given: Given) -> Question:
         *([Part("What is the standard deviation $σ$?", Number())] if given.sigma is None else []),
         *([Part("What is the state $s$?", Number(), zero=True)] if given.position is None else []),
         *(
-            [
-                asked_features(
-                    given, given.logarithms, in_open(given, several=len(given.centres) - len(given.logarithms) > 1)
-                )
-            ]
+            [asked_features(given, given.logarithms, in_open(given))]
             if len(given.logarithms) < len(given.centres)
             else []
         ),

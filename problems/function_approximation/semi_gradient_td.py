@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting, draw_way
 
 TITLE = "Semi-gradient TD"
 SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -105,7 +105,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _matters(given: Given) -> Iterator[Fraction]:
-    """The TD errors, and the estimates that γ stands with: none is 0, or something given would not count.
+    """The TD errors, and the estimates and weights that γ stands with: none is 0, or something given would not count.
 
     With the step size left open these are those of the first step only.
     """
@@ -126,6 +126,7 @@ def _matters(given: Given) -> Iterator[Fraction]:
         yield error
         if run.states[time + 1] not in run.terminal:
             yield estimate(time + 1)
+            yield from theta[block(time + 1)]
         if isinstance(given.alpha, Parameter):
             return
         rows = zip(theta[block(time)], given.features[run.states[time]], strict=True)
@@ -163,8 +164,8 @@ def question(given: Given) -> Question:
     )
     errors = tuple(f"δ_{{{time}}}" for time in range(steps))
     which = "is the TD error" if steps == 1 else "are the TD errors"
-    first = f"What {which} ${', '.join(errors)}${in_open(given, several=steps > 1)}?"
+    first = f"What {which} ${', '.join(errors)}${in_open(given)}?"
     learnt = "after the transition" if steps == 1 else "after the last transition"
-    second = f"What are the weights $θ$ {learnt}{in_open(given, several=len(given.theta) > 1)}?"
+    second = f"What are the weights $θ$ {learnt}{in_open(given)}?"
     names = weight_names(range(size * max(1, len(given.actions))))
     return Question(blocks, (Part(first, Numbers(errors)), Part(second, Numbers(names))))

@@ -175,7 +175,6 @@ def _another(rng: Draws, chances: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
 def question(given: Given) -> Question:
     """The table with a line for every history; probabilities, the verdict, and the state at which it breaks."""
     weight = {row[:3]: row.weight for row in given.table}
-    rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."
     counts = "how often three successive states $s_{t-1}, s_t, s_{t+1}$ were observed"
     told = "the joint probability of three successive states $s_{t-1}, s_t, s_{t+1}$" if given.probabilities else counts
     rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."

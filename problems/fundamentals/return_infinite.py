@@ -110,7 +110,7 @@ def question(given: Given) -> Question:
     else:
         round_ = ", ".join(shown(reward) for reward in given.repeated)
         told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
-    limits = " It lies in $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
+    limits = " Discounts satisfy $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
     more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
     if given.known is not None:

@@ -147,6 +147,6 @@ def question(given: Given) -> Question:
             else Part("What are the estimates for the other features then, in their order?", Numbers(others))
         )
         return Question(blocks, (Part(f"{told} What is the discount $γ$?", Number()), rest))
-    opened = in_open(given, several=given.size > 1)
+    opened = in_open(given)
     ask = f"What is the estimate of the feature expectations $μ(π)$ of the expert's policy{opened}?"
     return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, given.size + 1)))),))

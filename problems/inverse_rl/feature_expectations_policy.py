@@ -214,15 +214,13 @@ def question(given: Given) -> Question:
     parts = [
         Part(
             f"$μ_{number}(s)$ is the expected discounted sum of the feature $φ_{number}$ from $s_0 = s$ on, $s_0$ "
-            f"included. What is $μ_{number}(s)$ for each state{in_open(given, several=True)}?",
+            f"included. What is $μ_{number}(s)$ for each state{in_open(given)}?",
             Values(f"μ_{{{number}}}", given.states),
         )
         for number in numbers
     ]
     entries = tuple(f"μ_{{{number}}}" for number in numbers)
-    ask = (
-        f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given, several=given.size > 1)}?"
-    )
+    ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
     parts.append(Part(ask, Numbers(entries)))
     return Question(blocks, tuple(parts))
 

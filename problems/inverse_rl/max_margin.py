@@ -144,7 +144,7 @@ def question(given: Given) -> Question:
     )
     blocks = (
         Paragraph(
-            "With the reward $w^⊤ φ(s)$ the expert's policy $π_E$ has to be better than these other policies, with a "
+            "With the reward $w^⊤ φ(s)$ the expert's policy $π_E$ must be better than these other policies, with a "
             "margin $m$:"
         ),
         Table(

@@ -124,9 +124,7 @@ def question(given: Given) -> Question:
     if len(given.asked) < given.horizon:
         first = f"Only the first {len(given.asked)} of the {given.horizon} times are asked for"
         blocks = (*blocks, Paragraph(f"{first}; the recursion begins at the horizon all the same."))
-    parts = [
-        Part(f"{ask}{in_open(given, several=kind.rows * kind.columns > 1)}?", kind, zero=n > 1) for ask, kind in wanted
-    ]
+    parts = [Part(f"{ask}{in_open(given)}?", kind, zero=n > 1) for ask, kind in wanted]
     if given.action is not None:
         told = f"The best first action is ${u}_0 = {shown(given.action)}$. What is the price $ρ$ of the action?"
         parts = [Part(told, Number()), *parts[:2]]

@@ -160,7 +160,7 @@ def question(given: Given) -> Question:
         *(Equation(mathematics(name), (tabular(lines),), ("=",), linear=True) for name, lines in named),
     )
     m, n = len(given.B[0]), len(given.A)
-    opened = in_open(given, several=n * m > 1)
+    opened = in_open(given)
     gain = Part(f"What is the gain ${L}_0$ of the optimal action ${u}_0 = −{L}_0 {x}_0${opened}?", Matrix(m, n))
     if given.start is None:
         return Question(blocks, (gain,))
@@ -170,7 +170,5 @@ def question(given: Given) -> Question:
             f"The price $ρ$ of the action is unknown. The optimal action in {here} is ${u}_0 = {shown(given.action)}$."
         )
         return Question(blocks, (Part(f"{told} What is $ρ$?", Number()), gain))
-    action = Part(
-        f"What is the optimal action ${u}_0$ in {here}{in_open(given, several=m > 1)}?", Matrix(m, 1), zero=True
-    )
+    action = Part(f"What is the optimal action ${u}_0$ in {here}{in_open(given)}?", Matrix(m, 1), zero=True)
     return Question(blocks, (gain, action))

@@ -28,9 +28,8 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 4
+REVISION = 5
 _LARGEST = 6
-_LARGEST_ROOT = 40
 
 
 class Given(Conventional):
@@ -94,17 +93,20 @@ _OPEN = Parameter("rho")
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """A rational P; a root, a discount, a cross term or two states; two coupled robots, or a price to find."""
+    """A scalar system; a discount, a cross term or two states; two coupled robots, or a price to find.
+
+    They are such that the root in P comes out.
+    """
     if level == 1:
-        return _scalar(*map(Fraction, rng.choice(_scalars(rational=True))))
+        return _scalar(*rng.choice(_scalars()))
     if level == 2:
-        kind = rng.choice(("root", "discount", "cross", "two"))
-        if kind == "root":
-            return _scalar(*map(Fraction, rng.choice(_scalars(rational=False))))
+        kind = rng.choice(("discount", "cross", "cross", "two"))
         if kind == "two":
-            first, second = (rng.choice(_scalars(rational=True)) for _ in range(2))
-            A, B, Q, R = (diagonal(*map(Fraction, pair)) for pair in zip(first, second, strict=True))
-            return Given(A=A, B=B, Q=Q, R=R)
+            gamma = rng.fraction("1", "1/2", "3/4")
+            systems = _scalars() if gamma == 1 else [each[:4] for each in _discounted() if each[4] == gamma]
+            first, second = (rng.choice(systems) for _ in range(2))
+            A, B, Q, R = (diagonal(*pair) for pair in zip(first, second, strict=True))
+            return Given(A=A, B=B, Q=Q, R=R, gamma=gamma)
         a, b, q, r, added = rng.choice(_discounted() if kind == "discount" else _crossed())
         if kind == "discount":
             return _scalar(a, b, q, r, gamma=added)
@@ -141,14 +143,13 @@ _LOOPS = (
 
 
 @cache
-def _scalars(*, rational: bool) -> tuple[tuple[int, int, int, int], ...]:
-    """Whole numbers A, B, Q, R of scalar systems; with ``rational``, those in which the root comes out."""
-    found = []
-    for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7)):
-        under = _under_root(a, b, q, r)
-        if under == 1 if rational else 1 < under < _LARGEST_ROOT:
-            found.append((a, b, q, r))
-    return tuple(found)
+def _scalars() -> tuple[tuple[Fraction, ...], ...]:
+    """Whole numbers A, B, Q, R of scalar systems in which the root comes out."""
+    return tuple(
+        (Fraction(a), Fraction(b), Fraction(q), Fraction(r))
+        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 9), range(1, 7))
+        if _is_square(Fraction((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r))
+    )
 
 
 @cache
@@ -195,18 +196,6 @@ def _pairs() -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
         and (abs(first[0]), first[2]) != (abs(second[0]), second[2])
         and (first[0] - second[0]) % 2 == (first[2] - second[2]) % 2 == 0
     )
-
-
-def _under_root(a: int, b: int, q: int, r: int) -> int:
-    return _squarefree((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r)
-
-
-def _squarefree(number: int) -> int:
-    """What stays under the root."""
-    for factor in range(isqrt(number), 1, -1):
-        if number % factor**2 == 0:
-            return number // factor**2
-    return number
 
 
 def _circulant(total: Fraction, difference: Fraction) -> Rows:

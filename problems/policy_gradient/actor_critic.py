@@ -144,9 +144,9 @@ def question(given: Given) -> Question:
         else f"What are the critic's values of {joined(list(given.visited))}"
     )
     which = "are the TD errors" if several else "is the TD error"
-    errors_open = in_open(given, several=several)
-    values_open = in_open(given, several=len(given.visited) > 1)
-    weights_open = in_open(given, several=len(given.theta) > 1)
+    errors_open = in_open(given)
+    values_open = in_open(given)
+    weights_open = in_open(given)
     return Question(
         blocks,
         (

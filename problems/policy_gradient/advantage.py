@@ -227,7 +227,7 @@ def _along(given: AlongRun) -> Question:
             f"it ends at $T = {len(times)}$, so the last one is $δ_{{{len(times) - 1}}}$. The values are not updated."
         ),
     )
-    ask = f"What are the estimates ${', '.join(estimates)}${in_open(given, several=len(estimates) > 1)}?"
+    ask = f"What are the estimates ${', '.join(estimates)}${in_open(given)}?"
     if isinstance(run.lam, Parameter):  # then the TD errors alone are no expression in it
         return Question(blocks, (Part(ask, Numbers(estimates)),))
     first = f"What are the TD errors ${', '.join(errors)}$?"

@@ -149,7 +149,7 @@ def question(given: Given) -> Question:
     )
     if given.component is not None:
         return Question((*blocks, *_known(given, given.component)), tuple(_parts_for_p(given)))
-    ask = f"What is the score $∇_θ log π(a|s)$ of {{}}{in_open(given, several=size > 1)}?"
+    ask = f"What is the score $∇_θ log π(a|s)$ of {{}}{in_open(given)}?"
     wanted = [ask.format(f"the action {action}") for action in given.asked]
     names = tuple(f"∂/∂{name}" for name in weight_names(range(size)))
     if given.policy is not None:
@@ -166,7 +166,7 @@ def question(given: Given) -> Question:
         blocks += (Paragraph(f"The weights are ${weights(given.theta or ())}$.{left_open}"),)
         probabilities = (
             Part(
-                f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?",
+                f"What is the probability $π(a|s)$ of every action{in_open(given)}?",
                 Values("π", tuple(given.features)),
             ),
         )

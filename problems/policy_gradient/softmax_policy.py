@@ -19,7 +19,7 @@ from rldrill.problems.softmax import draw_log_policy
 
 TITLE = "Softmax policy"
 SOURCE = "Sutton & Barto 2018, section 13.1"
-REVISION = 2
+REVISION = 3
 
 
 class Odds(NamedTuple):
@@ -118,7 +118,7 @@ def _entropy(rng: Draws, actions: tuple[str, ...]) -> Given:
         theta, rows = draw_log_policy(rng, ("s",), actions[:3], rng.choice((2, 3)))
         sums = [_sum(theta, row) for row in rows["s"].values()]
         # Probabilities of halves, thirds, quarters and sixths: then the entropy has few logarithms.
-        if len(set(sums)) > 1 and round(sum(map(exp, sums)), 6) in (4, 6, 8, 9, 12):
+        if len(set(sums)) > 1 and round(sum(map(exp, sums)), 6) in (8, 9, 12):
             return Given(theta=theta, features=rows["s"], entropy=True)
 
 
@@ -146,11 +146,11 @@ def question(given: Given) -> Question:
         )
     parts = [
         Part(
-            f"What is the preference $h(s, a)$ of every action{in_open(given, several=True)}?",
+            f"What is the preference $h(s, a)$ of every action{in_open(given)}?",
             Values("h", actions),
             zero=True,
         ),
-        Part(f"What is the probability $π(a|s)$ of every action{in_open(given, several=True)}?", Values("π", actions)),
+        Part(f"What is the probability $π(a|s)$ of every action{in_open(given)}?", Values("π", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"

@@ -124,7 +124,7 @@ def question(given: Given) -> Question:
             "by the sum of all its updates with a small constant step size, until they have converged."
         ),
     )
-    tail = in_open(given, several=len(given.states) > 1)
+    tail = in_open(given)
     key = Values("V", given.states)
     what = f'value $V("{given.states[0]}")$' if len(given.states) == 1 else "values $V(s)$"
     ask = f"To which {what} does"

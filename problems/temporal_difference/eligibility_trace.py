@@ -125,5 +125,5 @@ def _traces(given: Given, time: int) -> Part:
     states = given.visited
     asked = "traces of all states" if len(states) > 1 else f"trace of {states[0]}"
     verb = "are" if len(states) > 1 else "is"
-    ask = f"What {verb} the {asked} after the update at $t = {time}${in_open(given, several=len(states) > 1)}?"
+    ask = f"What {verb} the {asked} after the update at $t = {time}${in_open(given)}?"
     return Part(ask, Values("e", states))

@@ -178,9 +178,7 @@ def question(given: Given) -> Question:
         returns = Part(f"What is the return ${entries[0]}${tail}?", Number())
     else:
         listed = ", ".join(entries) if len(entries) < 4 else f"{entries[0]}, …, {entries[-1]}"
-        returns = Part(
-            f"What are the returns ${listed}$, in this order{in_open(given, several=True)}?", Numbers(entries)
-        )
+        returns = Part(f"What are the returns ${listed}$, in this order{in_open(given)}?", Numbers(entries))
     return Question(blocks, (returns, values))
 
 

@@ -144,7 +144,7 @@ def question(given: Given) -> Question:
         weights = Part(f"With what weight $w_1$ does the return enter {after}{tail}?", Number())
     else:
         ask = f"With what weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
-        weights = Part(f"{ask} {after}{in_open(given, several=True)}?", Numbers(entries))
+        weights = Part(f"{ask} {after}{in_open(given)}?", Numbers(entries))
     return Question(blocks, (weights, Part(value, Number())))
 
 

@@ -116,7 +116,7 @@ def question(given: Given) -> Question:
         asked = f'$V("{given.updated[0]}")$'
     else:
         returns = Part(
-            f"What are the λ-returns ${', '.join(entries)}$, in this order{in_open(given, several=True)}?",
+            f"What are the λ-returns ${', '.join(entries)}$, in this order{in_open(given)}?",
             Numbers(entries),
         )
         asked = f"the values of the states visited at times {joined([f'${time}$' for time in given.asked])}"

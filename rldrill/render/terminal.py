@@ -9,6 +9,7 @@ from textwrap import wrap
 from typing import TypeAlias
 
 from rich import box
+from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.control import Control
 from rich.measure import Measurement
@@ -269,7 +270,8 @@ def _line(math: Math, further: bool, spelling: Spelling) -> list[str]:
 
 
 def _wide(lines: Iterable[str]) -> int:
-    return max(map(len, lines), default=0)
+    """How many places the widest line takes: a hat takes none of its own."""
+    return max(map(cell_len, lines), default=0)
 
 
 def turn_page(screen: Console) -> None:

@@ -98,7 +98,7 @@ def order_swapped(given: Given, work: Work) -> None:
 
 @slip(
     "prior-again",
-    "Every step goes on from the belief of the step before it, not from the first belief.",
+    "Every step goes on from the belief of the step before it, not from the initial belief.",
     when=lambda given: len(given.run) > 1,
 )
 def prior_again(given: Given, work: Work) -> None:

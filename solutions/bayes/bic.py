@@ -8,6 +8,7 @@ import sympy
 
 from rldrill.problems.bayes.bic import Data, Fitted, Given
 from rldrill.problems.document import joined
+from rldrill.problems.exact import shown
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import np
@@ -48,10 +49,18 @@ def _compare(given: Given, work: Work, better: int) -> None:
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
     for name in names:
+        _tell_logarithm(given, name, work)
         value = work.step(formula, M=name, log_likelihood=fit[name], free=free[name], n=n)
         criteria[name] = _in_primes(work, formula, value, M=name)
     criteria = work.answer(criteria)
     work.answer(_winner(work, given, criteria, better))
+
+
+def _tell_logarithm(given: Given, name: str, work: Work) -> None:
+    """Say that the logarithm of one part in so many is minus that of the number."""
+    likelihood = given.fitted[name].likelihood if given.fitted else None
+    if likelihood is not None and likelihood.numerator == 1 < likelihood.denominator:
+        work.say(f'$ln p(D_z|"{name}", θ) = ln({shown(likelihood)}) = −ln {likelihood.denominator}$, so')
 
 
 def _logarithm(model: Fitted) -> Value:

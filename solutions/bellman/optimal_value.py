@@ -1,19 +1,35 @@
-"""The values of the best policy, held against the optimality equation; then best actions and Q*."""
+"""The values of the best policy, held against the optimality equation; or a reward, from an optimal value."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from itertools import count, product
+from typing import Any, TypeAlias
 
-from rldrill.problems.bellman.optimal_value import Given
+from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought
 from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
 from rldrill.problems.valued import deterministic
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, parameters, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.formula.notation import numbered, pi
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.optimality import Optimum, optimum
-from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, optimal_values, tensors, without_loss
+from rldrill.solutions.oracle import (
+    Answers,
+    at,
+    best_actions,
+    chances,
+    lookahead,
+    optimal_values,
+    policy_values,
+    root,
+    tensors,
+    without_loss,
+)
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, terminal_value
+from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_V,
     BELLMAN_V,
@@ -21,14 +37,73 @@ from rldrill.solutions.sheet.bellman import (
     Q_FORGOT_GAMMA,
     Q_STAR_FROM_V,
 )
-from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, POLICY_IMPROVEMENT, POLICY_ITERATION
+from rldrill.solutions.sheet.dynamic_programming import GREEDY_FROM_V, of_round
 from rldrill.solutions.work import Work
 
 #: Of so many states policy iteration is written out.
 _WRITTEN_OUT = 4
 
 
+#: Chooses among the values with which one action or another reaches what is known.
+Chosen: TypeAlias = Callable[[Iterable[Any]], Any]
+
+
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
+    """All optimal values, or the reward that follows from one of them."""
+    if isinstance(given, Sought):
+        _sought(given, work, min)
+    else:
+        _optimal(given, work, evaluation)
+
+
+def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
+    """The other value, with which the maximum is what is known; the reward, with which it is that value."""
+    mdp, state, row = given.mdp, given.state, given.row
+    target, y = exact(given.optimum[state]), generator("y")
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    V = dict.fromkeys(mdp.terminal, ZERO) | {state: target}
+    work.say(f'Let $y = V^*("{row.state}")$. The actions in {state} have these values:')
+    worths = {
+        action: work.step(Q_STAR_FROM_V, s=state, a=action, **known, V=V | {row.state: y})
+        for action in mdp.actions[state]
+    }
+    ends = {}
+    for action, worth in worths.items():
+        if parameters(worth):
+            work.say(f'If {action} is best in {state}, this is $V^*("{state}") = {to_sympy(target)}$:')
+            ends[action] = work.equate("y", worth, target)
+    if not ends or any(worth >= target for action, worth in worths.items() if action not in ends):
+        raise NoSolution(
+            f"optimum: no value of {row.state!r} makes {target} the optimal value of {state!r}; give another"
+        )
+    value = chosen(ends.values())
+    (best, *_) = (action for action, end in ends.items() if end == value)
+    if len(ends) > 1:
+        which = "smaller" if len(ends) == 2 else "smallest"
+        work.say(f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the {which} $y$ is right.')
+    else:
+        work.say(f"The other actions are worth less than ${to_sympy(target)}$: so {best} is best in {state}.")
+    V[row.state] = work.answer(value)
+    work.say(f"The actions in {row.state} have these values:")
+    worths = {
+        action: work.step(Q_STAR_FROM_V, s=row.state, a=action, **known, V=V) for action in mdp.actions[row.state]
+    }
+    if V[row.state] == value and any(each >= value for action, each in worths.items() if action != row.action):
+        raise NoSolution(
+            f"the reward of {row.action!r} does not follow, for another action in {row.state!r} is as good"
+        )
+    work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
+    work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
+    work.say(f'{best.capitalize()} is worth $V^*("{state}")$, and the other actions in {state} are worth less.')
+    work.answer({state: (best,)})
+    work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
+    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work)
+    work.say(f"With these values {row.action} is as good in {row.state} as the best of the others if")
+    worth = work.step(Q_STAR_FROM_V, s=row.state, a=row.action, **known, V=V)
+    work.answer(work.equate(str(row.reward), worth, V[row.state]))
+
+
+def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
@@ -53,25 +128,27 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
-def _iterated(given: Given, work: Work) -> dict[str, Value]:
+def _iterated(given: Optimal, work: Work) -> dict[str, Value]:
     """Policy iteration from the policy that earns most at once, to the last values."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     policy = optimum(mdp, Fraction(0)).policy
-    work.say(f"Policy iteration, starting with the action that earns most at once: {_told(policy)}.")
-    while True:
-        values = evaluated(work, POLICY_ITERATION, mdp, known | {"pi": policy})
-        greedy = {state: work.value(POLICY_IMPROVEMENT, s=state, V=values, **known) for state in mdp.states}
+    work.say(f"Policy iteration, starting with the action that earns most at once, $π_0$: {_told(policy)}.")
+    for number in count():
+        evaluate, improve, _ = of_round(number)
+        values = evaluated(work, evaluate, mdp, known | {"pi": policy})
+        greedy = {state: work.value(improve, s=state, V=values, **known) for state in mdp.states}
         if all(policy[state] in greedy[state] for state in mdp.states):
-            work.say("No other action is better now: these values solve the optimality equation.")
-            return values
+            break
         for state in mdp.states:
-            work.step(POLICY_IMPROVEMENT, s=state, V=values, **known)
+            work.step(improve, s=state, V=values, into=numbered(pi, number + 1), **known)
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
-        work.say(f"This changes the policy, so it is evaluated again: {_told(policy)}.")
+        work.say(f"This changes the policy, so $π_{{{number + 1}}}$ is evaluated: {_told(policy)}.")
+    work.say(f"No action is better than that of $π_{{{number}}}$: its values solve the optimality equation.")
+    return values
 
 
-def _of_the_best(given: Given, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
+def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluation) -> dict[str, Value]:
     """The values of the policy with which policy iteration ends."""
     mdp, policy = given.mdp, best.policy
     work.say(f"Policy iteration ends with these actions: {_told(policy)}. Their values:")
@@ -89,7 +166,7 @@ def _told(policy: Mapping[str, str]) -> str:
     return joined([f"{action} in {state}" for state, action in policy.items()])
 
 
-def _settle_for(given: Given, work: Work, policy: Mapping[str, str]) -> None:
+def _settle_for(given: Optimal, work: Work, policy: Mapping[str, str]) -> None:
     """Take a policy for the best one."""
     mdp = given.mdp
     known = knowns.model_and_policy(mdp, deterministic(policy), given.gamma)
@@ -102,9 +179,9 @@ def _settle_for(given: Given, work: Work, policy: Mapping[str, str]) -> None:
 @slip(
     "greedy-on-reward",
     "The action with the greatest immediate reward need not be best: what can be earned after it counts too.",
-    when=lambda given: given.gamma != 0,
+    when=lambda given: isinstance(given, Optimal) and given.gamma != 0,
 )
-def most_paid(given: Given, work: Work) -> None:
+def most_paid(given: Optimal, work: Work) -> None:
     """The policy that is best without what comes after."""
     _settle_for(given, work, optimum(given.mdp, Fraction(0)).policy)
 
@@ -112,8 +189,9 @@ def most_paid(given: Given, work: Work) -> None:
 @slip(
     "wrong-fixed-policy",
     "These are the values of the policy that always takes the first action; in some state another one is better.",
+    when=lambda given: isinstance(given, Optimal),
 )
-def first_actions(given: Given, work: Work) -> None:
+def first_actions(given: Optimal, work: Work) -> None:
     """The policy that always takes the first action."""
     _settle_for(given, work, {state: actions[0] for state, actions in given.mdp.actions.items()})
 
@@ -121,23 +199,71 @@ def first_actions(given: Given, work: Work) -> None:
 @slip(
     "mean-for-max",
     "These are the values of choosing at random; the optimal value takes the best action in every state.",
+    when=lambda given: isinstance(given, Optimal),
 )
-def at_random(given: Given, work: Work) -> None:
+def at_random(given: Optimal, work: Work) -> None:
     """The values of the policy that chooses at random."""
-    solve(given, work, _at_random)
+    _optimal(given, work, _at_random)
+
+
+@slip(
+    "exceeds-the-maximum",
+    "V* is the greatest of the actions' values, so none may exceed it: the smallest value that reaches it is right.",
+    when=lambda given: isinstance(given, Sought),
+)
+def exceeds(given: Sought, work: Work) -> None:
+    """The greatest of the values that reach what is known."""
+    _sought(given, work, max)
 
 
 def _at_random(work: Work, formula: Formula, mdp: Model, known: Mapping[str, Any]) -> dict[str, Value]:
     return evaluated(work, formula, mdp, {**known, "pi": knowns.policy(equiprobable(mdp))})
 
 
+_END_PAID = terminal_value(_optimal)
 MISCONCEPTIONS = (
-    most_paid, first_actions, at_random, terminal_value(solve), Q_FORGOT_GAMMA, OWN_VALUE
+    most_paid, first_actions, at_random, exceeds, Q_FORGOT_GAMMA,
+    replace(_END_PAID, when=lambda given: isinstance(given, Optimal) and _END_PAID.applies(given)),
+    replace(OWN_VALUE, when=lambda given: isinstance(given, Optimal)),
 )  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:
     """Sweeps of value iteration until nothing changes; the best actions by trying all."""
+    return _swept(given) if isinstance(given, Optimal) else _tried(given)
+
+
+def _tried(given: Sought) -> Answers:
+    """Every policy with the reward that gives it the known value; the one that sweeps find to be optimal then."""
+    mdp, gamma, known = given.mdp, at(given.gamma), at(given.optimum[given.state])
+    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
+    place, other = states.index(given.state), states.index(given.row.state)
+    for actions in product(*mdp.actions.values()):
+        pi = chances(deterministic(dict(zip(mdp.states, actions, strict=True))), mdp, states)
+        low, high = (policy_values(*tensors(mdp, states, x), pi, gamma)[place] for x in (0.0, 1.0))
+        if abs(high - low) < 1e-9:
+            continue  # the policy does not earn the reward
+        P, R = tensors(mdp, states, x := (known - low) / (high - low))
+        V = optimal_values(P, R, gamma, n)
+        if abs(V[place] - known) < 1e-6:
+            best = best_actions(mdp, lookahead(P, R, V, gamma)[:n])
+            return V[other], x, {given.state: best[given.state]}, _threshold(given, P, R)
+    raise AssertionError("no policy is optimal")
+
+
+def _threshold(given: Sought, P: Array, R: Array) -> float:
+    """Where the action starts to be worth as much as the optimum without it, from two trials."""
+    mdp, gamma, states = given.mdp, at(given.gamma), (*given.mdp.states, *given.mdp.terminal)
+    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    place = states.index(given.row.state), names.index(given.row.action)
+    barred = R.copy()
+    barred[place] = -np.inf
+    V = optimal_values(P, barred, gamma, len(mdp.states))
+    return root(lambda x: float(lookahead(*tensors(mdp, states, x), V, gamma)[place] - V[place[0]]))
+
+
+def _swept(given: Optimal) -> Answers:
+    """All values by sweeps."""
     mdp = given.mdp
     states = (*mdp.states, *mdp.terminal)
     P, R = tensors(mdp, states)

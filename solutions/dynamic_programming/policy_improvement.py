@@ -57,7 +57,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         work.say(
             "In every state the action of $π$ is greedy, so no action is better: $π$ is optimal."
             if optimal
-            else f"In {joined(better)} another action than that of $π$ is better, so $π$ is not optimal."
+            else f"In {joined(better)} another action is better than that of $π$, so $π$ is not optimal."
         )
     work.answer(optimal)
 

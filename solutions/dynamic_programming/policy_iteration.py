@@ -3,14 +3,16 @@
 from collections.abc import Mapping
 from typing import Any
 
-from rldrill.problems.dynamic_programming.policy_iteration import Given
+from rldrill.problems.document import joined
+from rldrill.problems.dynamic_programming.policy_iteration import Given, Rounds, Threshold
+from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.models import Model
-from rldrill.problems.valued import deterministic
+from rldrill.problems.valued import deterministic, policy_values, with_reward, worth
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import numbered, pi
-from rldrill.solutions.numerics import np
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
 from rldrill.solutions.oracle import (
     Answers,
@@ -19,10 +21,12 @@ from rldrill.solutions.oracle import (
     chances,
     lookahead,
     optimal_values,
-    policy_values,
+    root,
     tensors,
 )
+from rldrill.solutions.oracle import policy_values as values_of
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_sweep
+from rldrill.solutions.sheet.bellman import Q_FORGOT_GAMMA
 from rldrill.solutions.sheet.dynamic_programming import (
     IMPROVEMENT_BY_REWARD,
     IMPROVEMENT_BY_VALUE,
@@ -32,7 +36,15 @@ from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
-    """Round after round: the values of the policy, then the greedy actions for them."""
+    """Round after round, or the reward up to which the first policy is optimal."""
+    if isinstance(given, Threshold):
+        _of_threshold(given, work, evaluation)
+    else:
+        _of_rounds(given, work, evaluation)
+
+
+def _of_rounds(given: Rounds, work: Work, evaluation: Evaluation) -> None:
+    """In every round the values of the policy, then the greedy actions for them."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     policy, changed = given.start, True
@@ -40,7 +52,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     for number in range(given.rounds):
         before = policy
         work.say(f"Evaluation of $π_{{{number}}}$:")
-        evaluate, improve = of_round(number)
+        evaluate, improve, _ = of_round(number)
         values = evaluation(work, evaluate, mdp, known | {"pi": policy, "V": values})
         values |= work.answer(of_states(mdp, values))
         work.say(f"Improvement to $π_{{{number + 1}}}$:")
@@ -63,6 +75,51 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     work.answer(optimal)
 
 
+def _of_threshold(given: Threshold, work: Work, evaluation: Evaluation) -> None:
+    """The values of the first policy, what the other actions are worth by them, and the values of the next policy."""
+    _demand_sense(given)
+    mdp, start, row = given.mdp, given.start, given.row
+    known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
+    evaluate, _, value_of_action = of_round(0)
+    values = evaluation(work, evaluate, mdp, known | {"pi": start})
+    values |= work.answer(of_states(mdp, values))
+    letter, pair = shown(Parameter(row.reward)), (row.state, row.action)
+    others = [each for each in mdp.pairs if start[each[0]] != each[1]]
+    work.say("$π_0$ is optimal as long as no other action is worth more than that of $π_0$. The other actions:")
+    worths = {each: work.step(value_of_action, s=each[0], a=each[1], V=values, **known) for each in others}
+    if rest := [f"{action} in {state}" for state, action in others if (state, action) != pair]:
+        work.say(
+            f"Whatever ${letter}$ is, {joined(rest)} {'is' if len(rest) == 1 else 'are'} worth less than $V^{{π_0}}$."
+        )
+    work.say(f"In {row.state}, {row.action} is worth as much as {start[row.state]} if")
+    bound = work.equate(str(row.reward), worths[pair], values[row.state])
+    more = f"With a larger ${letter}$, {row.action} is better there"
+    work.say(f"{more}, so $π_0$ is optimal for all ${letter} ≤ {to_sympy(bound)}$.")
+    work.answer(bound)
+    policy = given.improved
+    told = joined([f'$π_1("{state}")$ = {action}' for state, action in policy.items()])
+    work.say(f"With ${letter} = {shown(given.reward)}$, improvement changes the action in {row.state} only: {told}.")
+    closed = knowns.model(with_reward(mdp, given.reward)) | {"gamma": exact(given.gamma)}
+    values = evaluation(work, of_round(1)[0], mdp, closed | {"pi": policy, "V": {}})
+    work.answer(of_states(mdp, values))
+
+
+def _demand_sense(given: Threshold) -> None:
+    """Demand that the first policy is optimal for some rewards, and not for the one that is taken then.
+
+    Raises:
+        NoSolution: it is not so.
+    """
+    mdp, row = with_reward(given.mdp, given.reward), given.row
+    values = policy_values(mdp, deterministic(given.start), given.gamma)
+    for state, action in mdp.pairs:
+        better = worth(mdp, (state, action), values, given.gamma) > values[state]
+        if better and (state, action) != (row.state, row.action):
+            raise NoSolution(f"start is optimal for no reward, for {action!r} is better in {state!r}; start with it")
+        if not better and (state, action) == (row.state, row.action):
+            raise NoSolution(f"reward: with {given.reward} {action!r} is not better in {state!r}; give a larger one")
+
+
 def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
     """The greedy actions; an old action that is among them is kept."""
     return {state: (policy[state],) if policy[state] in actions else actions for state, actions in best.items()}
@@ -71,7 +128,7 @@ def _improved(policy: Mapping[str, str], best: Mapping[str, Any]) -> dict[str, t
 @slip(
     "stops-after-one-round",
     "The new policy is evaluated and improved in its turn; it ends only when improvement changes nothing.",
-    when=lambda given: given.rounds > 1,
+    when=lambda given: isinstance(given, Rounds) and given.rounds > 1,
 )
 def stops(given: Given, work: Work) -> None:
     """Whatever comes next has the values of the first policy."""
@@ -82,17 +139,40 @@ def _evaluated_once(work: Work, formula: Formula, mdp: Model, known: Mapping[str
     return known["V"] or evaluated(work, formula, mdp, known)
 
 
-MISCONCEPTIONS = (stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD)
+MISCONCEPTIONS = (stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, Q_FORGOT_GAMMA)
 
 
 def oracle(given: Given) -> Answers:
-    """The rounds in floating point, each evaluation by sweeps until nothing changes."""
+    """In floating point, each evaluation by sweeps until nothing changes."""
+    return _rounds_tried(given) if isinstance(given, Rounds) else _threshold_tried(given)
+
+
+def _threshold_tried(given: Threshold) -> Answers:
+    """The reward at which another action starts to pay, from two trials; all values with it, and with the number."""
+    mdp, gamma = given.mdp, at(given.gamma)
+    states = (*mdp.states, *mdp.terminal)
+    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    place, n = (states.index(given.row.state), names.index(given.row.action)), len(mdp.states)
+    first = chances(deterministic(given.start), mdp, states)
+
+    def tried(x: float) -> tuple[Array, float]:
+        P, R = tensors(mdp, states, x)
+        V = values_of(P, R, first, gamma)
+        return V, float(lookahead(P, R, V, gamma)[place] - V[place[0]])
+
+    P, R = tensors(mdp, states, at(given.reward))
+    after = values_of(P, R, chances(deterministic(given.improved), mdp, states), gamma)
+    return tried(0.0)[0][:n], root(lambda x: tried(x)[1]), after[:n]
+
+
+def _rounds_tried(given: Rounds) -> Answers:
+    """The rounds one after the other."""
     states = (*given.mdp.states, *given.mdp.terminal)
     n = len(given.mdp.states)
     P, R = tensors(given.mdp, states)
     policy, answers, stable = dict(given.start), [], False
     for _ in range(given.rounds):
-        V = policy_values(P, R, chances(deterministic(policy), given.mdp, states), at(given.gamma))
+        V = values_of(P, R, chances(deterministic(policy), given.mdp, states), at(given.gamma))
         best = best_actions(given.mdp, lookahead(P, R, V, at(given.gamma))[:n])
         best = {state: {policy[state]} & actions or actions for state, actions in best.items()}
         answers += [np.array(V[:n]), best]

@@ -10,7 +10,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
-from rldrill.solutions.formula.notation import V, numbered, pi
+from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.bellman import (
@@ -18,12 +18,11 @@ from rldrill.solutions.sheet.bellman import (
     OPTIMAL_Q_BY_REWARD,
 )
 from rldrill.solutions.sheet.dynamic_programming import (
-    GREEDY_FROM_Q,
-    GREEDY_FROM_V,
     MEAN_FOR_MAX,
     Q_OF_VALUES,
     SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
+    greedy,
 )
 from rldrill.solutions.work import Work
 
@@ -51,7 +50,7 @@ def solve(
         _tie(given.tie, work, known | {"V": values})
         return
     work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(GREEDY_FROM_V, s=state, V=values, into=pi, **known) for state in mdp.states})
+    work.answer({state: work.step(greedy()[0], s=state, V=values, **known) for state in mdp.states})
 
 
 def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
@@ -83,7 +82,7 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, into=pi, **known) for state in mdp.states})
+    work.answer({state: work.step(greedy()[1], s=state, Q=Q, **known) for state in mdp.states})
 
 
 @slip(

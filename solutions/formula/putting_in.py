@@ -12,6 +12,7 @@ from rldrill.solutions.exact import NotGiven, ordered
 from rldrill.solutions.formula.compiling import needs, value_of
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import (
+    Factor,
     Leaf,
     MatrixLeaf,
     Negative,
@@ -23,6 +24,7 @@ from rldrill.solutions.formula.nodes.leaves import (
 )
 
 Known = Mapping[str, Any]
+_ANGULAR = (sympy.sin, sympy.cos, sympy.tan)
 
 
 class PutIn:
@@ -51,7 +53,7 @@ class PutIn:
             return product_of(arguments)
         if expression.is_Pow:
             base, exponent = arguments
-            return power_of(base, evaluated(exponent))  # an exponent counts steps; it is not part of the working
+            return _raised(base, evaluated(exponent))  # an exponent counts steps; it is not part of the working
         return expression.func(*arguments, evaluate=False) if expression.is_Function else expression.func(*arguments)
 
     def knowing(self, name: str, value: Any) -> "PutIn":
@@ -130,14 +132,17 @@ def _without_ones(factors: list[Expr]) -> list[Expr]:
     return kept if any(f.is_commutative is False for f in kept) else [*kept, *ones[:1]]
 
 
+def _raised(base: Expr, exponent: Expr) -> Expr:
+    """A power with what was put in: an exponent of 0 or 1 keeps its place in the rule, as other zeros and ones do."""
+    return Pow(base, Slot(exponent) if exponent in (0, 1) else exponent, evaluate=False)
+
+
 def power_of(base: Expr, exponent: Expr) -> Expr:
     """A power, unevaluated, unless it is plain."""
-    if sympy.S.One in (base, exponent):
-        return base
-    if isinstance(base, Slot) and exponent.is_positive:
-        return base
     if exponent == 0 or base == 1:
         return sympy.S.One
+    if exponent == 1 or (base == 0 and exponent.is_positive):
+        return base
     return Pow(base, exponent, evaluate=False)
 
 
@@ -161,33 +166,65 @@ def without_slots(expression: Expr) -> Expr:
         return expression.args[0]
     if isinstance(expression, Leaf) or not expression.has(Slot):
         return expression
+    if expression.is_Mul:
+        return product_of(map(_bracket, expression.args))
     arguments = map(without_slots, expression.args)
     if expression.is_Add and not isinstance(expression, Node):
         return sum_of(arguments)
-    if expression.is_Mul:
-        return product_of(arguments)
     if expression.is_Pow:
         return power_of(*arguments)
     plain = expression.is_Function and not isinstance(expression, Node)
     return expression.func(*arguments, evaluate=False) if plain else expression.func(*arguments)
 
 
+def _bracket(factor: Expr) -> Expr:
+    """A factor without its zeros and ones; a bracket in which a product of numbers is left is worked out."""
+    kept = without_slots(factor)
+    return computed(evaluated(kept)) if factor.is_Add and kept.is_Mul and kept.is_number else kept
+
+
 def reduced(expression: Expr) -> Expr:
     """The step with its inner brackets worked out: what one writes between putting in and the result.
 
-    Where powers of e are plain numbers, such as exp(ln 3) and exp(0), that is all that is worked out.
+    Where powers of e or sines are plain numbers, such as exp(ln 3) and cos(π/3), that is all that is worked out.
     """
     written = without_slots(expression)
     plain = _plain_powers(written)
-    return _reduced(written) if plain == written else plain
+    return _numbers_first(_reduced(written)) if plain == written else plain
+
+
+def _numbers_first(expression: Expr) -> Expr:
+    """The step with the numbers of its products before the letters left open: 8γ, not γ·8."""
+    if isinstance(expression, Node):
+        return expression
+    if expression.is_Add:
+        return Add(*map(_numbers_first, expression.args), evaluate=False)
+    if not expression.is_Mul:
+        return expression
+    numbers = [factor for factor in expression.args if factor.is_number]
+    letters = [factor for factor in expression.args if _is_letter(factor.args[0] if factor.is_Pow else factor)]
+    if not numbers or not letters or len(numbers) + len(letters) < len(expression.args):
+        return expression
+    value = evaluated(Mul(*numbers, evaluate=False))
+    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *letters]
+    return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
+
+
+def _is_letter(factor: Expr) -> bool:
+    return bool(factor.is_Symbol) and not isinstance(factor, Node)
 
 
 def _plain_powers(expression: Expr) -> Expr:
-    """The step with numbers in the place of powers of e that are plain."""
+    """The step with numbers in the place of powers of e, sines, cosines and tangents that are plain."""
     if isinstance(expression, sympy.exp):
         value = evaluated(expression)
         return computed(value) if value.is_rational_function(*value.free_symbols) else expression
-    if isinstance(expression, Node) or not expression.has(sympy.exp):
+    if isinstance(expression, _ANGULAR):
+        value = evaluated(expression)
+        if not value.is_algebraic:
+            return expression
+        return Factor(value) if value.is_Mul and not value.could_extract_minus_sign() else computed(value)
+    if isinstance(expression, Node) or not expression.has(sympy.exp, *_ANGULAR):
         return expression
     arguments = map(_plain_powers, expression.args)
     if expression.is_Add:
@@ -201,8 +238,14 @@ def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:
-        return Add(*map(_term, expression.args), evaluate=False)
+        kept = [term for term in expression.args if not _is_zero_number(term)]
+        return Add(*map(_term, kept), evaluate=False) if len(kept) > 1 else _inner(expression)
     return _inner(expression)
+
+
+def _is_zero_number(term: Expr) -> bool:
+    """Whether a term is a multiple of a 1×1 matrix of zero."""
+    return any(isinstance(f, MatrixLeaf) and f.scalar and f.args[0][0] == 0 for f in Mul.make_args(term))
 
 
 def _term(term: Expr) -> Expr:
@@ -238,13 +281,15 @@ def _inner(term: Expr) -> Expr:
         return Mul(*factors, evaluate=False)
     if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
         return Pow(_inner(term.args[0]), -1, evaluate=False)
-    if term.is_Pow and term.args[1] in (-1, sympy.S.Half):
+    if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
 
 
 def _worked_out(expression: Expr) -> Expr:
     value = evaluated(expression)
+    if isinstance(value, Expr) and value.is_polynomial(*value.free_symbols):
+        value = sympy.expand(value)
     # What holds exponentials or roots does not get simpler, only reordered.
     if expression.has(VectorLeaf):
         return VectorLeaf(value.applyfunc(sympy.cancel))

@@ -71,9 +71,7 @@ class _Typesetter(Printer):
         return _sum(expression.args)
 
     def _print_Mul(self, expression: Expr) -> Math:
-        head, *rest = expression.args
-        angle = rest == [sympy.pi] and head.is_Rational and not head.is_Integer
-        return typeset_value(expression) if angle else _product(expression.args)
+        return typeset_value(expression) if _is_angle(expression) else _product(expression.args)
 
     def _print_Pow(self, expression: Expr) -> Math:
         return _power(*expression.args)
@@ -136,7 +134,15 @@ def typeset(expression: Expr) -> Math:
 
 def alone(expression: Expr) -> Math:
     """An expression that stands alone, as between commas: a put-in negative number needs no brackets there."""
+    if expression.is_Mul and not isinstance(expression, Node) and not _is_angle(expression):
+        return _product(expression.args, leads=True)
     return expression._alone(typeset) if isinstance(expression, Node) else typeset(expression)
+
+
+def _is_angle(expression: Expr) -> bool:
+    """Whether it is a fraction of π."""
+    head, *rest = expression.args
+    return bool(rest == [sympy.pi] and head.is_Rational and not head.is_Integer)
 
 
 def look(expression: Expr) -> Look:
@@ -251,10 +257,12 @@ def _addend(term: Expr) -> Math:
 
 def _first(term: Expr) -> Math:
     """What begins a sum; a negative number that was put in needs no brackets there."""
-    return alone(term) if look(term) is Look.NUMBER else _addend(term)
+    leads = look(term) is Look.NUMBER or (term.is_Mul and not _negative(term))
+    return alone(term) if leads else _addend(term)
 
 
-def _product(factors: Sequence[Expr]) -> Math:
+def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
+    """Factors side by side; where they lead, nothing stands before a negative number, which needs no brackets then."""
     flat = [part for factor in factors for part in _parts(factor, sympy.Mul)]
     if flat[0] is sympy.S.NegativeOne and len(flat) > 1:
         return row(_MINUS, _product(flat[1:]))
@@ -265,18 +273,34 @@ def _product(factors: Sequence[Expr]) -> Math:
         return row(_product(scalars), *dot, _product(rest))
     if flat[0].is_Number and flat[0].is_negative and len(flat) > 1:
         return row(_MINUS, _product([-flat[0], *flat[1:]]))
+    if _is_half_root(flat):  # 3√2/2, not 3/2·√2
+        head, *roots = flat
+        above = roots if head.p == 1 else [sympy.Integer(head.p), *roots]
+        return Fraction(_product(above) if len(above) > 1 else typeset(above[0]), number(head.q))
     below = [factor.args[0] for factor in flat if _reciprocal(factor)]
     if below and all(factor.is_commutative is not False for factor in flat):
         above = [factor for factor in flat if not _reciprocal(factor)]
-        numerator = _product(above) if len(above) > 1 else typeset(above[0]) if above else number(1)
+        numerator = _product(above, leads=True) if len(above) > 1 else alone(above[0]) if above else number(1)
         return Fraction(numerator, _product(below) if len(below) > 1 else typeset(below[0]))
     items: list[Math] = []
     for position, factor in enumerate(flat):
-        written = _factor(factor, last=position == len(flat) - 1)
+        first = leads and position == 0 and look(factor) is Look.NUMBER
+        written = alone(factor) if first else _factor(factor, last=position == len(flat) - 1)
         if position and _needs_dot(flat[position - 1], factor):
             items.append(_TIMES)
         items.append(written)
     return row(*items)
+
+
+def _is_half_root(factors: Sequence[Expr]) -> bool:
+    """Whether they are a fraction and square roots."""
+    head, *rest = factors
+    return bool(
+        rest
+        and head.is_Rational
+        and not head.is_Integer
+        and all(factor.is_Pow and factor.args[1] == sympy.S.Half for factor in rest)
+    )
 
 
 def _reciprocal(factor: Expr) -> bool:
@@ -301,7 +325,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
     closes = factor is sympy.pi or (factor.is_Pow and factor.args[1] == sympy.S.Half)
     if closes and (before.is_Integer or before is sympy.pi):
         return False
-    if second is Look.NUMBER:
+    if second is Look.NUMBER or (before == factor and first is Look.LETTER):
         return True
     if first is Look.NUMBER:
         return second is not Look.LETTER

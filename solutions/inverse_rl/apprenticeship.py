@@ -80,7 +80,7 @@ def _next(candidates: dict[str, Any], work: Work, weights: Point) -> Point:
     best, *others = arg_max(tuple(worth), tuple(worth.values()))
     if others:
         raise NoSolution(f"{best} and {others[0]} are equally good for the weights; change one of them")
-    work.say(f"The value of {best} is the greatest: it comes next.")
+    work.say(f"Policy {best} has the greatest value: it comes next.")
     return _vector(candidates[work.answer(best)])
 
 

@@ -55,7 +55,7 @@ def solve(given: Given, work: Work) -> None:
     if given.matched is None:
         work.answer(total)
     else:
-        work.say(f"This has to equal the expert's ${shown(given.matched)}$:")
+        work.say(f"This must equal the expert's ${shown(given.matched)}$:")
         work.answer(work.equate(given.asked_for, total[0], exact(given.matched)))
 
 

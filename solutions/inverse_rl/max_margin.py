@@ -4,6 +4,7 @@ from typing import Any
 
 from flint import fmpq
 
+from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
@@ -30,7 +31,7 @@ def solve(given: Given, work: Work) -> None:
         return
     worth = work.answer(worth)
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
-    work.say("With $ξ = 0$ the left side has to be at least as great as every right side.")
+    work.say("With $ξ = 0$ the left side must be at least as great as every right side.")
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     work.say(f"With $ξ = 0$ {_told(violated)}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
@@ -77,7 +78,7 @@ def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
 
 
 def _told(violated: tuple[str, ...]) -> str:
-    return f"the left side is too small for {', '.join(violated)}" if violated else "all constraints hold"
+    return f"the left side is too small for {joined(list(violated))}" if violated else "all constraints hold"
 
 
 def _margins_decide(given: Given) -> bool:

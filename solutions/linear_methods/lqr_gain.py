@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import exact, to_sympy
 from rldrill.solutions.matrices import column, matrix
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.numerics import Array, np
@@ -31,6 +31,7 @@ def solve(given: Given, work: Work) -> None:
         action = work.step(lqr.action, t=0, Lt={0: linear_quadratic.gain(work, lqr, **known)}, St={0: start})
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
         known["Rt"] = {0: matrix([[price]])}
+        work.say(f"With $ρ = {to_sympy(price)}$:")
     L = work.answer(linear_quadratic.gain(work, lqr, **known))
     if start is not None and given.action is None:
         work.answer(work.step(lqr.action, t=0, Lt={0: L}, St={0: start}))

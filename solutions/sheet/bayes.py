@@ -199,7 +199,7 @@ with evaluate(False):
         SumOver(motion(s1, s, a) * p(s), s, States),
         title="Belief after an action",
         source="Thrun, Burgard & Fox 2005, table 4.1, line 3",
-        hint="Add up over all states that the robot may come from: to have been there, times to get here.",
+        hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
         misread={
             MOTION_TRANSPOSED: SumOver(motion(s, s1, a) * p(s), s, States),
             MOTION_AS_LIKELIHOOD: motion(s1, s1, a) * p(s1) / SumOver(motion(s, s, a) * p(s), s, States),
@@ -212,7 +212,7 @@ with evaluate(False):
         SumOver(motion(s1, s, a) * p(s), s, States),
         title="Prediction of a Bayes filter",
         source="Thrun, Burgard & Fox 2005, table 2.1, line 3",
-        hint="Add up over all states that the robot may come from: to have been there, times to get here.",
+        hint="Sum over the states that the robot may come from: the probability of each, times that of the way here.",
         place=Place.WORKING,
     )
     CORRECTION = Formula(
@@ -230,7 +230,7 @@ with evaluate(False):
         SumOver(likelihood(z, s) * p_bar(s), s, States),
         title="Probability of a reading",
         source="Thrun, Burgard & Fox 2005, section 2.2",
-        hint="Add up over all states: to be there, times to read this there.",
+        hint="Sum over all states: the probability of each, times that of this reading there.",
         place=Place.WORKING,
     )
 

@@ -79,7 +79,7 @@ with evaluate(False):
         -SumOver(length(i) * sin(phi(i)), i, Counting(j, n)),
         title="Jacobian of a planar arm, row of x",
         source="Siciliano et al. 2009, section 3.2.1",
-        hint="Joint j moves the links from j on; differentiate their part of x by its angle.",
+        hint="Joint j moves the links from j on; differentiate their part of x with respect to its angle.",
         place=Place.BEYOND,
     )
     JACOBIAN_Y = Formula(
@@ -88,7 +88,7 @@ with evaluate(False):
         SumOver(length(i) * cos(phi(i)), i, Counting(j, n)),
         title="Jacobian of a planar arm, row of y",
         source="Siciliano et al. 2009, section 3.2.1",
-        hint="Joint j moves the links from j on; differentiate their part of y by its angle.",
+        hint="Joint j moves the links from j on; differentiate their part of y with respect to its angle.",
         place=Place.BEYOND,
     )
     END_POINT_VELOCITY = Formula(
@@ -257,7 +257,7 @@ with evaluate(False):
         1 - alpha * curvature(i),
         title="MAML: how the adapted parameter depends on the shared one",
         source="Finn, Abbeel & Levine 2017, section 2.2",
-        hint="Differentiate θ′ = θ − αc(θ − m) by θ.",
+        hint="Differentiate θ′ = θ − αc(θ − m) with respect to θ.",
         place=Place.WORKING,
     )
     MAML_GRADIENT = Formula(

@@ -15,12 +15,14 @@ from rldrill.solutions.formula.notation import (
     P,
     Q,
     Qpi,
+    Qstar,
     R,
     States,
     Successors,
     SumOver,
     V,
     Vpi,
+    Vstar,
     a,
     a1,
     called,
@@ -32,11 +34,14 @@ from rldrill.solutions.formula.notation import (
     s,
     s1,
 )
+from rldrill.solutions.sheet import bellman
 from rldrill.solutions.sheet.bellman import (
     DISCOUNTED_REWARD,
     FORGOT_GAMMA,
     FORGOT_POLICY,
     LOOKAHEAD,
+    LOOKAHEAD_PI,
+    LOOKAHEAD_STAR,
     MAX_FOR_MEAN,
     OPTIMAL_Q_BY_REWARD,
     WITHOUT_GAMMA,
@@ -67,6 +72,8 @@ Change = quantity("change", lambda _: _distance(_V_1, _V_0))
 
 with evaluate(False):
     _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
+    _NEXT_POLICY_VALUE = SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a))
+    _NEXT_OPTIMAL_VALUE = SumOver(P(s, a, s1) * Vstar(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
 
     POLICY_EVALUATION = Formula(
@@ -115,13 +122,13 @@ with evaluate(False):
     POLICY_IMPROVEMENT = Formula(
         "policy-iteration-improvement",
         pi(s),
-        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        ArgMaxOver(LOOKAHEAD_PI, a, Actions(s)),
         title="Policy iteration: improvement",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="In every state take the action whose average of reward plus γ times the old policy's value is greatest.",
         also=(ArgMaxOver(Qpi(s, a), a, Actions(s)),),
         misread={
-            IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+            IMPROVEMENT_BY_VALUE: ArgMaxOver(_NEXT_POLICY_VALUE, a, Actions(s)),
             IMPROVEMENT_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
         },
     )
@@ -161,12 +168,12 @@ with evaluate(False):
     GREEDY_FROM_V = Formula(
         "greedy-from-v",
         pi_star(s),
-        ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+        ArgMaxOver(LOOKAHEAD_STAR, a, Actions(s)),
         title="Optimal policy given V",
         source="Sutton & Barto 2018, eq. 4.9",
         hint="Take the action whose average of reward plus γ times the next value is greatest.",
         misread={
-            GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+            GREEDY_BY_VALUE: ArgMaxOver(_NEXT_OPTIMAL_VALUE, a, Actions(s)),
             GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
         },
     )
@@ -196,12 +203,12 @@ with evaluate(False):
     GREEDY_FROM_Q = Formula(
         "greedy-from-q",
         pi_star(s),
-        ArgMaxOver(Q(s, a), a, Actions(s)),
+        ArgMaxOver(Qstar(s, a), a, Actions(s)),
         title="Optimal policy given Q",
         source="Sutton & Barto 2018, section 3.6",
         hint="In every state take the action with the greatest value; no model is needed.",
         misread={
-            SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s)),
+            SMALLEST_Q: ArgMaxOver(-Qstar(s, a), a, Actions(s)),
         },
     )
 
@@ -275,10 +282,34 @@ with evaluate(False):
 
 
 @cache
-def of_round(number: int) -> tuple[Formula, Formula]:
-    """Evaluation and improvement of policy iteration in the symbols of a round: V^{π₀} and π₀."""
+def greedy() -> tuple[Formula, Formula]:
+    """The greedy policy for current values of states, and for those of actions: no optimal ones yet."""
+    with evaluate(False):
+        return (
+            replace(
+                GREEDY_FROM_V,
+                left=pi(s),
+                right=ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+                misread={
+                    GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+                    GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
+                },
+            ),
+            replace(
+                GREEDY_FROM_Q,
+                left=pi(s),
+                right=ArgMaxOver(Q(s, a), a, Actions(s)),
+                misread={SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s))},
+            ),
+        )
+
+
+@cache
+def of_round(number: int) -> tuple[Formula, Formula, Formula]:
+    """Evaluation, improvement and the values of actions in the symbols of a round of policy iteration: V^{π₀}, π₀."""
     policy = numbered(pi, number)
-    values = quantity("V", called(Script(variable("V"), above=Script(variable("π"), variable(str(number))))))
+    mark = Script(variable("π"), variable(str(number)))
+    values, worth = (quantity(code, called(Script(variable(code), above=mark))) for code in "VQ")
     with evaluate(False):
         ahead = R(s, policy(s), s1) + gamma * values(s1)
         lookahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * values(s1)), s1, Successors(s, a))
@@ -289,4 +320,5 @@ def of_round(number: int) -> tuple[Formula, Formula]:
                 right=SumOver(P(s, policy(s), s1) * ahead, s1, Successors(s, policy(s))),
             ),
             replace(POLICY_IMPROVEMENT, right=ArgMaxOver(lookahead, a, Actions(s)), also=()),
+            replace(bellman.BELLMAN_Q, left=worth(s, a), right=lookahead),
         )

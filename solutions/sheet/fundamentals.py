@@ -122,7 +122,7 @@ with evaluate(False):
         SumOver(gamma**i * r(t + 1 + i), i, _ALL),
         title="Return",
         source="Sutton & Barto 2018, eq. 3.8",
-        hint="Add the rewards after time t; each further step back costs one more factor γ.",
+        hint="Add the rewards after time t; each further step brings one more factor γ.",
         also=(r(t + 1) + gamma * r(t + 2) + gamma**2 * r(t + 3) + DOTS,),
         misread={
             FIRST_DISCOUNTED: SumOver(gamma ** (i + 1) * r(t + 1 + i), i, _ALL),

@@ -501,7 +501,7 @@ with evaluate(False):
         f_bar + grad_s * (sv - s_bar) + grad_a * (av - a_bar),
         title="Linearisation at an operating point",
         source="Åström & Murray 2008, section 5.4",
-        hint="Differentiate each component of f by each state and each action, then put the operating point in.",
+        hint="Differentiate each component of f with respect to each state and action, then put in the numbers.",
         sign="≈",
     )
     DEVIATION = Formula(
@@ -517,7 +517,7 @@ with evaluate(False):
         "linearise-a",
         Aij(i, j),
         partial_s(i, j),
-        title="Linearisation: A, by the state",
+        title="Linearisation: A, in the state",
         source="Åström & Murray 2008, section 5.4",
         hint="Row i belongs to the component of f, column j to the state; differentiate first, then put numbers in.",
     )
@@ -525,12 +525,13 @@ with evaluate(False):
         "linearise-b",
         Bij(i, j),
         partial_a(i, j),
-        title="Linearisation: B, by the action",
+        title="Linearisation: B, in the action",
         source="Åström & Murray 2008, section 5.4",
         hint="Row i belongs to the component of f, column j to the action.",
     )
     FORGOT_IDENTITY = Misconception(
-        "forgot-identity", "The Euler step adds Δt f to the state: its derivative by the state is I + Δt A."
+        "forgot-identity",
+        "The Euler step adds Δt f to the state, so its derivative with respect to the state is I + Δt A.",
     )
     EULER_A = Formula(
         "linearise-euler-a",
@@ -538,7 +539,7 @@ with evaluate(False):
         unit + dt * Ai,
         title="Euler step of A",
         source="LaValle 2006, section 14.3.2",
-        hint="Differentiate s + Δt f(s, a) by s: the first term gives the identity.",
+        hint="Differentiate s + Δt f(s, a) with respect to s: the first term gives the identity.",
         place=Place.BEYOND,
         misread={
             FORGOT_IDENTITY: dt * Ai,
@@ -550,7 +551,7 @@ with evaluate(False):
         dt * Bi,
         title="Euler step of B",
         source="LaValle 2006, section 14.3.2",
-        hint="Differentiate s + Δt f(s, a) by a: the first term does not depend on a.",
+        hint="Differentiate s + Δt f(s, a) with respect to a: the first term does not depend on a.",
         place=Place.BEYOND,
     )
     PART_VALUE = Formula(
@@ -740,14 +741,14 @@ with evaluate(False):
         second_at(i, j, g),
         title="Second derivatives, of the reward and for DDP also of the dynamics",
         source=_DDP,
-        hint="Differentiate twice, by every two entries of x, which holds the state and the action, in any order.",
+        hint="Differentiate with respect to any two entries of x, which holds state and action, in either order.",
         place=Place.WORKING,
     )
     DDP_S = Formula(
         "ddp-q-s",
         Q_s,
         r_s + Transposed(f_s) * V_s,
-        title="DDP: gradient of Q by the state",
+        title="DDP: gradient of Q in the state",
         source=_DDP,
         hint="The chain rule: the reward's own gradient, and the next value's through f.",
         note="Indices are derivatives; $V′$ is the value of the next state.",
@@ -757,7 +758,7 @@ with evaluate(False):
         "ddp-q-a",
         Q_a,
         r_a + Transposed(f_a) * V_s,
-        title="DDP: gradient of Q by the action",
+        title="DDP: gradient of Q in the action",
         source=_DDP,
         hint="The chain rule: the reward's own gradient, and the next value's through f.",
         place=Place.BEYOND,
@@ -766,7 +767,7 @@ with evaluate(False):
         "ddp-q-ss",
         Q_ss,
         r_ss + Transposed(f_s) * V_ss * f_s + SumOver(V_i(i) * f_iss(i), i, Components),
-        title="DDP: Hessian of Q by the state",
+        title="DDP: Hessian of Q in the state",
         source=_DDP,
         hint="Differentiate the chain rule once more: f is curved too.",
         note="iLQR leaves the sum out.",
@@ -778,14 +779,14 @@ with evaluate(False):
         r_as + Transposed(f_a) * V_ss * f_s + SumOver(V_i(i) * f_ias(i), i, Components),
         title="DDP: mixed Hessian of Q",
         source=_DDP,
-        hint="One derivative by the action, one by the state: fₐᵀ stands before, fₛ behind.",
+        hint="One derivative is with respect to the action, one to the state: fₐᵀ stands before, fₛ behind.",
         place=Place.BEYOND,
     )
     DDP_AA = Formula(
         "ddp-q-aa",
         Q_aa,
         r_aa + Transposed(f_a) * V_ss * f_a + SumOver(V_i(i) * f_iaa(i), i, Components),
-        title="DDP: Hessian of Q by the action",
+        title="DDP: Hessian of Q in the action",
         source=_DDP,
         hint="It must be negative (definite), or Q has no maximum.",
         place=Place.BEYOND,

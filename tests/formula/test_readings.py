@@ -114,6 +114,8 @@ def test_the_compiled_value_is_the_value_of_the_step(name: str, data: st.DataObj
         value = value_of(expression, values)
     except NoSolution:  # a singular matrix, or a sum that is zero: nothing to compare
         return
+    if isinstance(value, Expr) and value.has(sympy.zoo, sympy.nan):  # equal counts below a line
+        return
     step = put_in(expression, values)
     if isinstance(expression, ArgMaxOver):
         worth = [evaluated(argument) for argument in step.body.args]

@@ -43,7 +43,7 @@ def test_every_step_may_have_a_discount_of_its_own() -> None:
 
 def test_an_answer_is_an_expression_in_what_is_left_open() -> None:
     assert phrases.in_open(Given()) == ""
-    assert phrases.in_open(Given(gamma=Parameter("gamma"))) == ", as an expression in $γ$"
+    assert phrases.in_open(Given(gamma=Parameter("gamma"))) == ", in terms of $γ$"
 
 
 def test_one_parameter_may_be_left_open_and_no_more() -> None:

@@ -5,10 +5,10 @@ import io
 from rich.console import Console
 
 from rldrill.problems.document import Block, Table
-from rldrill.problems.pictures import Arrow, BackupDiagram, Bars, Branch, GridPicture, Node, StateDiagram
+from rldrill.problems.pictures import Arrow, BackupDiagram, Bars, Branch, GridPicture, Node, StateDiagram, Timeline
 from rldrill.render.pictures.graph import MOST_ARROWS, scene
 from rldrill.render.pictures.text import lines
-from rldrill.render.terminal import render
+from rldrill.render.terminal import plain, render
 
 
 def test_a_grid_has_a_line_between_its_rows_and_one_below_them() -> None:
@@ -62,3 +62,9 @@ def test_a_column_of_numbers_stands_right_and_one_with_a_word_in_it_left() -> No
 def test_a_tree_of_24_arrows_is_drawn_and_of_25_not() -> None:
     assert len(lines(_diagram(24))) == 25  # a line for each, below that of the state
     assert lines(_diagram(25)) == []
+
+
+def test_a_run_that_fits_is_not_torn_by_the_room_behind_its_last_action() -> None:
+    run = Timeline(("$t = 0$", "$t = 1$", "$t = 2$"), ("rim", "floor", "rim"), ("climb", "drive", "drill"), ("1", "2"))
+    assert plain([run]).count("○") == 3
+    assert max(map(len, lines(run, 44))) <= 44

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.models import Model
-from rldrill.problems.valued import worth
+from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
 
@@ -223,6 +223,19 @@ def test_an_accuracy_that_is_met_exactly_is_met() -> None:
     assert solved("contraction", **given_) == {"a": 8, "b": 2, "c": 3}
 
 
+@given(st.integers(0, 10_000))
+@settings(deadline=None, max_examples=15)
+def test_a_policy_is_optimal_up_to_the_bound_and_not_beyond(seed: int) -> None:
+    solution = draw("policy-iteration", 3, seed)
+    given_: Any = solution.problem.given
+    bound = Fraction(str(solution.answers["b"]))
+    for reward, optimal in ((bound - 1, True), (bound, True), (bound + Fraction(1, 1000), False)):
+        mdp = with_reward(given_.mdp, reward).model_dump(mode="json")
+        assert rounds(mdp, given_.start, str(given_.gamma), 1)[-1] is optimal
+    mdp = with_reward(given_.mdp, given_.reward).model_dump(mode="json")
+    assert solution.answers["c"] == rounds(mdp, given_.start, str(given_.gamma), 2)[2]
+
+
 def test_on_a_tie_the_old_action_is_kept() -> None:
     mdp = {"transitions": [["a", "x", "end", 1, 1], ["a", "y", "end", 1, 1]], "terminal": ["end"]}
     for action in ("x", "y"):
@@ -248,6 +261,7 @@ def test_a_wrong_evaluation_costs_once() -> None:
 
 
 MDP = {"transitions": [["a", "x", "b", 1, 2], ["a", "y", "end", 1, 1], ["b", "x", "end", 1, 4]], "terminal": ["end"]}
+OPEN = {"transitions": [["a", "x", "b", 1, 2], ["a", "y", "end", 1, "x"], ["b", "x", "end", 1, 4]], "terminal": ["end"]}
 PI = {"a": "x", "b": "x"}
 
 
@@ -263,6 +277,10 @@ PI = {"a": "x", "b": "x"}
         ("policy-improvement-theorem", {"mdp": MDP, "gamma": 1, "policy": PI, "other": {"a": "y"}}, "'b' is missing"),
         ("policy-iteration", {"mdp": MDP, "gamma": 1, "start": {"a": "x", "b": "y"}, "rounds": 1}, "policy in 'b'"),
         ("policy-iteration", {"mdp": MDP, "gamma": 1, "start": PI, "rounds": 99}, "given.rounds"),
+        ("policy-iteration", {"mdp": MDP, "gamma": "1/2", "start": PI, "rounds": 1, "reward": 1}, "give one of them"),
+        ("policy-iteration", {"mdp": MDP, "gamma": "1/2", "start": PI, "reward": 1}, "leave exactly one number open"),
+        ("policy-iteration", {"mdp": OPEN, "gamma": "1/2", "start": {"a": "y", "b": "x"}, "reward": 9}, "start with"),
+        ("policy-iteration", {"mdp": OPEN, "gamma": 1, "start": PI, "reward": 9}, "choose a smaller one"),
         ("optimal-policy-from-v", {"mdp": MDP, "gamma": 1, "values": {"a": 6, "b": 5}}, "best action is worth"),
         ("optimal-policy-from-v", {"mdp": MDP, "gamma": 1, "values": {"a": 6, "c": 5}}, "'b' is missing"),
         ("optimal-policy-from-q", {"values": {}}, "given.values"),

@@ -94,19 +94,23 @@ def _timeline(line: Timeline, width: int) -> list[str]:
         end, row = start, [states[start]]
         while end < last:
             more = [arrows[end], states[end + 1], *([arrows[last]] if end + 1 == last else [])]
-            if end > start and sum(len(part[0]) for part in (*row, *more)) > width:
+            if end > start and max(map(len, _folded([*row, *more]))) > width:
                 break
             row, end = [*row, *more], end + 1
         if start == last:
             row.append(arrows[last])
-        folded = ["".join(parts).rstrip() for parts in zip(*row, strict=True)]
-        result += [*([""] if result else []), *(text for text in folded if text)]
+        result += [*([""] if result else []), *(text for text in _folded(row) if text)]
         start = end
     return result
 
 
 #: What stands in the lines for time, action, state and reward, equally wide.
 _Column = tuple[str, str, str, str]
+
+
+def _folded(row: list[_Column]) -> list[str]:
+    """The lines, without the spaces at their ends, which need no room."""
+    return ["".join(parts).rstrip() for parts in zip(*row, strict=True)]
 
 
 def _state(line: Timeline, time: int) -> _Column:

@@ -54,6 +54,15 @@ class Negative(Leaf):
         return typeset(self.args[0])
 
 
+class Factor(Leaf):
+    """A number that is a product, such as √3/2, and stays together among other factors."""
+
+    look = Look.NUMBER
+
+    def _typeset(self, _: object) -> Math:
+        return typeset_value(self.args[0])
+
+
 class MatrixLeaf(Leaf):
     """A matrix of numbers, put into a formula."""
 
