@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from rldrill.problems.family import Family
 
 _ROOT = Path(__file__).parent
-_OWN = "rldrill"
+#: The package whose families are rldrill's own.
+OWN = "rldrill"
 _GROUP = "rldrill.families"
 
 #: The order of the sheet; a topic that is not named here comes after these.
@@ -46,7 +47,7 @@ def trees() -> dict[str, Path]:
     Raises:
         BrokenFamily: an entry point names no package with a folder ``problems``.
     """
-    found = {_OWN: _ROOT}
+    found = {OWN: _ROOT}
     for point in sorted(entry_points(group=_GROUP), key=lambda point: point.value):
         spec = find_spec(point.value) if point.value.isidentifier() else None
         places = (spec.submodule_search_locations if spec else None) or ()

@@ -2,15 +2,17 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import nullcontext
 from typing import Any
 
 from pydantic import ValidationError
 
+from rldrill.problems.catalogue import OWN
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.complaints import sentence
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, UsageError
-from rldrill.problems.family import Family, Givens, Problem
+from rldrill.problems.family import Family, Givens, Problem, trusted
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
 from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
@@ -58,7 +60,8 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
 
 def _drawn(family: Family, level: int, rng: Draws) -> Givens:
     try:
-        return family.draw(level, rng)
+        with trusted() if family.package == OWN else nullcontext():  # the tests read our own draws as files are read
+            return family.draw(level, rng)
     except ValidationError as error:
         said = sentence(error, family.schema(), family=family.name, tagged=False)
         raise BrokenFamily(

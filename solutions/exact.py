@@ -155,19 +155,14 @@ def told(value: Value) -> str:
     return str(value).replace("-", "−")
 
 
-@singledispatch
 def digits(value: Value) -> int:
     """How many digits a person must write for a number; closed forms count the longest that stands in them."""
+    if isinstance(value, fmpq):
+        above, below = str(abs(value.p)), str(value.q)  # flint's, which has no limit
+        return len(above) + (0 if below == "1" else len(below))
+    if isinstance(value, RationalFunction):
+        return max(map(digits, value.coefficients)) + len(value.coefficients)
     return max((digits(fraction(number)) for number in to_sympy(value).atoms(sympy.Rational)), default=0)
-
-
-@digits.register(fmpq)
-def _(value: fmpq) -> int:
-    above, below = str(abs(value.p)), str(value.q)  # flint's, which has no limit
-    return len(above) + (0 if below == "1" else len(below))
-
-
-digits.register(RationalFunction, lambda value: max(map(digits, value.coefficients)) + len(value.coefficients))
 
 
 @singledispatch

@@ -27,7 +27,8 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    _check(value)
+    if not (isinstance(value, fmpq) and value.height_bits() <= _LONGEST):
+        _check(value)
     return value
 
 
@@ -37,13 +38,13 @@ def _check(value: Any) -> None:
             raise _too_many_digits()
     elif isinstance(value, dict):
         for item in value.values():
-            _check(item)
+            bounded(item)
     elif isinstance(value, tuple | list | Vector):
         for item in value:
-            _check(item)
+            bounded(item)
     elif is_matrix(value):
         for item in value.entries():
-            _check(item)
+            bounded(item)
     elif length(value) > _LONGEST:
         raise _too_many_digits()
     elif terms(value) > MOST_TERMS:
