@@ -1,13 +1,13 @@
 """A family of problems, a problem drawn from it, and the base of all givens."""
 
 import importlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache, cached_property
 from types import ModuleType, NoneType
-from typing import Any, get_args
+from typing import Any, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
@@ -60,9 +60,18 @@ class Givens(BaseModel):
 
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]  # what is read from files does not come here
 
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """The same with some fields exchanged, unchecked; what was worked out from the fields is worked out anew."""
+        copied = super().model_copy(update=update, deep=deep)
+        for name in copied.__dict__.keys() - type(self).model_fields.keys():
+            del copied.__dict__[name]
+        return copied
+
     def parameters(self) -> tuple[str, ...]:
         """The parameters left open anywhere in the givens."""
-        return tuple(dict.fromkeys(_parameters(self)))
+        found: dict[str, None] = {}
+        _collect_parameters(_inside(self), found)
+        return tuple(found)
 
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
@@ -83,14 +92,14 @@ def _ends(givens: BaseModel) -> Iterator[str]:
 _CLOSED = frozenset({Fraction, str, int, bool, NoneType})
 
 
-def _parameters(value: object) -> Iterator[str]:
-    for item in _inside(value):
+def _collect_parameters(items: Iterable[object], found: dict[str, None]) -> None:
+    for item in items:
         if type(item) in _CLOSED:
             continue
         if isinstance(item, Parameter):
-            yield item.symbol
+            found[item.symbol] = None
         else:
-            yield from _parameters(item)
+            _collect_parameters(_inside(item), found)
 
 
 def _inside(value: object) -> Iterable[object]:

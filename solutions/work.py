@@ -218,12 +218,15 @@ class Work:
 
     def reading(self, formula: Formula) -> Expr:
         """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
-        self.read[formula] = None
         mistake = self.misconception
-        if mistake is None or mistake not in formula.misread:
+        if mistake is None:
+            self.read[formula] = None
+            return formula.right
+        misread = formula.misread.get(mistake)
+        if misread is None:
             return formula.right
         self.same = ()
-        return formula.misread[mistake]
+        return misread
 
     def step(
         self,
