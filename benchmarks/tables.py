@@ -79,7 +79,7 @@ def _slowest(rates: Measured) -> list[str]:
 
 
 TABLES: dict[str, tuple[str, Callable[[Measured], Iterable[str]]]] = {
-    "start": ("Starting: seconds; times of hello-world for -h and list, of the imports for show and solve", list),
+    "start": ("Starting: seconds; times of hello-world for -h and list, of the imports for the others", list),
     "drawing": ("Accepted problems of level 2 with answers and mistakes: a second", _slowest),
     "latex": ("Problems of level 2 with their working as LaTeX: a second", list),
     "judging": ("Answers judged for a problem in hand: a second", list),

@@ -157,7 +157,7 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
         rows[state][rng.choice([name for name in actions if name != action])] = end
     rates: dict[str, Any] = {"alpha": alpha, "gamma": gamma} | {sought: Parameter(sought)}
     if steps > 1:
-        moves = [ActionMove(state, action, *rest) for rest in zip(others, rewards, following, strict=True)]
+        moves = tuple(ActionMove(state, action, *rest) for rest in zip(others, rewards, following, strict=True))
         return {"transitions": moves, "values": rows, "outcome": Outcome(state, action, end), **rates}
     run = Trajectory(states=(state, *others), actions=(action, *following), rewards=tuple(rewards))
     return {"trajectory": run, "values": rows, "outcome": Outcome(state, action, end), **rates}

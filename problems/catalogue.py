@@ -7,7 +7,6 @@ Packages add trees of their own: an entry point of the group ``rldrill.families`
 import difflib
 from collections.abc import Sequence
 from functools import cache
-from importlib.metadata import entry_points
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +18,8 @@ if TYPE_CHECKING:
     from rldrill.problems.family import Family
 
 _ROOT = Path(__file__).parent
-_OWN = "rldrill"
+#: The package whose families are rldrill's own.
+OWN = "rldrill"
 _GROUP = "rldrill.families"
 
 #: The order of the sheet; a topic that is not named here comes after these.
@@ -46,7 +46,9 @@ def trees() -> dict[str, Path]:
     Raises:
         BrokenFamily: an entry point names no package with a folder ``problems``.
     """
-    found = {_OWN: _ROOT}
+    from importlib.metadata import entry_points
+
+    found = {OWN: _ROOT}
     for point in sorted(entry_points(group=_GROUP), key=lambda point: point.value):
         spec = find_spec(point.value) if point.value.isidentifier() else None
         places = (spec.submodule_search_locations if spec else None) or ()
@@ -86,6 +88,11 @@ def _topics(tree: Path) -> dict[str, tuple[str, ...]]:
 
 
 @cache
+def _own() -> dict[str, tuple[str, ...]]:
+    return _topics(_ROOT)
+
+
+@cache
 def topics() -> dict[str, tuple[str, ...]]:
     """Every topic with the names of its families, read from the folders without importing anything."""
     found: dict[str, tuple[str, ...]] = {}
@@ -111,7 +118,7 @@ def family(name: str) -> "Family":
     from rldrill.problems.family import Family
 
     topic, wanted = _place(name)
-    return Family.load(topic, wanted, packages()[wanted])
+    return Family.load(topic, wanted, OWN if wanted in _own().get(topic, ()) else packages()[wanted])
 
 
 def headers(names: Sequence[str] = ()) -> tuple[Header, ...]:
@@ -151,9 +158,10 @@ def chosen(names: Sequence[str]) -> tuple[str, ...]:
 def _place(name: str) -> tuple[str, str]:
     """The topic and the name of the family so called."""
     wanted = name.strip().lower().replace("_", "-")
-    for topic, names in topics().items():
-        if wanted in names:
-            return topic, wanted
+    for known in (_own, topics):  # who is asked for one of ours need not wait for the others
+        for topic, names in known().items():
+            if wanted in names:
+                return topic, wanted
     raise UsageError(f"There is no family {name[:40]!r}{_similar(wanted)}; rldrill.families() and 'rldrill list' tell.")
 
 

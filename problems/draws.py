@@ -51,7 +51,9 @@ class Draws:
 
     def choice(self, items: Sequence[Item]) -> Item:
         """One of the items."""
-        return items[self.below(len(items))]
+        if not items:
+            raise ValueError("there is nothing to choose from")
+        return items[int(self._random() * len(items))]
 
     def fraction(self, *texts: str) -> Fraction:
         """One of the given fractions, written ``"1/2"``."""
@@ -67,24 +69,34 @@ class Draws:
 
     def _shuffled(self, items: Sequence[Item], count: int) -> list[Item]:
         """The first of the items in another order; what the others take of the stream is taken, too."""
-        random, rest, every = self._random, list(items), len(items)
-        left = max(every - count, 0)
-        first = [rest.pop(int(random() * size)) for size in range(every, left, -1)]
-        for _ in range(left):
+        random, rest = self._random, list(items)
+        first = [rest.pop(int(random() * size)) for size in range(len(rest), max(len(rest) - count, 0), -1)]
+        for _ in rest:
             random()
         return first
 
     def sample(self, items: Sequence[Item], count: int) -> tuple[Item, ...]:
         """``count`` different items, in the order in which they stand."""
-        kept = sorted(self._shuffled(range(len(items)), count))
-        return tuple([items[index] for index in kept])
+        return tuple([items[index] for index in sorted(self._shuffled(range(len(items)), count))])
 
     def distinct(self, count: int, low: int, high: int) -> tuple[Fraction, ...]:
         """``count`` different whole numbers from ``low`` to ``high``."""
-        return tuple(map(_whole, self._shuffled(range(low, high + 1), count)))
+        return tuple(map(_whole, self.integers(count, low, high)))
+
+    def integers(self, count: int, low: int, high: int) -> tuple[int, ...]:
+        """The same as Python's integers."""
+        return tuple(self._shuffled(range(low, high + 1), count))
 
     def split(self, parts: int, denominators: Sequence[int]) -> tuple[Fraction, ...]:
         """Positive probabilities that sum to 1, over one of the denominators that is large enough."""
         whole = self.choice([number for number in denominators if number >= parts])
+        if whole == 1:
+            return (_whole(1),)
         edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
-        return tuple([Fraction(right - left, whole) for left, right in pairwise(edges)])
+        return _between(edges)
+
+
+@lru_cache(maxsize=2048)
+def _between(edges: tuple[int, ...]) -> tuple[Fraction, ...]:
+    """The parts of a whole that is cut up, the last edge."""
+    return tuple(Fraction(right - left, edges[-1]) for left, right in pairwise(edges))

@@ -201,6 +201,8 @@ def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
 
 def shown(value: Weight | int) -> str:
     """Write an exact number as mathematics, for use between ``$`` signs."""
+    if type(value) is Fraction:
+        return str(value).replace("-", "−")
     if isinstance(value, Logarithm):
         return f"ln {shown(value.of)}"
     if isinstance(value, Root):

@@ -1,11 +1,13 @@
 """A family of problems, a problem drawn from it, and the base of all givens."""
 
 import importlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from types import ModuleType, NoneType
-from typing import Any, get_args
+from typing import Any, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
@@ -22,15 +24,54 @@ from rldrill.problems.identity import LEVELS, Identity
 from rldrill.problems.parts import Part, lettered
 from rldrill.problems.readings import Note
 
+#: Whether givens are made by a draw of ours, which makes only what is valid.
+_TRUSTED: ContextVar[bool] = ContextVar("trusted", default=False)
+
+
+@contextmanager
+def trusted() -> Iterator[None]:
+    """Take givens that are made here as they are: validating them takes as long as solving the problem."""
+    token = _TRUSTED.set(True)
+    try:
+        yield
+    finally:
+        _TRUSTED.reset(token)
+
+
+@cache
+def _defaults(model: type[BaseModel]) -> dict[str, Any]:
+    """The fields in their order, each with its default if it has one."""
+    return {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items()}
+
 
 class Givens(BaseModel):
     """What a problem gives: typed, frozen, exact, validated; the same form is read from problem files."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
 
+    def __init__(self, **fields: Any) -> None:
+        if not _TRUSTED.get():
+            super().__init__(**fields)
+            return
+        object.__setattr__(self, "__dict__", _defaults(type(self)) | fields)
+        object.__setattr__(self, "__pydantic_fields_set__", set(fields))
+        object.__setattr__(self, "__pydantic_extra__", None)
+        object.__setattr__(self, "__pydantic_private__", None)
+
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]  # what is read from files does not come here
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """The same with some fields exchanged, unchecked; what was worked out from the fields is worked out anew."""
+        copied = super().model_copy(update=update, deep=deep)
+        for name in copied.__dict__.keys() - type(self).model_fields.keys():
+            del copied.__dict__[name]
+        return copied
+
     def parameters(self) -> tuple[str, ...]:
         """The parameters left open anywhere in the givens."""
-        return tuple(dict.fromkeys(_parameters(self)))
+        found: dict[str, None] = {}
+        _collect_parameters(_inside(self), found)
+        return tuple(found)
 
     def terminal_states(self) -> tuple[str, ...]:
         """The terminal states anywhere in the givens."""
@@ -51,23 +92,39 @@ def _ends(givens: BaseModel) -> Iterator[str]:
 _CLOSED = frozenset({Fraction, str, int, bool, NoneType})
 
 
-def _parameters(value: object) -> Iterator[str]:
-    if isinstance(value, Parameter):
-        yield value.symbol
-    elif isinstance(value, Logarithm):
-        yield from _parameters(value.of)
-    else:
-        for item in _inside(value):
-            if type(item) not in _CLOSED:
-                yield from _parameters(item)
+def _collect_parameters(items: Iterable[object], found: dict[str, None]) -> None:
+    for item in items:
+        if type(item) in _CLOSED:
+            continue
+        if isinstance(item, Parameter):
+            found[item.symbol] = None
+        else:
+            _collect_parameters(_inside(item), found)
 
 
 def _inside(value: object) -> Iterable[object]:
     if isinstance(value, BaseModel):
-        return [getattr(value, field) for field in type(value).model_fields]
+        return [getattr(value, field) for field in _open_fields(type(value))]
     if isinstance(value, dict):
         return value.values()
+    if isinstance(value, Logarithm):
+        return (value.of,)
     return value if isinstance(value, tuple) else ()
+
+
+@cache
+def _open_fields(model: type[BaseModel]) -> tuple[str, ...]:
+    """The fields of givens in which a parameter may be."""
+    return tuple(name for name, field in model.model_fields.items() if _may_be_open(field.annotation))
+
+
+def _may_be_open(kind: Any) -> bool:
+    if kind is Any or kind is Parameter or kind is Logarithm:
+        return True
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        return bool(_open_fields(kind))
+    inside = kind.__annotations__.values() if hasattr(kind, "_fields") else get_args(kind)  # the entries of a row
+    return any(map(_may_be_open, inside))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +159,9 @@ class Family:
     levels: tuple[int, ...] = LEVELS
     distractors: tuple[str, ...] = ()
     package: str = "rldrill"
+
+    def __hash__(self) -> int:
+        return hash(self.name)
 
     @classmethod
     def load(cls, topic: str, name: str, package: str = "rldrill") -> "Family":

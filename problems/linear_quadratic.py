@@ -19,6 +19,7 @@ from rldrill.problems.matrices import (
     Rows,
     check_shape,
     check_weights,
+    diagonal,
     tabular,
 )
 
@@ -246,13 +247,25 @@ def times(first: int, last: int) -> str:
 
 def draw_system(rng: Draws, states: int, price: Scalar) -> dict[str, Any]:
     """Small matrices of whole numbers: A, B with one action, Q diagonal, R the price."""
+    A: Rows
+    B: Rows
+    Q: Rows
     if states == 1:
-        return {"A": ((rng.nonzero(-2, 3),),), "B": ((rng.whole(1, 2),),), "Q": ((rng.whole(1, 3),),), "R": ((price,),)}
-    A = rng.choice((((1, 1), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (-1, 1)), ((1, 0), (1, 1)), ((2, 1), (0, 1)),
-                    ((0, 1), (-1, 2)), ((1, -1), (1, 0))))  # fmt: skip
-    B = rng.choice((((0,), (1,)), ((1,), (0,)), ((1,), (1,)), ((0,), (2,))))
-    Q = ((rng.whole(1, 3), 0), (0, rng.whole(1, 2)))
-    return {"A": A, "B": B, "Q": Q, "R": ((price,),)}
+        A, B, Q = ((rng.nonzero(-2, 3),),), ((rng.whole(1, 2),),), ((rng.whole(1, 3),),)
+    else:
+        A, B, Q = rng.choice(_MOVES), rng.choice(_INPUTS), diagonal(rng.whole(1, 3), rng.whole(1, 2))
+    return {"A": (A,), "B": (B,), "Q": (Q,), "R": (((price,),),)}
+
+
+def _numbers(*rows: Sequence[int]) -> Rows:
+    return tuple(tuple(map(Fraction, row)) for row in rows)
+
+
+_MOVES = (
+    _numbers((1, 1), (0, 1)), _numbers((0, 1), (1, 1)), _numbers((1, 1), (-1, 1)), _numbers((1, 0), (1, 1)),
+    _numbers((2, 1), (0, 1)), _numbers((0, 1), (-1, 2)), _numbers((1, -1), (1, 0)),
+)  # fmt: skip
+_INPUTS = (_numbers((0,), (1,)), _numbers((1,), (0,)), _numbers((1,), (1,)), _numbers((0,), (2,)))
 
 
 def single_gain(A: NumberRows, B: NumberRows, price: Fraction, P: NumberRows) -> tuple[Fraction, ...]:

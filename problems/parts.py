@@ -1,7 +1,7 @@
 """The parts (a), (b), … of a problem, and the kinds of answer that they ask for."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from string import ascii_lowercase
 from typing import ClassVar, TypeAlias
 
@@ -107,4 +107,6 @@ def label(index: int) -> str:
 
 def lettered(parts: Iterable[Part]) -> tuple[Part, ...]:
     """Parts with the letters a, b, … in their order."""
-    return tuple(replace(part, label=label(index)) for index, part in enumerate(parts))
+    return tuple(
+        [Part(part.ask, part.kind, part.points, part.ties, part.zero, label(n)) for n, part in enumerate(parts)]
+    )

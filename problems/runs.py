@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, NamedTuple, Self
 
@@ -219,7 +220,7 @@ class ValueRun(Reversible):
         check_one_open(self)
         return self
 
-    @property
+    @cached_property
     def moves(self) -> tuple[StateMove, ...]:
         """The transitions one by one."""
         return tuple(map(StateMove, self.trajectory.states, self.trajectory.states[1:], self.trajectory.rewards))
@@ -229,12 +230,12 @@ class ValueRun(Reversible):
         """The states in which an episode ends."""
         return self.trajectory.terminal
 
-    @property
+    @cached_property
     def visited(self) -> tuple[str, ...]:
         """The states that are left, in the order of their first visit."""
         return tuple(dict.fromkeys(move.state for move in self.moves))
 
-    @property
+    @cached_property
     def updated(self) -> tuple[str, ...]:
         """The states that are updated; what is known is the value of the first of them."""
         return self.visited
@@ -266,12 +267,12 @@ class ValueMoves(Givens):
         check_one_open(self)
         return self
 
-    @property
+    @cached_property
     def moves(self) -> tuple[StateMove, ...]:
         """The transitions one by one."""
         return self.transitions
 
-    @property
+    @cached_property
     def visited(self) -> tuple[str, ...]:
         """The states that are left, in the order of their first visit."""
         return tuple(dict.fromkeys(move.state for move in self.moves))
@@ -285,7 +286,7 @@ class ActionUpdates(Givens):
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
 
-    @property
+    @cached_property
     def updated(self) -> tuple[tuple[str, str], ...]:
         """The pairs of state and action that are updated, in the order of their first visit."""
         return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
@@ -324,7 +325,7 @@ class ActionRun(ActionUpdates):
             last = self.trajectory.states[-1]
             raise ValueError(f"trajectory: {method} needs the action taken in {last!r}, the last state, too")
 
-    @property
+    @cached_property
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
         run = self.trajectory
@@ -384,7 +385,7 @@ class ActionMoves(ActionUpdates):
                     f"transitions[{number}]: {method} needs the action taken in {move.next!r} too; add it at the end"
                 )
 
-    @property
+    @cached_property
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
         return self.transitions

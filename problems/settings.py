@@ -25,6 +25,9 @@ class Setting:
     actions: tuple[str, ...]
     moves: tuple[tuple[int, ...], ...]
 
+    def __hash__(self) -> int:
+        return hash(self.story)
+
     def told(self, terminal: tuple[str, ...]) -> str:
         """What the world is about, with its ending if there is a terminal state."""
         return f"{self.story}{self.ending if terminal else ''}."
@@ -39,10 +42,15 @@ class Setting:
 
         An action that the world does not have stands for all of them.
         """
-        here = places.index(state)
-        chosen = [self.moves[self.actions.index(action)]] if action in self.actions else self.moves
-        steps = [step for moves in chosen for step in moves]
-        return tuple(dict.fromkeys(places[min(max(here + step, 0), len(places) - 1)] for step in steps))
+        return _reached(self, places, state, action)
+
+
+@cache
+def _reached(setting: Setting, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
+    here = places.index(state)
+    chosen = [setting.moves[setting.actions.index(action)]] if action in setting.actions else setting.moves
+    steps = [step for moves in chosen for step in moves]
+    return tuple(dict.fromkeys(places[min(max(here + step, 0), len(places) - 1)] for step in steps))
 
 
 @cache

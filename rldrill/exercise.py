@@ -4,7 +4,7 @@ import reprlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ from rldrill.problems.document import Block, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
+from rldrill.problems.notations import in_use
 from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.render.markdown import markdown, markdown_text
 from rldrill.render.mathematics.unicode import inline, unicode
@@ -327,11 +328,17 @@ def _written(lines: Iterable[Line], stated: set[Formula]) -> Iterator[Block]:
             yield from _written(line.lines(), set())
 
 
+@lru_cache(maxsize=1024)
+def _general(formula: Formula, _: str) -> str:
+    """A formula as it is computed with, in the notation in use; the same ones are written again and again."""
+    return unicode_text(formula.equation(formula.right))
+
+
 def _step(step: Step) -> dict[str, str]:
     equation = step.equation()
     return {
         "formula": step.formula.key,
-        "general": unicode_text(step.formula.equation(step.formula.right)),
+        "general": _general(step.formula, in_use()),
         "quantity": unicode(typeset(step.left)),
         "put_in": unicode(equation.rights[0]),
         "value": unicode(equation.rights[-1]),

@@ -2,17 +2,18 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import nullcontext
 from typing import Any
 
 from pydantic import ValidationError
 
+from rldrill.problems.catalogue import OWN
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.complaints import sentence
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, UsageError
-from rldrill.problems.family import Family, Givens, Problem
+from rldrill.problems.family import Family, Givens, Problem, trusted
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
-from rldrill.problems.parts import Part
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
@@ -58,7 +59,8 @@ def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
 
 def _drawn(family: Family, level: int, rng: Draws) -> Givens:
     try:
-        return family.draw(level, rng)
+        with trusted() if family.package == OWN else nullcontext():  # the tests read our own draws as files are read
+            return family.draw(level, rng)
     except ValidationError as error:
         said = sentence(error, family.schema(), family=family.name, tagged=False)
         raise BrokenFamily(
@@ -86,8 +88,7 @@ def flaws(solution: Solution) -> Iterator[str]:
     """What keeps a problem from being a good exam question, cheapest check first."""
     level = solution.problem.level or max(MOST_DIGITS)
     for part in solution.problem.parts:
-        answer = solution.answers[part.label]
-        cells = answer_kind(part.kind).cells(answer)
+        cells = solution.cells[part.label]
         numbers = [content for content in cells.values() if not isinstance(content, tuple)]
         if any(digits(number) > MOST_DIGITS[level] for number in numbers):
             yield f"({part.label}) has more digits than a person can handle"
@@ -105,13 +106,11 @@ def flaws(solution: Solution) -> Iterator[str]:
 
 def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:
     """Whether a marker can tell these answers from the right ones, in one part at least."""
-    return any(_differ(part, solution.answers[part.label], answers[part.label])
+    return any(_differ(solution.cells[part.label], answer_kind(part.kind).cells(answers[part.label]))
                for part in solution.problem.parts if part.label in answers)  # fmt: skip
 
 
-def _differ(part: Part, key: Any, other: Any) -> bool:
-    kind = answer_kind(part.kind)
-    right, wrong = kind.cells(key), kind.cells(other)
+def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:
     for name, content in right.items():
         if isinstance(content, tuple):
             if not set(content) & set(wrong[name]):

@@ -36,7 +36,7 @@ _PRECISIONS = (64, 256, 1024)  # in bits
 def exact(number: Weight | int) -> Value:
     """A given's number as a value to compute with."""
     if type(number) is Fraction:
-        return fmpq(*number.as_integer_ratio())
+        return _rational(number)
     if isinstance(number, Logarithm):
         return sympy.log(to_sympy(exact(number.of)))
     if isinstance(number, Root):
@@ -45,6 +45,11 @@ def exact(number: Weight | int) -> Value:
         open_ = generator(number.symbol)
         return 1 - open_ if number.complement else open_
     return simplest(number)
+
+
+@lru_cache(maxsize=4096)  # the same numbers are given again and again
+def _rational(number: Fraction) -> fmpq:
+    return fmpq(*number.as_integer_ratio())
 
 
 def simplest(value: Any) -> Any:
@@ -155,19 +160,14 @@ def told(value: Value) -> str:
     return str(value).replace("-", "−")
 
 
-@singledispatch
 def digits(value: Value) -> int:
     """How many digits a person must write for a number; closed forms count the longest that stands in them."""
+    if isinstance(value, fmpq):
+        above, below = len(str(abs(value.p))), value.q  # flint's text, which has no limit
+        return above if below == 1 else above + len(str(below))
+    if isinstance(value, RationalFunction):
+        return max(map(digits, value.coefficients)) + len(value.coefficients)
     return max((digits(fraction(number)) for number in to_sympy(value).atoms(sympy.Rational)), default=0)
-
-
-@digits.register(fmpq)
-def _(value: fmpq) -> int:
-    above, below = str(abs(value.p)), str(value.q)  # flint's, which has no limit
-    return len(above) + (0 if below == "1" else len(below))
-
-
-digits.register(RationalFunction, lambda value: max(map(digits, value.coefficients)) + len(value.coefficients))
 
 
 @singledispatch
@@ -291,7 +291,7 @@ def sign(value: Value) -> int:
         NotReal: the value is not a real number, or cannot be told from zero.
     """
     if isinstance(value, fmpq):
-        return (value > 0) - (value < 0)
+        return (1 if value.p > 0 else -1) if value else 0
     for precision in _PRECISIONS:
         if found := clear_sign(value, None, precision):
             return found

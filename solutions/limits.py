@@ -1,5 +1,6 @@
 """How long the numbers of a working may be: what is longer nobody writes, and it would take too long."""
 
+from collections.abc import Iterable
 from math import log2
 from typing import Any, TypeVar
 
@@ -15,7 +16,7 @@ Written = TypeVar("Written")
 #: The most decimal digits of a whole number in a working. Python writes no more than 4300, and what is written of a
 #: step may hold the products of two numbers.
 MOST_DIGITS = WHOLE_DIGITS
-_LONGEST = MOST_DIGITS * log2(10)
+_LONGEST = int(MOST_DIGITS * log2(10))
 #: The most terms of a polynomial in a parameter that is left open.
 MOST_TERMS = 64
 
@@ -27,30 +28,28 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    _check(value)
+    _check((value,))
     return value
 
 
-def _check(value: Any) -> None:
-    if isinstance(value, fmpq):
-        if value.height_bits() > _LONGEST:
+def _check(values: Iterable[Any]) -> None:
+    for value in values:
+        if isinstance(value, fmpq):
+            if value.height_bits() > _LONGEST:
+                raise _too_many_digits()
+        elif isinstance(value, dict):
+            _check(value.values())
+        elif isinstance(value, tuple | list | Vector):
+            _check(value)
+        elif is_matrix(value):
+            _check(value.entries())
+        elif length(value) > _LONGEST:
             raise _too_many_digits()
-    elif isinstance(value, dict):
-        for item in value.values():
-            _check(item)
-    elif isinstance(value, tuple | list | Vector):
-        for item in value:
-            _check(item)
-    elif is_matrix(value):
-        for item in value.entries():
-            _check(item)
-    elif length(value) > _LONGEST:
-        raise _too_many_digits()
-    elif terms(value) > MOST_TERMS:
-        raise TooLong(
-            f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
-            "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
-        )
+        elif terms(value) > MOST_TERMS:
+            raise TooLong(
+                f"with a parameter left open its working has polynomials of more than {MOST_TERMS} terms, the most "
+                "that are written; give the parameter a value, or fewer steps, sweeps or rewards"
+            )
 
 
 def _too_many_digits() -> TooLong:

@@ -9,6 +9,7 @@ from typing import Any
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
+from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
@@ -87,6 +88,11 @@ class Solution:
         """The exact answer of every part."""
         return self.work.answers
 
+    @cached_property
+    def cells(self) -> Mapping[str, Mapping[str, Any]]:
+        """The exact answer of every part, taken apart into what is judged one by one."""
+        return {part.label: answer_kind(part.kind).cells(self.answers[part.label]) for part in self.problem.parts}
+
     @property
     def lines(self) -> tuple[Line, ...]:
         """The whole working."""
@@ -121,11 +127,9 @@ class Solution:
     @cached_property
     def applicable(self) -> tuple[Misconception, ...]:
         """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
-        every = solver(self.problem.family).misconceptions
-        return tuple(mistake for mistake in every if self._has_room_for(mistake))
-
-    def _has_room_for(self, mistake: Misconception) -> bool:
-        return (mistake.is_slip or self.misread(mistake) is not None) and mistake.applies(self.problem.given)
+        made_in_reading = {mistake for formula in self.work.read for mistake in formula.misread}
+        every, given = solver(self.problem.family).misconceptions, self.problem.given
+        return tuple([each for each in every if (each.is_slip or each in made_in_reading) and each.applies(given)])
 
     def misread(self, mistake: Misconception) -> Formula | None:
         """The formula of the working that a mistake reads otherwise, the first of them; None if it is a slip."""

@@ -215,12 +215,15 @@ class Work:
 
     def reading(self, formula: Formula) -> Expr:
         """The right side of a formula, as it is read here: misread, if that is the mistake to make."""
-        self.read[formula] = None
         mistake = self.misconception
-        if mistake is None or mistake not in formula.misread:
+        if mistake is None:
+            self.read[formula] = None
+            return formula.right
+        misread = formula.misread.get(mistake)
+        if misread is None:
             return formula.right
         self.same = ()
-        return formula.misread[mistake]
+        return misread
 
     def step(
         self,
@@ -245,7 +248,7 @@ class Work:
         """
         own = right is not None
         right = self.reading(formula) if right is None else right
-        value = self._applied(formula, right, known)
+        value = self._next(_applied, formula, right, known)
         if self.misconception is None:  # nobody reads the working of a mistake
             sign = sign or (formula.sign if into is None else "=")
             self.lines.append(Step(formula, right, known, value, sign, into, own, label))
@@ -254,21 +257,17 @@ class Work:
     def value(self, formula: Formula, **known: Any) -> Any:
         """What a formula, as it is read here, gives for known quantities, without a step in the working."""
         right = self.reading(formula)
-        return self._next(lambda: value_of(right, known))
+        return self._next(value_of, right, known)
 
-    def _applied(self, formula: Formula, right: Expr, known: Mapping[str, Any]) -> Any:
-        try:
-            return self._next(lambda: bounded(tidy(value_of(right, known))))
-        except DivisionError as error:
-            raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
-
-    def _next(self, found: Callable[[], Any]) -> Any:
+    def _next(self, found: Callable[..., Any], *arguments: Any) -> Any:
         """What comes out next, looked up while it must be what came out on the right way."""
-        number = len(self.values)
-        value = self.same[number] if number < len(self.same) else None
-        self.values.append(value)  # its place is taken even where nothing comes out
-        if value is None:
-            self.values[number] = value = found()
+        values = self.values
+        number = len(values)
+        if number < len(self.same) and (value := self.same[number]) is not None:
+            values.append(value)
+            return value
+        values.append(None)  # its place is taken even where nothing comes out
+        values[number] = value = found(*arguments)
         return value
 
     def system(
@@ -382,14 +381,21 @@ class Work:
         return self.carried.get(label, value)
 
 
+def _applied(formula: Formula, right: Expr, known: Mapping[str, Any]) -> Any:
+    """What a formula gives, as one writes it."""
+    try:
+        value = value_of(right, known)
+    except DivisionError as error:
+        raise NoSolution(f"in the formula “{formula.title}” {error}; change what is given for it") from None
+    return bounded(value if type(value) is fmpq else tidy(value))
+
+
 def _simplest(value: Any) -> Any:
     """Numbers, alone or in a vector or table, as plain rationals where no parameter is left in them."""
-    if isinstance(value, fmpq):
-        return value
     if isinstance(value, dict):
-        return {key: simplest(number) for key, number in value.items()}
+        return {key: number if type(number) is fmpq else simplest(number) for key, number in value.items()}
     if isinstance(value, tuple):
-        return tuple(map(simplest, value))
+        return tuple([number if type(number) is fmpq else simplest(number) for number in value])
     return simplest(value)
 
 

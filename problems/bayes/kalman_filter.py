@@ -27,7 +27,8 @@ TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
 REVISION = 4
 
-_ONE = ((Fraction(1),),)
+_0, _1 = Fraction(0), Fraction(1)
+_ONE = ((_1,),)
 #: From so many steps on they stand below each other.
 _WIDE = 6
 #: How many entries all covariances together may have: with every step the fractions in them grow.
@@ -147,14 +148,14 @@ def draw(level: int, rng: Draws) -> Given:
     driven = level != 2 or rng.chance(Fraction(3, 4))
     while True:
         mean = rng.whole(0, 9)
-        variance, process, sensor = rng.choice(_handy())
+        variance, process, sensor = map(Fraction, rng.choice(_handy()))
         place, steps = mean, []
         for measured in rng.choice(shapes[level]):
             u = rng.nonzero(-3, 6) if driven else Fraction(0)
             place += u
             z = place + rng.nonzero(-4, 4)
             steps.append(Event(u=((u,),) if driven else None, z=((z,),) if measured else None))
-        beliefs = _beliefs((mean, Fraction(variance)), process, sensor, steps)
+        beliefs = _beliefs((mean, variance), process, sensor, steps)
         numbers = [number for belief in beliefs for number in belief]
         if max(max(abs(number.numerator), number.denominator) for number in numbers) <= _MOST[level]:
             break
@@ -176,9 +177,9 @@ def _with_velocity(rng: Draws) -> Given:
     return Given(
         mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
         covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
-        A=((1, 1), (0, 1)),
-        **({"B": ((0,), (1,))} if driven else {}),
-        C=((1, 0),),
+        A=((_1, _1), (_0, _1)),
+        **({"B": ((_0,), (_1,))} if driven else {}),
+        C=((_1, _0),),
         process=diagonal(rng.whole(1, 2), rng.whole(1, 2)),
         sensor=((rng.whole(1, 4),),),
         steps=(Event(u=u, z=((rng.whole(2, 12),),)),),
@@ -188,14 +189,14 @@ def _with_velocity(rng: Draws) -> Given:
 Belief = tuple[Fraction, Fraction]
 
 
-def _beliefs(belief: Belief, process: int, sensor: int, steps: Sequence[Event]) -> list[Belief]:
+def _beliefs(belief: Belief, process: Fraction, sensor: Fraction, steps: Sequence[Event]) -> list[Belief]:
     """Means and variances on a line, after every motion and measurement."""
     (mean, variance), beliefs = belief, []
     for event in steps:
         mean, variance = mean + (event.u[0][0] if event.u else 0), variance + process
         beliefs.append((mean, variance))
         if event.z is not None:
-            gain = Fraction(variance) / (variance + sensor)
+            gain = variance / (variance + sensor)
             mean, variance = mean + gain * (event.z[0][0] - mean), (1 - gain) * variance
             beliefs.append((mean, variance))
     return beliefs

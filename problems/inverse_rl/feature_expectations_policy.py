@@ -1,6 +1,8 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
 from collections.abc import Mapping, Sequence
+from math import lcm
+from operator import mul
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -90,6 +92,7 @@ class Given(Givens):
 #: The probability of every next state from every state, whatever is done.
 Chain = Mapping[str, Mapping[str, Fraction]]
 
+_NEVER = Fraction(0)
 _STATES, _END, _ACTIONS = ("A", "B", "C"), "end", ("left", "right")
 
 #: How many states, actions and features there are.
@@ -106,10 +109,7 @@ def draw(level: int, rng: Draws) -> Given:
         policy = {state: dict(zip(actions, _chances(rng, choices), strict=True)) for state in states}
         gamma = rng.fraction("1/2", "2/3", "3/4")
         chain = {
-            state: {
-                target: dot(policy[state].values(), [motion[a][state].get(target, Fraction(0)) for a in actions])
-                for target in states
-            }
+            state: _row([(policy[state][action], motion[action][state]) for action in actions], states)
             for state in states
         }
         found = _expected(rng, chain, gamma, size) if _connected(chain) and _suits(level, chain) else None
@@ -137,10 +137,22 @@ def _outcomes(rng: Draws, states: tuple[str, ...]) -> dict[str, Fraction]:
     return dict(zip(targets, rng.split(len(targets), (len(targets), 4)[: len(targets)]), strict=True))
 
 
+def _row(choices: Sequence[tuple[Fraction, Mapping[str, Fraction]]], states: tuple[str, ...]) -> dict[str, Fraction]:
+    """Where a state leads, whatever is done: of every action its probability, and where it leads."""
+    row = dict.fromkeys(states, _NEVER)
+    for taken, outcomes in choices:
+        for target, chance in outcomes.items():
+            if target in row:
+                row[target] += taken * chance
+    return row
+
+
 def _connected(chain: Chain) -> bool:
     """Whether every state leads to one, is not left for itself alone, and the end is reached from somewhere."""
-    leads = all(any(row.values()) and sum(row.values()) - row[state] < 1 for state, row in chain.items())
-    return leads and any(sum(row.values()) < 1 for row in chain.values())
+    kept = {state: sum(row.values()) for state, row in chain.items()}
+    return any(chance < 1 for chance in kept.values()) and all(
+        chance and chance - chain[state][state] < 1 for state, chance in kept.items()
+    )
 
 
 def _suits(level: int, chain: Chain) -> bool:
@@ -160,24 +172,30 @@ def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[st
 
 def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict[str, Fraction]] | None:
     """Different whole feature expectations whose features are small whole numbers; None where some tries find none."""
-    later = {state: [gamma * chance for chance in row.values()] for state, row in chain.items()}
-    found: list[dict[str, Fraction]] = []
+    later = [_over_one([gamma * chance for chance in row.values()]) for row in chain.values()]
+    found: list[tuple[int, ...]] = []
     for _ in range(20):
-        mu = dict(zip(chain, rng.distinct(len(chain), 2, 16), strict=True))
+        mu = rng.integers(len(chain), 2, 16)
         phi = _features(mu, later)
         if len(phi) == len(mu) and len(set(phi)) > 1 and mu not in found:
             found.append(mu)
         if len(found) == size:
-            return found
+            return [dict(zip(chain, map(Fraction, each), strict=True)) for each in found]
     return None
 
 
-def _features(mu: Mapping[str, Fraction], later: Mapping[str, Sequence[Fraction]]) -> list[Fraction]:
+def _over_one(numbers: Sequence[Fraction]) -> tuple[list[int], int]:
+    """Numbers over their common denominator: what stands above it, and what it is."""
+    below = lcm(*(number.denominator for number in numbers))
+    return [number.numerator * (below // number.denominator) for number in numbers], below
+
+
+def _features(mu: Sequence[int], later: Sequence[tuple[Sequence[int], int]]) -> list[int]:
     """The features behind feature expectations, as far as they are small whole numbers."""
     phi = []
-    for state, row in later.items():
-        value = mu[state] - dot(row, mu.values())
-        if value.denominator != 1 or not 0 < value <= 9:
+    for own, (row, below) in zip(mu, later, strict=True):
+        value, rest = divmod(own * below - sum(map(mul, row, mu)), below)
+        if rest or not 0 < value <= 9:
             break
         phi.append(value)
     return phi

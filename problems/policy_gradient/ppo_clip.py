@@ -136,8 +136,8 @@ def draw(level: int, rng: Draws) -> Given:
             Sample(
                 state=state,
                 action=rng.choice(setting.actions[:2]),
-                old=old,
-                new=new,
+                old=Fraction(old),
+                new=Fraction(new),
                 advantage=sign * count * rng.whole(1, 6 // count),
             )
         )
@@ -156,11 +156,12 @@ def _searched(rng: Draws, setting: Setting) -> Given:
         order = rng.shuffled(setting.actions[:2])
         preferences = {order[0]: Logarithm(f"ln {number}"), order[1]: Fraction(0)}
         advantage = (1 if more == cut else -1) * rng.whole(1, 6)
-        ratio = Fraction(number if taken == 0 else 1, number + 1) / Fraction(old)
+        before = Fraction(old)
+        ratio = Fraction(number if taken == 0 else 1, number + 1) / before
         held = 1 + epsilon if more else 1 - epsilon
         objective += (held if cut else ratio) * advantage / len(cuts)
         in_order = {action: preferences[action] for action in setting.actions[:2]}
-        samples.append(Sample(state=state, action=order[taken], old=old, preferences=in_order, advantage=advantage))
+        samples.append(Sample(state=state, action=order[taken], old=before, preferences=in_order, advantage=advantage))
     return Given(samples=tuple(samples), objective=objective if by_objective else None)
 
 

@@ -1,5 +1,6 @@
 """``rldrill verify``."""
 
+import gc
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -136,6 +137,8 @@ def command(
         student=seconds,
         absent=absent,
     )
+    gc.freeze()  # what is imported stays, and the process that marks shares it
+    gc.enable()
     with _progress() as advance:
         report = verify(files, settings, advance)
     for form, path in wanted:

@@ -15,7 +15,6 @@ from rldrill.problems.mathematics import Math
 from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.stacked import stacked
 from rldrill.render.mathematics.unicode import ABOVE, BELOW, GLUE, inline, unicode
-from rldrill.render.pictures.text import lines
 
 #: What pictures and tables are drawn with: one sign for one.
 _DRAWN = str.maketrans(
@@ -74,6 +73,8 @@ class Spelling:
 
     def lines(self, picture: Picture, width: int = 100) -> list[str]:
         """A picture as lines of signs, its labels spelled before they are placed."""
+        from rldrill.render.pictures.text import lines
+
         if shows_all(self.encoding):
             return lines(picture, width)
         return [self._drawn(line) for line in lines(_relabelled(picture, self.inline), width)]

@@ -28,6 +28,8 @@ RULE = "an exact value, or a decimal that is right to 3 significant digits"
 DIGITS = 3
 _AT_ZERO = fmpq(1, 2000)
 _CLOSE = fmpq(1, 50)
+#: From here on the tolerance at zero, too, is less than a 150th.
+_NOT_SMALL = fmpq(1, 2)
 _POINTS = 6
 _LONGEST = 10**4  # digits
 _FEW_BITS, _MANY_BITS = 64, 1024
@@ -89,7 +91,10 @@ def apart(key: Value, other: Value) -> bool:
     """Whether a marker can tell two answers from each other, even rounded to three digits."""
     if key == other:
         return False
-    if parameters(key) or parameters(other):
+    if is_rational(key) and is_rational(other):
+        if 150 * abs(key - other) > abs(key) + abs(other) > _NOT_SMALL:
+            return True  # a tolerance is at most a 200th of what it is for
+    elif parameters(key) or parameters(other):
         return not equivalent(key, other)
     return not within(other, key, tolerance(key) + tolerance(other))
 

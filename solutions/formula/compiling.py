@@ -4,6 +4,7 @@ import keyword
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from math import factorial
+from operator import itemgetter
 from typing import Any
 
 import sympy
@@ -12,7 +13,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, largest, monomial, sign, simplest
+from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, is_zero, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
@@ -122,7 +123,7 @@ def _circular(function: Callable[[Expr], Expr], angle: Value) -> Value:
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
     """All keys whose value is the greatest, in their order."""
     best = largest(values)
-    return tuple(key for key, value in zip(keys, values, strict=True) if sign(best - value) == 0)
+    return tuple([key for key, value in zip(keys, values, strict=True) if value == best or is_zero(best - value)])
 
 
 #: All that a compiled formula can call, besides the values of its nodes: nothing of Python's own is among it.
@@ -142,10 +143,6 @@ _NAMES = {
 }
 
 
-#: Takes what a formula is given and does not need; no letter is called that.
-_OTHERS = "_"
-
-
 @cache
 def needs(expression: Expr) -> tuple[str, ...]:
     """The names that values must be given for, sorted."""
@@ -155,16 +152,25 @@ def needs(expression: Expr) -> tuple[str, ...]:
 
 @cache
 def compiled(expression: Expr) -> Callable[..., Any]:
-    """The expression as a Python function of the names that it needs; it takes any others, too.
+    """The expression as a Python function of the names that it needs, in their order.
 
     What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
     get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
     they are printed, and are bound as arguments. Typed answers and the names of states never do.
     """
     compiler = Compiler()
-    parameters = ", ".join((*map(_checked, needs(expression)), f"**{_OTHERS}"))
-    source = f"lambda {parameters}: {compiler.doprint(expression)}"
+    source = f"lambda {', '.join(map(_checked, needs(expression)))}: {compiler.doprint(expression)}"
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
+
+
+@cache
+def _reader(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
+    """The same as a function of all that is known."""
+    function, names = compiled(expression), needs(expression)
+    if len(names) < 2:
+        return lambda known: function(*[known[name] for name in names])
+    values = itemgetter(*names)
+    return lambda known: function(*values(known))
 
 
 def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
@@ -175,15 +181,6 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
         NoSolution: it has no value.
     """
     try:
-        return compiled(expression)(**known)
+        return _reader(expression)(known)
     except LookupError as error:
-        raise _not_given(error.args[0]) from None
-    except TypeError:
-        for name in needs(expression):
-            if name not in known:
-                raise _not_given(name) from None
-        raise
-
-
-def _not_given(name: object) -> NotGiven:
-    return NotGiven(f"no value is given for {name!r}, which the formula needs")
+        raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None

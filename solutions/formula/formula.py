@@ -41,6 +41,9 @@ class Misconception:
     when: Callable[[Any], bool] | None = field(default=None, compare=False)
     solve: Callable[[Any, Any], None] | None = field(default=None, compare=False)
 
+    def __hash__(self) -> int:
+        return hash(self.name)
+
     def __repr__(self) -> str:
         return f"<misconception {self.name}>"
 

@@ -105,7 +105,7 @@ def sum_of(terms: Iterable[Expr]) -> Expr:
         if sign == -1 and len(rest) == 1 and isinstance(rest[0], Negative):
             return leaf(-rest[0].args[0])
         return Negative(-rest[0]) if sign == -1 and len(rest) == 1 and rest[0].is_Number else kept[0]
-    return Add(*kept, evaluate=False)
+    return Add._from_args(kept)
 
 
 def _is_nothing(term: Expr) -> bool:
@@ -122,7 +122,7 @@ def product_of(factors: Iterable[Expr]) -> Expr:
     kept = [factor for factor in flat if factor is not sympy.S.One]
     if not kept:
         return sympy.S.One
-    return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
+    return Mul._from_args(kept)
 
 
 def _without_ones(factors: list[Expr]) -> list[Expr]:
@@ -238,8 +238,8 @@ def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:
-        kept = [term for term in expression.args if not _is_zero_number(term)]
-        return Add(*map(_term, kept), evaluate=False) if len(kept) > 1 else _inner(expression)
+        kept = [_term(term) for term in expression.args if not _is_zero_number(term)]
+        return Add._from_args(kept) if len(kept) > 1 else _inner(expression)
     return _inner(expression)
 
 
@@ -278,7 +278,7 @@ def _inner(term: Expr) -> Expr:
         factors = _without_ones([_inner(factor) for factor in term.args])
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
-        return Mul(*factors, evaluate=False)
+        return Mul._from_args(factors)
     if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
         return Pow(_inner(term.args[0]), -1, evaluate=False)
     if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):

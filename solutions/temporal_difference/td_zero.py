@@ -10,7 +10,6 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find_and_finish, found_and_finished
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA
-from rldrill.solutions.sheet.policy_gradient import TD_ERROR
 from rldrill.solutions.sheet.temporal_difference import TARGET_ONLY, TD_ZERO, WRONG_SIGN
 from rldrill.solutions.work import Work
 
@@ -36,6 +35,8 @@ def _updated(given: Given, work: Work, read: Callable[[Scalar], Value], *, newes
     for seen in knowns.moves(given):
         current = values if newest else before
         if given.td_errors:
+            from rldrill.solutions.sheet.policy_gradient import TD_ERROR  # most problems need nothing of that section
+
             errors.append(work.step(TD_ERROR, V=current, **seen, **known))
         values = values | {seen["S"][seen["t"]]: work.step(TD_ZERO, V=current, **seen, **known)}
     if given.td_errors:

@@ -1,12 +1,15 @@
 """Givens from outside: whatever is wrong with them is one sentence that names the field."""
 
+from itertools import product
 from typing import Any
 
 import pytest
 
 import rldrill
 from rldrill.problems.catalogue import families, family
+from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
+from rldrill.problems.family import trusted
 from rldrill.solutions.drawing import draw
 
 MDP = {
@@ -68,6 +71,16 @@ def test_givens_survive_being_written_and_read(name: str) -> None:
     for level in family(name).levels:
         problem = draw(name, level, 5).problem
         assert problem.family.read(problem.data()["given"]) == problem.given
+
+
+@pytest.mark.parametrize("name", families())
+def test_what_is_drawn_unchecked_is_what_checking_would_make_of_it(name: str) -> None:
+    for level, key in product(family(name).levels, "abcdef"):
+        checked = family(name).draw(level, Draws(key))
+        with trusted():
+            drawn = family(name).draw(level, Draws(key))
+        assert drawn == checked
+        assert drawn.model_dump_json() == checked.model_dump_json()
 
 
 GAIN: dict[str, Any] = {"A": [[1, 0], [0, 1]], "B": [[1], [1]], "R": 1, "P": [[-1, 0], [0, -1]]}

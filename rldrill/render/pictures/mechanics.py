@@ -1,5 +1,6 @@
 """Arms and pendulums as scenes."""
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from itertools import pairwise
 from math import cos, radians, sin
@@ -50,15 +51,16 @@ def _beside_link(joint: Point, heading: float, length: float) -> Iterable[Point]
 
 def _placed(wanted: list[tuple[str, list[Point]]], lines: list[Path]) -> list[Caption]:
     """The labels, one after the other where they cover least; the first place wins if that is no worse."""
-    taken = [point for line in lines for ends in pairwise(line.points) for point in _along(*ends)]
+    taken = sorted(point for line in lines for ends in pairwise(line.points) for point in _along(*ends))
+    across = [x for x, _ in taken]
     labels: list[Caption] = []
     for words, places in wanted:
         boxes = [caption_bounds(label) for label in labels]
 
         def covered(at: Point, words: str = words, boxes: list[Bounds] = boxes) -> int:
             box = caption_bounds(Caption(at, words))
-            hidden = sum(box.left < x < box.right and box.top < y < box.bottom for x, y in taken)
-            return hidden + _SAMPLES * sum(map(box.overlaps, boxes))
+            near = taken[bisect_right(across, box.left) : bisect_left(across, box.right)]
+            return sum(box.top < y < box.bottom for _, y in near) + _SAMPLES * sum(map(box.overlaps, boxes))
 
         labels.append(Caption(min(places, key=covered), words, plate=True))
     return labels

@@ -17,6 +17,8 @@ from rldrill.solutions.vector import Vector
 class Leaf(Node):
     """Something that is put in; it is worth what it holds."""
 
+    is_commutative = True  # sympy would deduce it anew for every one
+
     def _put_in(self, _: object) -> Expr:
         return self
 
