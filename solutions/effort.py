@@ -8,6 +8,7 @@ from sympy import Expr
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
+from rldrill.solutions.formula.nodes.leaves import Slot
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Elimination, Line, Result, Step
 
@@ -63,8 +64,13 @@ def whole(time: Fraction) -> int:
 
 def _seconds(expression: Expr) -> Fraction:
     operations = digits = 0
-    for node in sympy.preorder_traversal(expression):
-        if isinstance(node, Node):
+    plain = Fraction(0)
+    nodes = sympy.preorder_traversal(expression)
+    for node in nodes:
+        if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
+            nodes.skip()
+            plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
+        elif isinstance(node, Node):
             operations += node.operations
             digits += sum(map(_digits, node.numbers))
         elif node.is_Rational:
@@ -75,7 +81,7 @@ def _seconds(expression: Expr) -> Fraction:
             operations += len(node.args) - 1
         elif node.is_Function or node.is_Pow:
             operations += 1
-    return OPERATION * operations + DIGIT * digits
+    return plain + OPERATION * operations + DIGIT * digits
 
 
 def _digits(number: Expr) -> int:

@@ -90,7 +90,7 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     }
     if V[row.state] == value and any(each >= value for action, each in worths.items() if action != row.action):
         raise NoSolution(
-            f"the reward of {row.action!r} does not follow, for another action in {row.state!r} is as good"
+            f"the reward of {row.action!r} does not follow: another action in {row.state!r} is worth as much or more"
         )
     work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
