@@ -7,7 +7,7 @@ from threading import Event, Thread
 from typing import Any
 
 from rldrill.background import in_background
-from rldrill.misreading import misreading
+from rldrill.misreading import misread_lines
 from rldrill.problems.document import Equation
 from rldrill.problems.notations import in_notation
 from rldrill.render.differences import differences, marked
@@ -121,13 +121,21 @@ class Diagnosis:
 
 @dataclass(frozen=True, slots=True)
 class WrongAnswer:
-    """A wrong answer to a part, as it is typed, what it comes from, and how a formula was read if one was."""
+    """A wrong answer to a part, as it is typed, and what it comes from.
+
+    ``lines`` is the step or formula as it was taken, and as it should be, where there is one.
+    """
 
     part: str
     answer: str
     kind: str
     sentence: str
-    read: Equation | None = None
+    lines: tuple[Equation, Equation] | None = None
+
+    @property
+    def read(self) -> Equation | None:
+        """What was read otherwise, marked where it differs."""
+        return None if self.lines is None else marked(*self.lines)
 
 
 class Diagnosing:
@@ -214,15 +222,15 @@ class Diagnosing:
                 ):
                     said = _diagnosis(candidate.cause, search.applications, 1.0)
                     text = kind.write(candidate.answers[label])
-                    read = self._read(candidate.cause, said)
-                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence, read))
+                    lines = self._lines(candidate.cause, said)
+                    found.setdefault(text, WrongAnswer(label, text, said.kind, said.sentence, lines))
         return tuple(found.values())
 
-    def _read(self, cause: Cause, said: Diagnosis) -> Equation | None:
-        """The formula as it was read, marked where it differs."""
+    def _lines(self, cause: Cause, said: Diagnosis) -> tuple[Equation, Equation] | None:
+        """The formula as it was read, and as it is."""
         if cause.mistake is not None:
-            return misreading(self.solution, cause.mistake)
-        return None if said.wrong is None or said.right is None else marked(said.wrong, said.right)
+            return misread_lines(self.solution, cause.mistake)
+        return None if said.wrong is None or said.right is None else (said.wrong, said.right)
 
     def diagnose(
         self,
@@ -273,9 +281,7 @@ def _listed(solution: Solution, verdict: Verdict) -> Diagnosis:
     first = verdict.told[0]
     formula = solution.misread(first)
     where = None if formula is None else Place(formula.key, None)
-    wrong = right = None
-    if formula is not None:
-        wrong, right = formula.equation(formula.misread[first]), formula.equation(formula.right)
+    wrong, right = misread_lines(solution, first) or (None, None)
     confidence = 1.0 if len(verdict.told) == 1 else 0.5
     return Diagnosis("listed", verdict.says, where, (), confidence, wrong, right)
 

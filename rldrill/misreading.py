@@ -8,6 +8,12 @@ from rldrill.solutions.solution import Solution
 
 def misreading(solution: Solution, mistake: Misconception) -> Equation | None:
     """The formula as somebody reads it who makes the mistake; None where it is a slip in the procedure."""
+    lines = misread_lines(solution, mistake)
+    return None if lines is None else marked(*lines)
+
+
+def misread_lines(solution: Solution, mistake: Misconception) -> tuple[Equation, Equation] | None:
+    """The formula as the mistake reads it, and as it is."""
     if (formula := solution.misread(mistake)) is None:
         return None
-    return marked(formula.equation(formula.misread[mistake]), formula.equation(formula.right))
+    return formula.equation(formula.misread[mistake]), formula.equation(formula.right)
