@@ -17,6 +17,8 @@ Written = TypeVar("Written")
 #: step may hold the products of two numbers.
 MOST_DIGITS = WHOLE_DIGITS
 _LONGEST = int(MOST_DIGITS * log2(10))
+#: The most decimal digits of a number whose root is taken: squares in it are looked for by way of floats.
+MOST_UNDER_A_ROOT = 300
 #: The most terms of a polynomial in a parameter that is left open.
 MOST_TERMS = 64
 
@@ -29,6 +31,20 @@ def bounded(value: Written) -> Written:
             more terms.
     """
     _check((value,))
+    return value
+
+
+def rooted(value: Written) -> Written:
+    """A value of which a root can be written down.
+
+    Raises:
+        TooLong: a number in it has too many digits for that.
+    """
+    if length(value) > MOST_UNDER_A_ROOT * log2(10):
+        raise TooLong(
+            f"its working takes the root of a number of more than {MOST_UNDER_A_ROOT} digits, the most of which one is "
+            "written; give shorter numbers"
+        )
     return value
 
 

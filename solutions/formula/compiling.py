@@ -15,7 +15,7 @@ from sympy.printing.str import StrPrinter
 
 from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, is_zero, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.limits import bounded
+from rldrill.solutions.limits import rooted
 from rldrill.solutions.matrices import is_matrix
 
 
@@ -93,7 +93,7 @@ def _inverse(value: Any) -> Any:
 def _root(value: Value) -> Value:
     if isinstance(value, fmpq) and value < 0:
         raise NoSolution("there is no root of a negative number")
-    return simplest(sympy.sqrt(sympy.sympify(bounded(value), strict=True)))
+    return simplest(sympy.sqrt(sympy.sympify(rooted(value), strict=True)))
 
 
 def _factorial(value: Value) -> Value:

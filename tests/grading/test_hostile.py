@@ -245,3 +245,11 @@ def test_no_answer_in_the_shape_of_its_part_takes_long(problem: str) -> None:
     exercise.check("1")  # what is worked out once for a problem is no answer's doing
     for name, typed in HOSTILE["submissions"](exercise, exercise.parts[0]):
         assert HOSTILE["taken"](exercise, typed) < 0.4, name  # 0.05 s on a machine that does nothing else
+
+
+def test_a_number_too_long_for_a_root_ends_nothing() -> None:
+    # The distance (d) is the root of the squares of the weights (c): 1800 digits, more than a float holds.
+    exercise = rldrill.load("apprenticeship/1/3")
+    graded = exercise.grade({"c": f"{'9' * 900}, {'9' * 900}", "d": "12345"})
+    assert not graded["c"].accepted
+    assert not graded["d"].accepted
