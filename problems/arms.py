@@ -25,7 +25,8 @@ class PlanarArm(Givens):
         min_length=1, max_length=6, description="The lengths of the links, from the base outwards."
     )
     angles: tuple[AngleField, ...] = Field(
-        description="The angle of every joint in radians, counter-clockwise, each relative to the link before."
+        max_length=6,
+        description="The angle of every joint in radians, counter-clockwise, each relative to the link before.",
     )
 
     @model_validator(mode="after")

@@ -11,7 +11,7 @@ from rldrill.problems.exact import PARAMETERS, Exact, Parameter, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, Trajectory, after, draw_action_run
+from rldrill.problems.runs import ActionMove, ActionMoves, ActionRun, ActionUpdates, Trajectory, after, draw_action_run
 from rldrill.problems.settings import Setting, draw_moves
 
 Rows = dict[str, dict[str, Fraction]]
@@ -39,14 +39,18 @@ _Ending = Annotated[
 ]
 
 
-class BackRun(ActionRun):
-    """A run with its action values, α and γ; or one of them left open, and a value in the end from which it follows."""
+class AskingBack(ActionUpdates):
+    """Updates with α and γ; or with one of them left open, and a value in the end from which it follows."""
 
     outcome: _Ending = None
 
     @model_validator(mode="after")
     def _follows(self) -> Self:
-        _check(self.outcome, self.updated, super().parameters())
+        if self.outcome and self.outcome[:2] not in self.updated:
+            pair = f"({self.outcome.state}, {self.outcome.action})"
+            raise ValueError(f"outcome: {pair} is not updated, so nothing follows from it")
+        if self.outcome and len(super().parameters()) != 1:
+            raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
         return self
 
     def parameters(self) -> tuple[str, ...]:
@@ -59,31 +63,12 @@ class BackRun(ActionRun):
         return "".join(super().parameters())
 
 
-class BackMoves(ActionMoves):
-    """The same for transitions that need not join."""
-
-    outcome: _Ending = None
-
-    @model_validator(mode="after")
-    def _follows(self) -> Self:
-        _check(self.outcome, self.updated, super().parameters())
-        return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """The parameters that answers are expressions in: none, where what is left open is asked for."""
-        return () if self.outcome else super().parameters()
-
-    @property
-    def asked_for(self) -> str:
-        """The parameter that is asked for."""
-        return "".join(super().parameters())
+class BackRun(AskingBack, ActionRun):
+    """A run with its action values."""
 
 
-def _check(outcome: Outcome | None, updated: tuple[tuple[str, str], ...], left_open: tuple[str, ...]) -> None:
-    if outcome and (outcome.state, outcome.action) not in updated:
-        raise ValueError(f"outcome: ({outcome.state}, {outcome.action}) is not updated, so nothing follows from it")
-    if outcome and len(left_open) != 1:
-        raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
+class BackMoves(AskingBack, ActionMoves):
+    """Transitions that need not join, with the action values before them."""
 
 
 class Rates(NamedTuple):
@@ -178,7 +163,7 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
     return {"trajectory": run, "values": rows, "outcome": Outcome(state, action, end), **rates}
 
 
-def back_asked(given: BackRun | BackMoves, outcome: Outcome, table: Rows, of: str = "Q") -> Part:
+def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") -> Part:
     """The part that asks for what is left open, by its value or by an action that is as good in the end.
 
     Args:

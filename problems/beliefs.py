@@ -10,13 +10,16 @@ from rldrill.problems.document import Block, Table
 from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
+from rldrill.problems.models import Name, Named, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.readings import distribution, note_of, told
 
 Likelihood = Mapping[str, Mapping[str, Scalar]]
 #: Where actions lead: for every action and state the probabilities of the next states.
-MotionField = dict[Name, dict[Name, OpenDistributionField]]
+MotionField = Named[Named[OpenDistributionField]]
 Motion = Mapping[str, Mapping[str, Mapping[str, Scalar]]]
+
+#: So many products are summed by all predictions of a run; one among all states of the largest model is.
+_MOST_SUMMANDS = 1024**2
 
 #: What stands above the table of a motion, and above that of a sensor.
 MOTION_TOLD = "Taking action $a$ in state $s$ leads to the next state $s'$ with probability $p(s'|s, a)$:"
@@ -50,7 +53,7 @@ def _by_reading(likelihood: Likelihood, info: ValidationInfo) -> Likelihood:
 
 
 #: What a sensor reads with which probability, by reading; written so, or by hypothesis, where these are told apart.
-LikelihoodField = Annotated[dict[Name, dict[Name, OpenProbability]], AfterValidator(_by_reading)]
+LikelihoodField = Annotated[Named[Named[OpenProbability]], AfterValidator(_by_reading)]
 
 
 def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:
@@ -122,6 +125,19 @@ def check_motion(motion: Motion, states: tuple[str, ...], ends: tuple[str, ...] 
         for state, chances in rows.items():
             check_keys(chances, (*states, *ends), f"the motion of {action!r} in {state!r}", needed=())
             check_distribution(chances, f"motion of {action!r} in {state!r}")
+
+
+def check_predictions(count: int, states: int, where: str) -> None:
+    """Demand that predictions, each a sum over all states for every state, are worked out in seconds.
+
+    Raises:
+        ValueError: they are not.
+    """
+    if count * states**2 > _MOST_SUMMANDS:
+        raise ValueError(
+            f"{where}: {count} actions among {states} states take too long; at most {_MOST_SUMMANDS // states**2} are "
+            "possible here"
+        )
 
 
 def likelihood_table(likelihood: Likelihood, known: tuple[str, ...], letter: str = "s") -> Table:

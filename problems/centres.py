@@ -1,7 +1,7 @@
 """A state in space and the centres of basis functions, as problems give them."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -14,15 +14,13 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.pictures import Bumps
 
-Point = tuple[Exact, ...]
+Point = Annotated[tuple[Exact, ...], Field(max_length=10)]
 
 
 class Centred(Givens):
     """A state as its coordinates, and the centres of the features; without it, some features are known instead."""
 
-    position: Point | None = Field(
-        default=None, min_length=1, max_length=10, description="The coordinates of the state."
-    )
+    position: Point | None = Field(default=None, min_length=1, description="The coordinates of the state.")
     centres: tuple[Point, ...] = Field(min_length=1, max_length=20, description="The coordinates of every centre.")
 
     @model_validator(mode="after")

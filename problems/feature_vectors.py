@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact
+from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Named, check_keys
 
 #: The features of every state, as many for each.
-FeaturesField = dict[Name, tuple[Exact, ...]]
+FeaturesField = Named[FeatureVector]
 
 
 def check_features(features: Mapping[str, tuple[Fraction, ...]], states: Iterable[str]) -> None:

@@ -44,10 +44,19 @@ Chance = TypeVar("Chance")
 _DRAWN_STATES, _DRAWN_TRANSITIONS = 4, 16
 #: So many states are solved exactly in seconds.
 MOST_STATES = 1024
+_MOST_TRANSITIONS = 1_000_000
+#: So many steps of a run are updated one by one in seconds.
+MOST_STEPS = 10_000
 
-
+Entry = TypeVar("Entry")
 #: The name of a state, an action or a hypothesis.
 Name = Annotated[str, BeforeValidator(read_name), WithJsonSchema({"type": ["string", "integer"], "title": "a name"})]
+#: A table with an entry for every name of some states, actions or hypotheses.
+Named = Annotated[dict[Name, Entry], Field(max_length=MOST_STATES)]
+#: Names of some states, actions or hypotheses.
+Names = Annotated[tuple[Name, ...], Field(max_length=MOST_STATES)]
+#: What was seen at every step of a run.
+Steps = Annotated[tuple[Entry, ...], Field(max_length=MOST_STEPS)]
 
 
 class Transition(NamedTuple):
@@ -64,7 +73,9 @@ class Dynamics(Givens):
     """Where actions lead from some states; nothing is said about the states that they lead to."""
 
     transitions: tuple[Transition, ...] = Field(
-        min_length=1, description="The transitions; those of a state and action have probabilities that sum to 1."
+        min_length=1,
+        max_length=_MOST_TRANSITIONS,
+        description="The transitions; those of a state and action have probabilities that sum to 1.",
     )
 
     @field_validator("transitions")
@@ -117,7 +128,7 @@ class Model(Dynamics):
     is called terminal, those are that are reached and have no action.
     """
 
-    terminal: tuple[Name, ...] = Field(
+    terminal: Names = Field(
         default=(),
         validate_default=True,
         description="The states in which an episode ends; without it, those that are reached and have no action.",
@@ -263,8 +274,8 @@ def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance
 
 
 #: Probabilities by name that sum to 1; what a program rounded is read as it is meant.
-DistributionField = Annotated[dict[Name, Probability], AfterValidator(_meant)]
-OpenDistributionField = Annotated[dict[Name, OpenProbability], AfterValidator(_meant)]
+DistributionField = Annotated[Named[Probability], AfterValidator(_meant)]
+OpenDistributionField = Annotated[Named[OpenProbability], AfterValidator(_meant)]
 
 
 def read_policy(value: object, info: ValidationInfo) -> object:
@@ -289,7 +300,7 @@ def _uniform(actions: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Scalar
 
 
 PolicyField = Annotated[
-    dict[Name, OpenDistributionField],
+    Named[OpenDistributionField],
     BeforeValidator(read_policy),
     WithJsonSchema(
         {"type": "object", "title": "a table: for every state its action, or the probabilities of its actions"}
@@ -364,7 +375,7 @@ class Lookahead(Givens):
     """What the actions of one state do, the values of the next states and the discount."""
 
     dynamics: Dynamics = Field(description="What the actions of the state do.")
-    values: dict[Name, Open] = Field(min_length=1, description="The values of the next states.")
+    values: Named[Open] = Field(min_length=1, description="The values of the next states.")
     gamma: Discount
     find: bool = Field(
         default=False,

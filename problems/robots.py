@@ -60,9 +60,11 @@ class System(Givens):
         description="Parts of these expressions by their letters, each in terms of those before it.",
         examples=[{"D": "m_c + m_p sin(θ)^2"}],
     )
-    constants: dict[Letter, Exact] = Field(default_factory=dict, description="The value of every constant.")
+    constants: dict[Letter, Exact] = Field(
+        max_length=20, default_factory=dict, description="The value of every constant."
+    )
     state: dict[Letter, AngleField] = Field(
-        description="The value of every letter of the state at the operating point."
+        max_length=6, description="The value of every letter of the state at the operating point."
     )
     action: dict[Letter, AngleField] = Field(
         min_length=1, max_length=4, description="The value of every letter of the action at the operating point."
@@ -189,8 +191,12 @@ def values_of(rng: Draws, robot: Robot) -> dict[str, Any]:
 class Entries(Givens):
     """Which entries of A and of B are asked for, each as its row and column, counted from 1."""
 
-    A: tuple[tuple[int, int], ...] = Field(default=(), description="The entries of A.", examples=[[[2, 1]]])
-    B: tuple[tuple[int, int], ...] = Field(default=(), description="The entries of B.", examples=[[[2, 1]]])
+    A: tuple[tuple[int, int], ...] = Field(
+        default=(), max_length=36, description="The entries of A.", examples=[[[2, 1]]]
+    )
+    B: tuple[tuple[int, int], ...] = Field(
+        default=(), max_length=36, description="The entries of B.", examples=[[[2, 1]]]
+    )
 
     def check(self, rows: int, columns: int) -> None:
         """Demand that there are some, and that matrices of these sizes have them.

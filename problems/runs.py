@@ -1,5 +1,6 @@
 """Runs of an agent: what was visited, done and earned, and the updates that follow it."""
 
+from abc import abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -13,7 +14,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_ends, check_keys
+from rldrill.problems.models import Name, Named, Names, Steps, check_ends, check_keys
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
@@ -22,7 +23,7 @@ from rldrill.problems.settings import draw_setting, draw_way
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
-#: Returns from every time of a run, and all its n-step returns, are worked out for so many steps.
+#: So many steps have the returns from every time worked out, all n-step returns, and the traces of all states.
 _SHORT = 300
 
 #: Drawn answers have no larger numbers above and below the line.
@@ -35,16 +36,16 @@ CUT_OFF = "take it out of terminal if the run was only cut off there"
 class Trajectory(Givens):
     """A run $s_0, (a_0,) r_1, s_1, (a_1,) r_2, …$; there is one reward fewer than states."""
 
-    states: tuple[Name, ...] = Field(
+    states: Steps[Name] = Field(
         min_length=2, description="The states in the order of the visits, the last one included."
     )
-    actions: tuple[Name, ...] = Field(
+    actions: Steps[Name] = Field(
         default=(),
         description="The actions taken in them; some methods need them, and the last state's too.",
         examples=[["left", "right"]],
     )
-    rewards: tuple[Exact, ...] = Field(min_length=1, description="The reward after every state but the last.")
-    terminal: tuple[Name, ...] = Field(
+    rewards: Steps[Exact] = Field(min_length=1, description="The reward after every state but the last.")
+    terminal: Names = Field(
         default=(),
         description="The states in which an episode ends.",
         examples=[["end"]],
@@ -84,7 +85,7 @@ def _to_its_end(run: Trajectory) -> Trajectory:
     return run
 
 
-#: A run that is not so long that its n-step returns become too many.
+#: A run that is not so long that its n-step returns, or its traces, become too many.
 ShortRun = Annotated[Trajectory, AfterValidator(_short)]
 #: A run to its end: the last state is terminal.
 Episode = Annotated[ShortRun, AfterValidator(_to_its_end)]
@@ -209,7 +210,7 @@ class ValueRun(Reversible):
     """
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    values: dict[Name, Open] = Field(description="The value of every state before the run.")
+    values: Named[Open] = Field(description="The value of every state before the run.")
     alpha: StepSize = Field(description="The step size.")
     gamma: Discount
 
@@ -249,10 +250,8 @@ class ValueMoves(Givens):
         description="Transitions in the order of their updates: rows of state, next state and reward.",
         examples=[[["A", "B", 1], ["B", "end", 2]]],
     )
-    terminal: tuple[Name, ...] = Field(
-        default=(), description="The states in which an episode ends.", examples=[["end"]]
-    )
-    values: dict[Name, Exact] = Field(
+    terminal: Names = Field(default=(), description="The states in which an episode ends.", examples=[["end"]])
+    values: Named[Exact] = Field(
         description="The value of every state before the transitions.", examples=[{"A": 0, "B": 1}]
     )
     alpha: StepSize = Field(description="The step size.", examples=["1/2"])
@@ -279,11 +278,25 @@ class ValueMoves(Givens):
         return tuple(dict.fromkeys(move.state for move in self.moves))
 
 
-class ActionRun(Givens):
+class ActionUpdates(Givens):
+    """What updates action values: transitions, one after the other."""
+
+    @property
+    @abstractmethod
+    def moves(self) -> tuple[ActionMove, ...]:
+        """The transitions one by one."""
+
+    @cached_property
+    def updated(self) -> tuple[tuple[str, str], ...]:
+        """The pairs of state and action that are updated, in the order of their first visit."""
+        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
+
+
+class ActionRun(ActionUpdates):
     """A run with its actions, the action values before it, the step size and the discount."""
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    values: dict[Name, dict[Name, Exact]] = Field(
+    values: Named[Named[Exact]] = Field(
         description="For every state the values of its actions before the run.",
         examples=[{"A": {"left": 0, "right": 1}}],
     )
@@ -324,11 +337,6 @@ class ActionRun(Givens):
         """The states in which an episode ends."""
         return self.trajectory.terminal
 
-    @cached_property
-    def updated(self) -> tuple[tuple[str, str], ...]:
-        """The pairs of state and action that are updated, in the order of their first visit."""
-        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
-
     @property
     def last_action_known(self) -> bool:
         """Whether something is known to be done in the last state, or nothing is because the run ends there."""
@@ -336,7 +344,7 @@ class ActionRun(Givens):
         return run.ends or len(run.actions) == len(run.states)
 
 
-class ActionMoves(Givens):
+class ActionMoves(ActionUpdates):
     """Transitions that need not join, the action values before them, the step size and the discount."""
 
     transitions: tuple[ActionMove, ...] = Field(
@@ -346,10 +354,8 @@ class ActionMoves(Givens):
         "Sarsa the next action.",
         examples=[[["A", "left", "B", 1, "right"], ["B", "right", "end", 2]]],
     )
-    terminal: tuple[Name, ...] = Field(
-        default=(), description="The states in which an episode ends.", examples=[["end"]]
-    )
-    values: dict[Name, dict[Name, Exact]] = Field(
+    terminal: Names = Field(default=(), description="The states in which an episode ends.", examples=[["end"]])
+    values: Named[Named[Exact]] = Field(
         description="For every state the values of its actions before the transitions.",
         examples=[{"A": {"left": 0}, "B": {"right": 1}}],
     )
@@ -383,11 +389,6 @@ class ActionMoves(Givens):
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
         return self.transitions
-
-    @cached_property
-    def updated(self) -> tuple[tuple[str, str], ...]:
-        """The pairs of state and action that are updated, in the order of their first visit."""
-        return tuple(dict.fromkeys((move.state, move.action) for move in self.moves))
 
     @property
     def last_action_known(self) -> bool:
@@ -571,7 +572,7 @@ def errors_asked(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> Part
     return Part(ask, Numbers(errors), zero=True)
 
 
-def after(given: ValueRun | ActionRun | ValueMoves | ActionMoves) -> str:
+def after(given: ValueRun | ValueMoves | ActionUpdates) -> str:
     """When the values are asked for."""
     return "after these transitions" if isinstance(given, ValueMoves | ActionMoves) else "after the run"
 

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.document import Block, Paragraph, joined
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Givens
-from rldrill.problems.models import Model, Name, check_ends, check_keys, values_table
+from rldrill.problems.models import Model, Named, check_ends, check_keys, values_table
 
 #: Outcomes that are averaged in all sweeps together: so many take seconds.
 _MOST_OUTCOMES = 300_000
@@ -24,7 +24,7 @@ class Sweeps(Givens):
 
     mdp: Model = Field(description="The Markov decision process.")
     sweeps: int = Field(ge=1, le=1000, description="How many sweeps.")
-    start: dict[Name, Exact] | None = Field(default=None, description="The values to start from; 0 without them.")
+    start: Named[Exact] | None = Field(default=None, description="The values to start from; 0 without them.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

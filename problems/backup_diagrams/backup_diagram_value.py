@@ -11,7 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Open, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Dynamics, Name, PolicyField, Transition, check_keys, check_policy
+from rldrill.problems.models import Dynamics, Named, PolicyField, Transition, check_keys, check_policy
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.pictures import BackupDiagram, Branch, Node
@@ -37,8 +37,8 @@ class Given(Reversible):
 
     dynamics: Dynamics = Field(description="What the actions of the tree do; the root is the first state.")
     policy: PolicyField | None = Field(default=None, description="The policy; without it the best action counts.")
-    values: dict[Name, Open] = Field(default={}, description="The values of the states that are leaves.")
-    action_values: dict[Name, dict[Name, Open]] = Field(
+    values: Named[Open] = Field(default={}, description="The values of the states that are leaves.")
+    action_values: Named[Named[Open]] = Field(
         default={},
         description="The values of the actions that are leaves; then the root is the first state's one action.",
     )

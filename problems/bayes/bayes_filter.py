@@ -20,6 +20,7 @@ from rldrill.problems.beliefs import (
     check_motion,
     check_outcome,
     check_possible,
+    check_predictions,
     filled,
     likelihood_table,
     motion_table,
@@ -105,6 +106,7 @@ class Given(Givens):
             check_keys(dict.fromkeys(filter(None, [event.action])), tuple(self.motion) or ("none",), "an action", ())
             read = dict.fromkeys(filter(None, [event.measurement]))
             check_keys(read, tuple(self.likelihood) or ("none",), "a measurement", ())
+        check_predictions(sum(event.action is not None for event in self.events), len(states), "run")
         self._check_run()
         return self
 

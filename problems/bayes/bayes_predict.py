@@ -13,6 +13,7 @@ from rldrill.problems.beliefs import (
     check_distribution,
     check_motion,
     check_outcome,
+    check_predictions,
     filled,
     motion_table,
     predicted,
@@ -65,6 +66,7 @@ class Given(Givens):
         check_motion(self.motion, tuple(self.belief))
         check_keys(dict.fromkeys(self.actions), tuple(self.motion), "an action", needed=())
         check_outcome(self.outcome, self.left_open, states=tuple(self.belief))
+        check_predictions(len(self.actions), len(self.belief), "actions")
         if self.after > 1 and (self.outcome is None or self.after > len(self.actions)):
             raise ValueError(f"after: there is no outcome, or there are fewer than {self.after} actions before it")
         return self

@@ -13,7 +13,7 @@ from rldrill.problems.model_forms import ALONE
 from rldrill.problems.models import (
     Model,
     ModelAndPolicy,
-    Name,
+    Named,
     PolicyField,
     check_state_values,
     model_blocks,
@@ -33,7 +33,7 @@ REVISION = 3
 class Given(ModelAndPolicy):
     """A model, a policy and the discount, and values that are claimed for it: the policy's, or the optimal ones."""
 
-    values: dict[Name, Exact] = Field(description="The value that is claimed for every state.")
+    values: Named[Exact] = Field(description="The value that is claimed for every state.")
     verdict: bool = Field(
         default=True,
         exclude_if=lambda verdict: verdict,

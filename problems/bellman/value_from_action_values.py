@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, Scalar, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, PolicyField, check_chances, check_keys, policy_table, values_table
+from rldrill.problems.models import Named, PolicyField, check_chances, check_keys, policy_table, values_table
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import action_values_table
@@ -26,9 +26,9 @@ class Given(Givens):
     With known values of states, or values said to be equal, the one number that is left open is asked for.
     """
 
-    values: dict[Name, dict[Name, Open]] = Field(min_length=1, description="For every state the values of its actions.")
+    values: Named[Named[Open]] = Field(min_length=1, description="For every state the values of its actions.")
     policy: PolicyField = Field(description="The policy in these states.")
-    known: dict[Name, Exact] | None = Field(
+    known: Named[Exact] | None = Field(
         default=None, min_length=1, max_length=1, description="A state's value under the policy, by which to find it."
     )
     equal: bool = Field(

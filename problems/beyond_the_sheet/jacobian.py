@@ -27,10 +27,16 @@ class Given(PlanarArm):
     """
 
     rates: tuple[Exact, ...] | None = Field(
-        default=None, description="The angular velocity of every joint, in radians a second.", examples=[[1, -2]]
+        default=None,
+        max_length=6,
+        description="The angular velocity of every joint, in radians a second.",
+        examples=[[1, -2]],
     )
     velocity: tuple[Exact, ...] | None = Field(
-        default=None, description="The velocity of the end point, from which the rates are found.", examples=[[1, 0]]
+        default=None,
+        max_length=2,
+        description="The velocity of the end point, from which the rates are found.",
+        examples=[[1, 0]],
     )
     orientation: bool = Field(
         default=False, description="Whether the angle of the last link is the third row of the Jacobian."

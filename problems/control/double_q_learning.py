@@ -11,7 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_ends
+from rldrill.problems.models import Named, Steps, check_ends
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
 from rldrill.problems.runs import CUT_OFF, action_values_table, draw_action_run, run_situation
@@ -30,8 +30,8 @@ DISTRACTORS = (
 class Given(BackRun):
     """A run, two tables of action values before it, α and γ, and which table every transition updates."""
 
-    second: dict[Name, dict[Name, Exact]] = Field(description="The second table of action values before the run.")
-    updates: tuple[Literal[1, 2], ...] = Field(description="For every transition the table that it updates, 1 or 2.")
+    second: Named[Named[Exact]] = Field(description="The second table of action values before the run.")
+    updates: Steps[Literal[1, 2]] = Field(description="For every transition the table that it updates, 1 or 2.")
 
     @model_validator(mode="after")
     def _two_tables(self) -> Self:

@@ -51,13 +51,17 @@ class Given(ActionRun):
     """
 
     model: tuple[Entry, ...] = Field(
-        default=(), description="What the model holds before the run.", examples=[[["A", "left", 1, "B"]]]
+        default=(),
+        max_length=300,
+        description="What the model holds before the run.",
+        examples=[[["A", "left", 1, "B"]]],
     )
     planned: tuple[Pair, ...] = Field(
-        min_length=1, description="The states and actions that are drawn for planning, in their order."
+        min_length=1, max_length=300, description="The states and actions that are drawn for planning, in their order."
     )
     changed: tuple[Entry, ...] = Field(
         default=(),
+        max_length=300,
         description="What the environment does now where nobody has tried it yet, so that the model does not know.",
         examples=[[["A", "right", 0, "B"]]],
     )

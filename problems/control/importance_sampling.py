@@ -13,7 +13,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     DistributionField,
-    Name,
+    Named,
     PolicyField,
     check_chances,
     check_keys,
@@ -37,7 +37,7 @@ class Given(Givens):
         min_length=1, max_length=26, description="The episodes, all from the same state."
     )
     target: PolicyField = Field(description="The policy that is evaluated.")
-    behaviour: Annotated[dict[Name, DistributionField], BeforeValidator(read_policy)] = Field(
+    behaviour: Annotated[Named[DistributionField], BeforeValidator(read_policy)] = Field(
         description="The policy that acted."
     )
     gamma: Discount

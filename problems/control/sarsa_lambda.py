@@ -10,10 +10,10 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import Replacing, action_values_table, draw_action_run, run_situation
+from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw_action_run, run_situation
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
@@ -30,8 +30,9 @@ _CUT = (
 class Given(BackRun):
     """A run with all its actions, the action values before it, α, γ and λ; traces from before it, if there are any."""
 
+    trajectory: ShortRun = Field(description="What the agent did.")
     lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
-    traces: dict[Name, dict[Name, Exact]] | None = Field(
+    traces: Named[Named[Exact]] | None = Field(
         default=None, description="The traces before the run; all 0 without them."
     )
     replacing: Replacing = False

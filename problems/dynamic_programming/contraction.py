@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Name, Named, check_keys
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import draw_setting
@@ -35,9 +35,9 @@ def _below_one(value: Fraction) -> Fraction:
 class Given(Givens):
     """The values to start from with V*, or with the values after one sweep; the discount; sweeps and accuracy."""
 
-    start: dict[Name, Exact] = Field(min_length=1, description="The values to start from.")
-    optimum: dict[Name, Exact] | None = Field(default=None, description="The optimal values; instead of first.")
-    first: dict[Name, Exact] | None = Field(default=None, description="The values after one sweep; instead of optimum.")
+    start: Named[Exact] = Field(min_length=1, description="The values to start from.")
+    optimum: Named[Exact] | None = Field(default=None, description="The optimal values; instead of first.")
+    first: Named[Exact] | None = Field(default=None, description="The values after one sweep; instead of optimum.")
     gamma: Annotated[Probability, AfterValidator(_below_one)] = Field(description="The discount, below 1.")
     sweeps: int = Field(ge=1, le=1000, description="How many sweeps the bound is asked for.")
     accuracy: Annotated[Exact, AfterValidator(_positive)] | None = Field(

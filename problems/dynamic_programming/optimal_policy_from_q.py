@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import MOST_STATES, Dynamics, Name, Transition, transitions_table
+from rldrill.problems.models import Dynamics, Named, Names, Transition, transitions_table
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount, terminal_note, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
@@ -27,12 +27,10 @@ class Given(Givens):
     Where a missing value's reward is left open, it is asked from which reward on the action is best.
     """
 
-    values: dict[Name, dict[Name, Exact]] = Field(
-        min_length=1, max_length=MOST_STATES, description="For every state the optimal values of its actions."
-    )
+    values: Named[Named[Exact]] = Field(min_length=1, description="For every state the optimal values of its actions.")
     missing: Dynamics | None = Field(default=None, description="What the actions do whose values are missing.")
     gamma: Probability | None = Field(default=None, description="The discount; needed if values are missing.")
-    terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
+    terminal: Names = Field(default=(), description="The states in which an episode ends.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, check_state_values, model_blocks, values_table
+from rldrill.problems.models import Model, Name, Named, check_state_values, model_blocks, values_table
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -24,7 +24,7 @@ class Given(Givens):
     """A model, its optimal values (they may be rounded, as books print them), and the discount."""
 
     mdp: Model = Field(description="The Markov decision process.")
-    values: dict[Name, Exact] = Field(description="The optimal value of every state; it may be rounded.")
+    values: Named[Exact] = Field(description="The optimal value of every state; it may be rounded.")
     gamma: Probability = Field(description="The discount.")
     action_values: bool = Field(
         default=False,

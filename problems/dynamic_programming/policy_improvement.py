@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, PolicyField, check_policy, check_state_values, model_blocks
+from rldrill.problems.models import Model, Named, PolicyField, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -33,7 +33,7 @@ class Given(Givens):
 
     mdp: Model = Field(description="The Markov decision process.")
     policy: PolicyField = Field(description="The policy that is improved.")
-    values: dict[Name, Exact] | None = Field(
+    values: Named[Exact] | None = Field(
         default=None, description="The policy's values; without them they are asked for first."
     )
     gamma: Probability = Field(description="The discount.")

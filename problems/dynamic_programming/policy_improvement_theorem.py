@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, Transition, check_policy, check_state_values, model_blocks
+from rldrill.problems.models import Model, Name, Named, Transition, check_policy, check_state_values, model_blocks
 from rldrill.problems.parts import Part, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -32,9 +32,9 @@ class Given(Givens):
     """A model, two deterministic policies, the discount, and the first one's values, or None to ask for them."""
 
     mdp: Model = Field(description="The Markov decision process.")
-    policy: dict[Name, Name] = Field(description="The action of the first policy in every state.")
-    other: dict[Name, Name] = Field(description="The action of the other policy in every state.")
-    values: dict[Name, Exact] | None = Field(
+    policy: Named[Name] = Field(description="The action of the first policy in every state.")
+    other: Named[Name] = Field(description="The action of the other policy in every state.")
+    values: Named[Exact] | None = Field(
         default=None, description="The first policy's values; without them they are asked for first."
     )
     gamma: Probability = Field(description="The discount.")

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Probability
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, check_policy, model_blocks
+from rldrill.problems.models import Model, Name, Named, check_policy, model_blocks
 from rldrill.problems.parts import Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
@@ -24,7 +24,7 @@ class Given(Givens):
     """A model, the policy to start from, the discount, and how many rounds of evaluation and improvement."""
 
     mdp: Model = Field(description="The Markov decision process.")
-    start: dict[Name, Name] = Field(description="The action of the policy to start from in every state.")
+    start: Named[Name] = Field(description="The action of the policy to start from in every state.")
     gamma: Probability = Field(description="The discount.")
     rounds: int = Field(ge=1, le=12, description="How many rounds of evaluation and improvement.")
 

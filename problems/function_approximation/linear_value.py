@@ -21,7 +21,7 @@ from rldrill.problems.exact import Exact, Open, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, weights
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name
+from rldrill.problems.models import Name, Names
 from rldrill.problems.parts import Number, Numbers, Part, Policy, Values
 from rldrill.problems.settings import Setting, draw_setting
 
@@ -59,7 +59,7 @@ class Given(Givens):
     theta: tuple[Open, ...] = Field(
         min_length=1, max_length=40, description="The weights, a block for every action; one of them may be w."
     )
-    actions: tuple[Name, ...] = Field(min_length=2, description="The actions in the order of the blocks.")
+    actions: Names = Field(min_length=2, description="The actions in the order of the blocks.")
     features: FeatureVector | None = Field(default=None, description="The features of the state; instead of bumps.")
     bumps: Bumps | None = Field(
         default=None, description="The state with basis functions that give its features; instead of features."

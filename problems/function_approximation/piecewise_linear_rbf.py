@@ -43,12 +43,14 @@ class Given(Centred):
     )
     known: dict[int, Exact] = Field(
         default={},
+        max_length=20,
         exclude_if=lambda known: not known,
         description="The known features by the numbers of their centres: one without the width, two without the state.",
         examples=[{"1": "1/2"}],
     )
     theta: tuple[Exact, ...] = Field(
         default=(),
+        max_length=20,
         exclude_if=lambda theta: not theta,
         description="The weights of the features, where the value of the state is asked for, too.",
     )

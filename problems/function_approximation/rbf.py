@@ -40,6 +40,7 @@ class Given(Centred):
     sigma: WidthField | None = Field(default=None, description="The width of all features, above 0.")
     logarithms: dict[int, Exact] = Field(
         default={},
+        max_length=20,
         exclude_if=lambda known: not known,
         description="The logarithms of the known features by the numbers of their centres: one without the width, two "
         "without the state.",
@@ -47,6 +48,7 @@ class Given(Centred):
     )
     theta: tuple[Exact, ...] = Field(
         default=(),
+        max_length=20,
         exclude_if=lambda theta: not theta,
         description="The weights of the features, where the value of the state is asked for, too.",
         examples=[["2", "-1"]],

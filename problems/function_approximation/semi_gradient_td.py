@@ -11,7 +11,7 @@ from rldrill.problems.exact import Discount, Exact, Parameter, StepSize, dot
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import FeatureVector, check_features, features_table, weight_names, weights
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys
+from rldrill.problems.models import Named, Names, check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open, step_size
 from rldrill.problems.runs import Trajectory, trajectory_table
@@ -29,13 +29,13 @@ class Given(Givens):
     """
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    features: dict[Name, FeatureVector] = Field(description="The features of every state.")
+    features: Named[FeatureVector] = Field(description="The features of every state.")
     theta: tuple[Exact, ...] = Field(
         min_length=1,
         max_length=40,
         description="The weights before the run; with actions a block for each, in their order.",
     )
-    actions: tuple[Name, ...] = Field(
+    actions: Names = Field(
         default=(), description="The actions in the order of their weights, for Sarsa; without them it is TD(0)."
     )
     alpha: StepSize = Field(description="The step size.")

@@ -11,6 +11,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
+from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
@@ -25,16 +26,16 @@ Mu = tuple[Fraction, ...]
 class Given(Givens):
     """The expert's feature expectations, those of the first policy, and those of the policies after it."""
 
-    expert: tuple[Exact, ...] = Field(description="The expert's feature expectations.")
-    first: tuple[Exact, ...] = Field(description="The feature expectations of the first policy.")
-    policies: tuple[tuple[Exact, ...], ...] = Field(
+    expert: FeatureVector = Field(description="The expert's feature expectations.")
+    first: FeatureVector = Field(description="The feature expectations of the first policy.")
+    policies: tuple[FeatureVector, ...] = Field(
         min_length=1, max_length=8, description="The feature expectations of the policies after it, in their order."
     )
 
     tolerance: Exact | None = Field(
         default=None, gt=0, description="The distance at which the algorithm stops; asks whether it does."
     )
-    candidates: dict[Name, tuple[Exact, ...]] | None = Field(
+    candidates: dict[Name, FeatureVector] | None = Field(
         default=None,
         min_length=2,
         max_length=8,

@@ -1,7 +1,7 @@
 """The feature expectations of a policy, estimated from trajectories that were recorded."""
 
 from collections.abc import Mapping
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -26,7 +26,7 @@ class Given(Givens):
     """The features of every state that was visited, the trajectories as their states, and the discount."""
 
     features: FeaturesField = Field(description="The features of every state.")
-    trajectories: tuple[tuple[Name, ...], ...] = Field(
+    trajectories: tuple[Annotated[tuple[Name, ...], Field(max_length=300)], ...] = Field(
         min_length=1, max_length=50, description="The trajectories, each as the list of its states."
     )
     gamma: Discount

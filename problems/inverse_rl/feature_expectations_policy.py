@@ -14,7 +14,7 @@ from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import DistributionField, Name, PolicyField, check_chances, check_keys, policy_table
+from rldrill.problems.models import DistributionField, Names, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open
 
@@ -32,7 +32,7 @@ class Given(Givens):
     policy: PolicyField = Field(description="The policy.")
     features: FeaturesField = Field(description="The features of every state.")
     start: DistributionField = Field(description="The probability of every state to start in.")
-    terminal: tuple[Name, ...] = Field(default=(), description="The states in which an episode ends.")
+    terminal: Names = Field(default=(), description="The states in which an episode ends.")
     gamma: Discount
     story: str = Field(
         default="",

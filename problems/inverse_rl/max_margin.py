@@ -10,6 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import check_lengths
+from rldrill.problems.features import MOST_FEATURES, FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
@@ -25,7 +26,7 @@ _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
 class Rival(Givens):
     """Another policy: its feature expectations, and by how much the expert must be better."""
 
-    mu: tuple[Exact, ...] = Field(description="Its feature expectations.")
+    mu: FeatureVector = Field(description="Its feature expectations.")
     margin: Exact = Field(description="By how much the expert must be better.")
 
     @model_validator(mode="after")
@@ -39,9 +40,11 @@ class Given(Givens):
     """The weights of the reward, the expert's feature expectations, and the other policies."""
 
     w: tuple[Open, ...] = Field(
-        description="The weights of the reward; one may be left open, and is asked for.", examples=[["x", 2]]
+        max_length=MOST_FEATURES,
+        description="The weights of the reward; one may be left open, and is asked for.",
+        examples=[["x", 2]],
     )
-    expert: tuple[Exact, ...] = Field(description="The expert's feature expectations.")
+    expert: FeatureVector = Field(description="The expert's feature expectations.")
     policies: dict[Name, Rival] = Field(min_length=1, max_length=20, description="The other policies by their names.")
 
     @model_validator(mode="after")

@@ -28,7 +28,9 @@ class Given(System):
     """
 
     reward: Expression = Field(description="The reward, in the letters of the state and the action.")
-    gradient: tuple[Exact, ...] = Field(min_length=1, description="The gradient of the next value at the next state.")
+    gradient: tuple[Exact, ...] = Field(
+        min_length=1, max_length=6, description="The gradient of the next value at the next state."
+    )
     hessian: MatrixField = Field(description="The Hessian of the next value at the next state.")
     second_order: bool = Field(
         default=True, description="Whether the second derivatives of the dynamics count (DDP) or not (iLQR)."

@@ -30,6 +30,7 @@ class Given(System):
     entries: Entries | None = Field(default=None, description="The entries that are asked for; all, if left out.")
     deviation: tuple[Exact, ...] | None = Field(
         default=None,
+        max_length=10,
         description="How far state and action are from the operating point, in the order of their letters.",
         examples=[["1/10", 0, "-1/5"]],
     )

@@ -45,7 +45,7 @@ class Given(Conventional):
     )
 
     start: tuple[Exact, ...] | None = Field(
-        default=None, description="A state whose best action is asked for, too.", examples=[[1, -2]]
+        max_length=6, default=None, description="A state whose best action is asked for, too.", examples=[[1, -2]]
     )
     action: Exact | None = Field(
         default=None,

@@ -10,7 +10,7 @@ from rldrill.problems.exact import Exact, Logarithm, Parameter, StepSize, Weight
 from rldrill.problems.family import Question
 from rldrill.problems.features import ActionFeatures, weight_names
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, values_table
+from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
@@ -21,18 +21,38 @@ TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
 REVISION = 4
 
+#: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
+_DEEPEST = 3
+
 
 class Given(SoftmaxRun):
     """A run, the critic's values before it with its step size α, the actor's features and weights with β, and γ."""
 
-    values: dict[Name, Exact] = Field(description="The critic's value of every state before the run.")
+    values: Named[Exact] = Field(description="The critic's value of every state before the run.")
     alpha: StepSize = Field(description="The step size of the critic.")
     beta: StepSize = Field(description="The step size of the actor.")
 
     @model_validator(mode="after")
     def _valued(self) -> Self:
         check_values(self.values, self.trajectory)
+        if (deepest := max(self._depths)) > _DEEPEST:
+            raise ValueError(
+                f"trajectory: the weights of {deepest} steps would stand in each other's exponents, {_DEEPEST} can be "
+                "written exactly; take a shorter run, or features that share no weight between the states"
+            )
         return self
+
+    @property
+    def _depths(self) -> tuple[int, ...]:
+        """For every step how many updates, itself included, its chances are built on, one in the other's exponent."""
+        depths: dict[int, int] = {}  # of the weights, by their places
+        found = []
+        for state in self.trajectory.states[:-1]:
+            rows = tuple(self.features[state].values())
+            touched = [place for place, column in enumerate(zip(*rows, strict=True)) if len(set(column)) > 1]
+            found.append(1 + max((depths.get(place, 0) for place in touched), default=0))
+            depths.update(dict.fromkeys(touched, found[-1]))
+        return tuple(found)
 
     @property
     def visited(self) -> tuple[str, ...]:

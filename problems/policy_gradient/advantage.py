@@ -12,7 +12,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import (
     Dynamics,
-    Name,
+    Named,
     PolicyField,
     check_keys,
     check_policy,
@@ -34,7 +34,7 @@ class Lookahead(Givens):
     """What the actions of one state do, and the values of states."""
 
     dynamics: Dynamics = Field(description="What the actions of the state do.")
-    values: dict[Name, Exact] = Field(
+    values: Named[Exact] = Field(
         min_length=1, description="The values of the next states; without a policy also the state's own."
     )
 
@@ -83,7 +83,7 @@ class Run(Givens):
     """A run, the values of its states, and λ."""
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    values: dict[Name, Exact] = Field(description="The value of every state.")
+    values: Named[Exact] = Field(description="The value of every state.")
     lam: OpenProbability = Field(description="How much later TD errors count (GAE).")
 
     @model_validator(mode="after")

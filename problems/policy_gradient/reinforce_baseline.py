@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys, values_table
+from rldrill.problems.models import Named, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
 from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
 
@@ -21,7 +21,7 @@ REVISION = 5
 class Given(Episode):
     """An episode, the features and weights of the policy that was followed, the baseline b(s), α and γ."""
 
-    baseline: dict[Name, Exact] = Field(description="The baseline of every state.")
+    baseline: Named[Exact] = Field(description="The baseline of every state.")
     alpha: StepSize = Field(description="The step size.")
 
     @model_validator(mode="after")

@@ -9,7 +9,14 @@ from rldrill.problems.document import Block, Document, Paragraph, Table, joined
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Logarithm, Parameter, WeightField, dot, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.features import OneStateFeatures, check_features, features_table, weight_names, weights
+from rldrill.problems.features import (
+    MOST_ACTIONS,
+    OneStateFeatures,
+    check_features,
+    features_table,
+    weight_names,
+    weights,
+)
 from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open
@@ -36,7 +43,9 @@ class Given(Givens):
     """
 
     features: OneStateFeatures = Field(min_length=2, description="The features of every action.")
-    theta: tuple[WeightField, ...] | None = Field(default=None, description="The weights; instead of policy.")
+    theta: tuple[WeightField, ...] | None = Field(
+        default=None, max_length=MOST_ACTIONS, description="The weights; instead of policy."
+    )
     policy: OpenDistributionField | None = Field(
         default=None, description="The probability of every action; instead of theta."
     )

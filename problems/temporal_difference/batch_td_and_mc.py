@@ -28,7 +28,7 @@ class Observed(Givens):
         max_length=100,
         description="The states that were left, in their order; the terminal one is not named.",
     )
-    rewards: tuple[Exact, ...] = Field(description="The reward after each of them.")
+    rewards: tuple[Exact, ...] = Field(max_length=100, description="The reward after each of them.")
     times: int = Field(default=1, ge=1, le=100, description="How many times this episode was seen.")
 
     @model_validator(mode="after")

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discounts, Open, OpenProbability, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, values_table
+from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
@@ -31,7 +31,7 @@ class Given(Reversible):
     """
 
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
-    values: dict[Name, Open] = Field(description="The current value of every state.")
+    values: Named[Open] = Field(description="The current value of every state.")
     gamma: Discounts
     lam: OpenProbability = Field(description="How much later returns count.")
     time: int = Field(default=0, ge=0, description="The time from which the return is asked for.", examples=[1])

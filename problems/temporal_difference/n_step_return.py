@@ -10,7 +10,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discounts, Open, Parameter, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, values_table
+from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
@@ -36,7 +36,7 @@ class Given(Reversible):
     """
 
     trajectory: Trajectory = Field(description="What the agent did.")
-    values: dict[Name, Open] = Field(description="The current value of every state.")
+    values: Named[Open] = Field(description="The current value of every state.")
     gamma: Discounts
     asked: tuple[tuple[int, int], ...] = Field(
         min_length=1, max_length=26, description="Which returns are asked for, each as [time, n]."

@@ -9,7 +9,7 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Open, Parameter, StepSize, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, check_keys, values_table
+from rldrill.problems.models import Name, Named, check_keys, values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, step_size
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
@@ -27,8 +27,8 @@ class Given(Reversible):
     the first visited state after all visits, what is left open is asked for.
     """
 
-    values: dict[Name, Exact] = Field(min_length=1, description="The value of every state so far.")
-    counts: dict[Name, int] = Field(
+    values: Named[Exact] = Field(min_length=1, description="The value of every state so far.")
+    counts: Named[int] = Field(
         default_factory=dict, description="How often each state was visited so far; without a step size it is needed."
     )
     visits: tuple[tuple[Name, Open], ...] = Field(

@@ -14,6 +14,7 @@ from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
 from rldrill.problems.runs import (
     Replacing,
+    ShortRun,
     Trajectory,
     ValueRun,
     draw_reward,
@@ -36,6 +37,7 @@ class Given(ValueRun):
     Where ``known`` is the value of the first state after the run, what is left open is asked for.
     """
 
+    trajectory: ShortRun = Field(description="What the agent did.")
     lam: OpenProbability = Field(description="The decay of the traces, besides the discount.")
     replacing: Replacing = False
 

@@ -29,7 +29,7 @@ class Given(ValueRun):
 
     trajectory: ShortRun = Field(description="The episode, or a run that is cut off.")
     lam: OpenProbability = Field(description="How much later returns count.")
-    asked: tuple[int, ...] = Field(min_length=1, description="The times whose states are updated.")
+    asked: tuple[int, ...] = Field(min_length=1, max_length=100, description="The times whose states are updated.")
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -1,13 +1,14 @@
 """What programs print (numpy, MATLAB, LaTeX, JSON, tables, rldrill itself) in the marks that people type.
 
 Signs become other signs or blanks, one for one, so that complaints still name the right column; only matrices in
-brackets of several lines are put together anew.
+brackets of several lines, and numbers that are longer than a line, are put together anew.
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from rldrill.problems.expressions import GREEK
+from rldrill.problems.spelling import Unreadable
 
 _PIECES = re.compile("[⎡⎢⎣⎛⎜⎝⎧⎨⎩]([^⎡⎢⎣⎤⎥⎦⎛⎜⎝⎞⎟⎠⎧⎨⎩⎫⎬⎭\n]*)[⎤⎥⎦⎞⎟⎠⎫⎬⎭]")
 _TOP = re.compile("[⎡⎛⎧]")
@@ -31,6 +32,7 @@ _ENVIRONMENT = re.compile(
     r"\\begin\s*\{([a-zA-Z]+)\*?\}(?:\s*\{[lcr|@ ]*\})?|\\end\s*\{[a-zA-Z]+\*?\}|&"
     r"|\\\\(?:\s*\[[^\]\n]{0,9}\])?(?:\s*(?=\\end))?"
 )
+_OVER = re.compile(r"\{([^{}\\]*)\\over(?![A-Za-z])([^{}\\]*)\}")
 _GRIDS = frozenset({"matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "tabular"})
 
 _ESCAPED = re.compile(r"(?:\\u[0-9a-fA-F]{4})+")
@@ -45,9 +47,17 @@ _OPTION = re.compile(r",\s*[A-Za-z_]\w*\s*=")
 _TYPE = re.compile(r"<[^<>\n]*>\s*,")
 
 _CONTINUED = re.compile(r"(?<=[\s,;\[])\.\.\.[^\S\n]*\n")
+#: Nobody puts so many digits on a line and then others that go with them: the terminal's edge tore the number.
+_TORN = re.compile(r"(?<=[0-9/]{40})\n[^\S\n]*(?=[0-9/]+[^\S\n]*(?:\n|\Z))")
+#: A sign of equality on a line of its own.
+_ALONE = re.compile(r"\n[^\S\n]*[=≈][^\S\n]*\n")
 _FOLLOWS = re.compile(r"\n\s*(?=[=≈])(?!==)")
 _HEADER = re.compile(r"\A\s*(?:\d+(?:×\d+|-element) [^\n:]*:[^\S\n]*(?=\n)|\[1\](?=\s+[-+.\d]))")
 _FOOTER = re.compile(r"\n(?:Name: [^\n]*?)?(?:dtype|Length): [^\n]*\Z")
+_ITEM = re.compile(r"[^\S\n]*(?:([-–+*•‣◦])|([0-9]{1,2}|[a-z])([.)])|\(([0-9]{1,2}|[a-z])\))[^\S\n]+(?=\S)")
+_SIGNED, _SAID = re.compile(r"[-–+−]"), re.compile(r"[^\W\d_][^=:≈\n]*[=:≈]")
+_AND = re.compile(r"(?<=[0-9)\]}πγ%])(?:,|[^\S\n])[^\S\n]*and[^\S\n]+(?=[^\s])")
+_STRONG = re.compile(r"(?<![\w)\]])\*\*([^\W\d_][^*\n]*)\*\*")
 _LINES = "-─━═|│┃+┼╇┿╪├┤┌┐└┘┬┴╭╮╰╯╞╡┡┩"
 _RULE = re.compile(rf"^(?=[^\n]*[-─━═])(?=[^\n]*[{_LINES}]{{3}})[{_LINES}:= \t]+$", re.MULTILINE)
 _EDGE = re.compile(r"^[^\S\n]*[|│┃]|[|│┃][^\S\n]*$", re.MULTILINE)
@@ -55,9 +65,13 @@ _TAB = re.compile(r"(?<=[^\s,;:=|(\[{])( *)\t( *)(?=[^\s,;:=|)\]}])")
 
 
 def laid_out(text: str) -> str:
-    """What was pasted, in the marks that people type; ``|`` parts the cells of a table."""
+    """What was pasted, in the marks that people type; ``|`` parts the cells of a table.
+
+    Raises:
+        Unreadable: the dashes before all lines may be minus signs, or those of a list.
+    """
     text = _ESCAPED.sub(_in_place(_unescaped), text)
-    for change in (_stacked_matrices, _latex, _calls, _tables):
+    for change in (_stacked_matrices, _latex, _calls, _tables, _prose):
         text = change(text)
     return text
 
@@ -128,6 +142,7 @@ def _latex(text: str) -> str:
             return ("," if grid else " ") if open_ else "&"
         return ",;" if grid else "\n"
 
+    text = _OVER.sub(lambda match: f"(({match[1]})/({match[2]}))", text)
     text = _WORDS.sub(_in_place(lambda match: match[1]), text)
     text = _ENVIRONMENT.sub(_in_place(environment), text)
     text = _COMMAND.sub(_in_place(lambda match: _LETTERS[match[1] or match[2]]), text)
@@ -175,6 +190,8 @@ def _bracketed(text: str) -> Iterator[tuple[int, int]]:
 def _tables(text: str) -> str:
     """Cells parted by ``|``, whatever parted them, without the lines that are drawn around them."""
     text = _CONTINUED.sub(_blank, text)
+    text = _TORN.sub("", text)
+    text = _ALONE.sub(lambda match: match[0].replace("\n", " "), text)
     text = _FOLLOWS.sub(_blank, text)
     text = _HEADER.sub(_blank, text)
     text = _FOOTER.sub(_blank, text)
@@ -182,3 +199,40 @@ def _tables(text: str) -> str:
     text = _EDGE.sub(_blank, text)
     text = _TAB.sub(lambda match: f"{match[1]}|{match[2]}", text)
     return text.replace("│", "|").replace("┃", "|")
+
+
+def _prose(text: str) -> str:
+    """Lists as one writes them, with dashes, dots or numbers before the lines; bold names; and "and" for a comma."""
+    text = _STRONG.sub(lambda match: f"  {match[1]}  ", text)
+    text = _AND.sub(lambda match: ",".ljust(len(match[0])), text)
+    lines = [line for line in text.split("\n") if line.strip()]
+    items = [_ITEM.match(line) for line in lines]
+    if len(lines) < 2 or not all(items) or not _is_list([(item, item.string[item.end() :]) for item in items if item]):
+        return text
+    return "\n".join(_blank(item) + line[item.end() :] if (item := _ITEM.match(line)) else line
+                     for line in text.split("\n"))  # fmt: skip
+
+
+def _is_list(lines: Sequence[tuple[re.Match[str], str]]) -> bool:
+    """Whether what stands before the lines makes a list of them, not numbers.
+
+    Raises:
+        Unreadable: it may do so, or be the signs of the numbers.
+    """
+    marks = {item[1] for item, _ in lines}
+    if None in marks:
+        counted = [item[2] or item[4] for item, _ in lines]
+        first = "123456789" if counted[0] == "1" else "abcdefghi"
+        dotted = any(item[3] == "." for item, _ in lines)  # 1. 2. may be numbers, as numpy prints them
+        return counted == [*first[: len(lines)]] and not (dotted and not all(_SAID.match(said) for _, said in lines))
+    if len(marks) > 1:
+        return False
+    if not marks & {"-", "–", "+"} or all(_SAID.match(said) for _, said in lines):
+        return True
+    if any(_SIGNED.match(said) for _, said in lines):
+        return True
+    sign, number = min(marks), lines[0][1].strip()[:20]
+    raise Unreadable(
+        f"'{sign} {number}' may be '{sign}{number}', or '{number}' in a list with dashes; leave the spaces or the "
+        "dashes out."
+    )

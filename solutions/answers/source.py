@@ -11,6 +11,7 @@ __all__ = ["LONGEST", "Unreadable", "bare", "clean"]
 #: No answer is longer, unless the right one is.
 LONGEST = 2000
 _ABOUT = re.compile(r"\s*(?:[≈~]|(?:approx|approximately|about|circa|ca|roughly)\b\.?)\s*", re.IGNORECASE)
+_BOLD = re.compile(r"\*\*[^*\s](?:[^*]*[^*\s])?\*\*")
 _QUOTES = "'\"`"
 
 
@@ -29,7 +30,9 @@ def clean(text: str, longest: int = LONGEST) -> Source:
 
 
 def bare(source: Source) -> Source:
-    """A stretch without the quotes around it, and without the sign or word for "about" before it."""
+    """A stretch without quotes or Markdown's stars around it, and without the sign or word for "about" before it."""
+    if _BOLD.fullmatch(source.text):
+        source = source.part(2, len(source.text) - 2)
     text = source.text
     if len(text) > 1 and text[0] == text[-1] and text[0] in _QUOTES and text[0] not in text[1:-1]:
         source = source.part(1, len(text) - 1)

@@ -475,7 +475,9 @@ def _number(source: Source, parameters: Sequence[str], arithmetic: Arithmetic) -
     """Read one number; before its forms may stand what it is, and how it was worked out."""
     if (reading := plain(source.text)) is not None:
         return reading
-    source = (source.unwrapped("[") or source).replaced(_ROUNDED, lambda match: f"{match[0]}.")
+    for _ in range(2):  # a matrix of one number, too
+        source = source.unwrapped("[") or source
+    source = source.replaced(_ROUNDED, lambda match: f"{match[0]}.")
     signs = [index for index, sign in source.outside() if sign in "=≈←"]
     if len(signs) > _FORMS:
         raise source.unreadable("It holds too many equal signs; write the value alone, once.")

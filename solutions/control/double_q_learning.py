@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.asking_back import find, on_a_line
+from rldrill.solutions.asking_back import find, oracle_along
 from rldrill.solutions.exact import exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
@@ -71,11 +71,7 @@ def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: di
 
 def oracle(given: Given) -> Answers:
     """The values after the run; or where one is known, the parameter that leads there."""
-    if given.outcome is None:
-        return _learned(given)
-    outcome = given.outcome
-    place = given.updated_in(given.updates[-1]).index((outcome.state, outcome.action))
-    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+    return oracle_along(given, _learned, given.updated_in(given.updates[-1]))
 
 
 def _learned(given: Given) -> Answers:

@@ -2,7 +2,7 @@
 
 from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.asking_back import find, on_a_line
+from rldrill.solutions.asking_back import answer_along, oracle_along
 from rldrill.solutions.exact import ONE, Value, exact
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.numerics import Array, np
@@ -28,10 +28,7 @@ def solve(given: Given, work: Work) -> None:
         values = {action: known["Q"][after, action] for action in known["actions"][after]}
         known["pi"] = {(action, after): chance for action, chance in _policy(given, work, after, values).items()}
         known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
-    if given.outcome:
-        find(work, given.outcome, given.asked_for, known["Q"])
-    else:
-        work.answer({pair: known["Q"][pair] for pair in given.updated})
+    answer_along(given, work, known["Q"], given.updated)
 
 
 def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> dict[str, Value]:
@@ -47,11 +44,7 @@ def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> d
 
 def oracle(given: Given) -> Answers:
     """The values after the run; or where one is known, the parameter that leads there."""
-    if given.outcome is None:
-        return _learned(given)
-    outcome = given.outcome
-    place = given.updated.index((outcome.state, outcome.action))
-    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+    return oracle_along(given, _learned, given.updated)
 
 
 def _learned(given: Given) -> Answers:

@@ -1,9 +1,8 @@
 """Q-learning along a run: each update with the values then current."""
 
 from rldrill.problems.control.q_learning import Given
-from rldrill.solutions import knowns
-from rldrill.solutions.asking_back import find, on_a_line
-from rldrill.solutions.exact import Value
+from rldrill.solutions.asking_back import oracle_along
+from rldrill.solutions.learning import learn
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import MEAN_FOR_MAX, NOT_DISCOUNTED, Q_LEARNING, Q_LEARNING_TD_ERROR, TAKEN_FOR_MAX
 from rldrill.solutions.work import Work
@@ -13,29 +12,12 @@ MISCONCEPTIONS = (TAKEN_FOR_MAX, MEAN_FOR_MAX, NOT_DISCOUNTED)
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    known = knowns.action_values(given)
-    errors: list[Value] = []
-    for seen in knowns.moves(given):
-        if given.td_errors:
-            errors.append(work.step(Q_LEARNING_TD_ERROR, **seen, **known))
-        pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
-        known["Q"] = known["Q"] | {pair: work.step(Q_LEARNING, **seen, **known)}
-    if given.outcome:
-        find(work, given.outcome, given.asked_for, known["Q"])
-        return
-    if given.td_errors:
-        work.answer(tuple(errors) if len(errors) > 1 else errors[0])
-        work.say("The updates above give these values.")
-    work.answer({pair: known["Q"][pair] for pair in given.updated})
+    learn(given, work, Q_LEARNING, Q_LEARNING_TD_ERROR)
 
 
 def oracle(given: Given) -> Answers:
     """The values after the run; or where they are what is known, the step size or discount that leads there."""
-    if given.outcome is None:
-        return _learned(given)
-    outcome = given.outcome
-    place = given.updated.index((outcome.state, outcome.action))
-    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+    return oracle_along(given, _learned, given.updated)
 
 
 def _learned(given: Given) -> Answers:

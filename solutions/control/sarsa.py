@@ -1,9 +1,8 @@
 """Sarsa along a run: each update with the values then current."""
 
 from rldrill.problems.control.sarsa import Given
-from rldrill.solutions import knowns
-from rldrill.solutions.asking_back import find, on_a_line
-from rldrill.solutions.exact import Value
+from rldrill.solutions.asking_back import oracle_along
+from rldrill.solutions.learning import learn
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import MAX_FOR_TAKEN, SARSA, SARSA_FORGOT_GAMMA, SARSA_TD_ERROR, STATE_FOR_NEXT
@@ -14,29 +13,12 @@ MISCONCEPTIONS = (MAX_FOR_TAKEN, STATE_FOR_NEXT, SARSA_FORGOT_GAMMA)
 
 def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
-    known = knowns.action_values(given)
-    errors: list[Value] = []
-    for seen in knowns.moves(given):
-        if given.td_errors:
-            errors.append(work.step(SARSA_TD_ERROR, **seen, **known))
-        pair = seen["S"][seen["t"]], seen["A"][seen["t"]]
-        known["Q"] = known["Q"] | {pair: work.step(SARSA, **seen, **known)}
-    if given.outcome:
-        find(work, given.outcome, given.asked_for, known["Q"])
-        return
-    if given.td_errors:
-        work.answer(tuple(errors) if len(errors) > 1 else errors[0])
-        work.say("The updates above give these values.")
-    work.answer({pair: known["Q"][pair] for pair in given.updated})
+    learn(given, work, SARSA, SARSA_TD_ERROR)
 
 
 def oracle(given: Given) -> Answers:
     """The values after the run; or where they are what is known, the step size or discount that leads there."""
-    if given.outcome is None:
-        return _learned(given)
-    outcome = given.outcome
-    place = given.updated.index((outcome.state, outcome.action))
-    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+    return oracle_along(given, _learned, given.updated)
 
 
 def _learned(given: Given) -> Answers:

@@ -8,7 +8,7 @@ from typing import Any
 
 from rldrill.problems.control.sarsa_lambda import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.asking_back import find, on_a_line
+from rldrill.solutions.asking_back import answer_along, oracle_along
 from rldrill.solutions.exact import ZERO, Value, exact, largest
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
@@ -114,10 +114,7 @@ def _move(given: Given, work: Work, traces: list[Traces]) -> None:
     for time, trace in enumerate(traces):
         error = work.step(SARSA_TD_ERROR, t=time, **known)
         known["Q"] = _moved(given, work, known, error, trace, time)
-    if given.outcome:
-        find(work, given.outcome, given.asked_for, known["Q"])
-    else:
-        work.answer({pair: known["Q"][pair] for pair in given.eligible})
+    answer_along(given, work, known["Q"], given.eligible)
 
 
 def _explores(given: Given, time: int) -> bool:
@@ -197,11 +194,7 @@ MISCONCEPTIONS = (
 
 def oracle(given: Given) -> Answers:
     """Traces and values; or where a value is known in the end, the parameter that leads there."""
-    if given.outcome is None:
-        return _learned(given)
-    outcome = given.outcome
-    place = given.eligible.index((outcome.state, outcome.action))
-    return (on_a_line(given, outcome, lambda other: float(_learned(other)[-1][place])),)
+    return oracle_along(given, _learned, given.eligible)
 
 
 def _learned(given: Given) -> Answers:

@@ -399,3 +399,30 @@ def test_coordinates_are_names_of_states(typed: str) -> None:
     given = {"gamma": "1/2", "sweeps": 1, "mdp": {"transitions": rows}}
     exercise = rldrill.read({"family": "value-iteration", "given": given})
     assert exercise.check(typed).outcome is rldrill.Outcome.RIGHT
+
+
+def test_a_number_that_the_edge_of_the_terminal_tore_is_one() -> None:
+    digits = "1234567890" * 4
+    assert laid_out(f"R_0\n=\n{digits}\n{digits}/7\n11\n≈ 1.5") == f"R_0 = {digits}{digits}/711 ≈ 1.5"
+    assert laid_out("1/4\n3") == "1/4\n3"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "- a: -4\n- b: 4", "* a: -4\n* b: 4", "• a = -4\n• b = 4", "1. a: -4\n2. b: 4", "1) -4\n2) 4", "(a) -4\n(b) 4",
+        "- -4\n- 4", "* -4\n\n* 4", "**a**: -4\n**b**: 4", "a = -4 and b = 4", "-4 and 4", "- **a**: -4\n- **b**: 4",
+    ],
+)  # fmt: skip
+def test_lists_and_sentences(text: str) -> None:
+    assert {key: str(reading.value) for key, reading in read_table(text, ["a", "b"]).items()} == {"a": "-4", "b": "4"}
+
+
+def test_names_with_and_in_them_and_powers_stay() -> None:
+    assert laid_out("rock and roll: 2**3, b: 2**2") == "rock and roll: 2**3, b: 2**2"
+    assert laid_out("1. 2.\n2. 3.") == "1. 2.\n2. 3."  # rows as numpy prints them
+
+
+def test_dashes_before_all_lines_may_be_signs() -> None:
+    with pytest.raises(Unreadable, match="'- 4' may be '-4', or '4' in a list with dashes; leave the spaces or the"):
+        read_vector("- 4\n- 5")

@@ -2,7 +2,6 @@
 
 import json
 import random
-import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -22,8 +21,6 @@ from rldrill.solutions.drawing import draw
 
 #: Enough that the answers fill several thousand characters, with numbers of some fifty digits.
 STATES = 30
-#: A number that is longer than a line of the terminal.
-TORN = re.compile(r"[0-9/]\n *[0-9/]")
 SEEDS = (100, 101, 102)
 
 
@@ -76,7 +73,7 @@ def test_what_is_printed_of_a_large_model_can_be_typed() -> None:
                 rows.append([state, action, after, f"{weight}/{sum(weights)}", chance.randint(-5, 9)])
     exercise = read({"family": "optimal-value", "given": {"mdp": {"transitions": rows}, "gamma": "9/10"}})
     for part in exercise.parts:
-        texts = [text for text in printed(exercise, part) if not TORN.search(text)]
+        texts = [*printed(exercise, part)]
         assert max(map(len, texts)) > 2000 or part.label == "b"
         for text in texts:
             assert exercise.check(text, part.label).outcome is Outcome.RIGHT, (part.label, text[:200])

@@ -79,6 +79,16 @@ def test_figures_of_sound_draws_bring_no_complaint_and_of_poor_ones_do() -> None
     assert figures.data()["different"] == 2
 
 
+def test_how_often_yes_is_right_is_a_share_of_the_questions() -> None:
+    drawn = [draw("markov-property", 1, seed) for seed in range(4)]
+    figures = Figures()
+    for each in drawn:
+        figures.add(each)
+    consistent = sum(bool(each.answers["b"]) for each in drawn)
+    assert 0 < consistent < 4
+    assert figures.data()["yes"] == {"b": consistent / 4}
+
+
 def test_the_largest_number_stands_anywhere_in_an_answer() -> None:
     # V(a) ← 2 + ½(1 + ½·40 − 2) = 23/2.
     assert largest(td(["a", "b"], {"a": 2, "b": 40})) == 23

@@ -587,8 +587,11 @@ def erroneous(solution: Solution, seed: int = 0) -> list[Erroneous]:
     return [*_candidates(solution, rng), *_of_answers(solution, rng)]
 
 
-def random_wrong(solution: Solution, label: str, seed: int) -> str | None:
-    """A wrong answer of the right size and form that comes from nothing: every number replaced by another one."""
+def random_wrong(solution: Solution, label: str, seed: int, *, alone: bool = False) -> str | None:
+    """A wrong answer of the right size and form that comes from nothing.
+
+    Every number is replaced by another one; or one alone, among several.
+    """
     rng = random.Random(seed)
     part = next(part for part in solution.problem.parts if part.label == label)
     answer = answer_kind(part.kind)
@@ -596,8 +599,11 @@ def random_wrong(solution: Solution, label: str, seed: int) -> str | None:
     if not all(is_rational(value) for value in cells.values()):
         return None
     size = max(abs(float(int(v.p)) / float(int(v.q))) for v in cells.values()) or 1.0
-    wrong = {}
-    for name, value in cells.items():
+    if alone and len(cells) == 1:
+        return None
+    wrong = dict(cells)
+    for name in [rng.choice(list(cells))] if alone else cells:
+        value = cells[name]
         about = abs(float(int(value.p)) / float(int(value.q))) or size
         number = rng.uniform(0.2, 2.5) * about * rng.choice((1, 1, 1, -1))
         if value.q == 1 and about >= 5:

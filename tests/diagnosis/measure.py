@@ -163,6 +163,7 @@ def main(arguments: Iterable[str] | None = None) -> None:
     chosen = parser.parse_args(arguments)
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
     accused: Counter[bool] = Counter()
+    alone: Counter[bool] = Counter()
     every: list[float] = []
     for family in selection(chosen.families):
         row: Counter[str] = Counter()
@@ -185,6 +186,7 @@ def main(arguments: Iterable[str] | None = None) -> None:
                     if chosen.show and verdict != "right":
                         print(verdict, solution.problem.identity, error, [cause.kind for cause in said[0]])
                 mine.update(random_verdicts(measured, chosen.show))
+                alone.update(random_verdicts(measured, chosen.show, alone=True))
         if row:
             report(
                 family.name, row, f"accused {mine[True]}/{mine.total()} ms {median(times):.1f} worst {max(times):.0f}"
@@ -197,15 +199,16 @@ def main(arguments: Iterable[str] | None = None) -> None:
     print()
     report("all", sum(kinds.values(), Counter()), f"ms {median(every):.1f} worst {max(every):.0f}")
     print(f"numbers from nowhere that are accused: {accused[True]} of {accused.total()}")
+    print(f"one number from nowhere among right ones: {alone[True]} of {alone.total()}")
 
 
-def random_verdicts(measured: Measured, show: bool) -> Iterable[bool]:
-    """Whether numbers from nowhere are accused of something."""
+def random_verdicts(measured: Measured, show: bool, *, alone: bool = False) -> Iterable[bool]:
+    """Whether numbers from nowhere are accused of something; ``alone`` for one such number among right ones."""
     for part in measured.solution.problem.parts:
         if not numeric(measured.solution, part.label):
             continue
         for number in range(RANDOM_ANSWERS):
-            text = random_wrong(measured.solution, part.label, number)
+            text = random_wrong(measured.solution, part.label, number, alone=alone)
             said = None if text is None else measured.causes(part.label, text)
             if said is None:
                 continue

@@ -31,7 +31,7 @@ def run() -> rldrill.Exercise:
         # 10 + 1/4·(−3 + 9 − 10) = 9
         ("cave: 13/2, floor: 9", "factor-left-out", "It looks as if γ is missing in the second update (t = 1)"),
         # 9 + 1/4·(4 + 1/2·6 − 9) = 17/2
-        ("cave: 17/2, floor: 63/8", "minus-lost", "the minus of rₜ₊₁ = −4 is lost in the third update (t = 2)"),
+        ("cave: 17/2, floor: 63/8", "sign", "rₜ₊₁ has the wrong sign in the third update (t = 2)"),
         # the second update is left out: floor stays at 10
         ("cave: 13/2, floor: 10", None, "in the second update (t = 1)"),
         ("cave: 63/8, floor: 13/2", "exchanged-cells", "the answers for cave and floor are exchanged"),

@@ -178,7 +178,7 @@ def _changes(source: Source, node: ast.AST) -> Iterator[_Change]:
         case ast.Constant(value=int(value)):
             yield *source.span(node), str(value + 1).encode(), "constant"
         case ast.Subscript(slice=index) if _end(index) is not None:
-            yield *source.span(index), b"-1" if _end(index) == 0 else b"0", "index"
+            yield *source.span(index), b"1" if _end(index) == 0 else b"-2", "index"
         case ast.Slice(lower=lower, upper=upper):
             for bound in (lower, upper):
                 if bound is not None and not _is_number(bound):

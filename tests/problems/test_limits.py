@@ -1,11 +1,11 @@
 """How large a problem in a file may be: the largest is read, and the next refused with the limit named."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
-from rldrill.problems.catalogue import family
+from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.pomdp_format import read_pomdp
@@ -85,6 +85,58 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
         100,
         "given.features.cool: has 101 entries; it may have at most 100",
     ),
+    "states of a table": (
+        "expected-sarsa",
+        lambda size: {
+            "trajectory": run(3) | {"actions": ["a"] * 3},
+            "values": {state: {"a": 1} for state in ["a", *(f"s{number}" for number in range(size - 1))]},
+            "policy": {"a": "a"}, "alpha": "1/2", "gamma": "1/2",
+        },
+        1024,
+        "given.values: has 1025 entries; it may have at most 1024",
+    ),
+    "steps with traces": (
+        "td-lambda-backward",
+        lambda size: {"trajectory": run(size), "values": {"a": 1}, "alpha": "1/2", "gamma": "1/2", "lam": "1/2"},
+        300,
+        "given.trajectory: has 301 steps; it may have at most 300",
+    ),
+    "steps of an actor whose chances stand in each other's exponents": (
+        "actor-critic",
+        lambda size: {
+            "trajectory": run(size) | {"actions": ["left"] * size}, "values": {"a": 1}, "theta": [1],
+            "features": {"a": {"left": [1], "right": [2]}}, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+        },
+        3,
+        "given.trajectory: the weights of 4 steps would stand in each other's exponents, 3 can be written exactly",
+    ),
+    "predictions": (
+        "bayes-predict",
+        lambda size: {
+            "belief": {f"s{number}": int(number == 0) for number in range(512)}, "actions": ["stay"] * size,
+            "motion": {"stay": {f"s{number}": {f"s{number}": 1} for number in range(512)}},
+        },
+        4,
+        "given.actions: 5 actions among 512 states take too long; at most 4 are possible here",
+    ),
+    "steps of a run": (
+        "td-zero",
+        lambda size: {"trajectory": run(size - 1), "values": {"a": 1}, "alpha": "1/2", "gamma": "1/2"},
+        10_000,
+        "given.trajectory.states: has 10001 entries; it may have at most 10000",
+    ),
+    "features of a state": (
+        "feature-expectations",
+        lambda size: {"features": {"a": [1] * size}, "trajectories": [["a"]], "gamma": "1/2"},
+        100,
+        "given.features.a: has 101 entries; it may have at most 100",
+    ),
+    "states of a trajectory": (
+        "feature-expectations",
+        lambda size: {"features": {"a": [1]}, "trajectories": [["a"] * size], "gamma": "1/2"},
+        300,
+        "given.trajectories[1]: has 301 entries; it may have at most 300",
+    ),
     "arms with preferences": (
         "bandit",
         lambda size: {
@@ -97,6 +149,34 @@ LIMITS: dict[str, tuple[str, Callable[[int], dict[str, Any]], int, str]] = {
 }  # fmt: skip
 
 
+#: Models are bounded by their states, whatever form they come in.
+_MODELS = ("Model.", "Grid.")
+
+
+def unbounded(schema: dict[str, Any], known: dict[str, Any], where: str, above: frozenset[str]) -> Iterator[str]:
+    """Every list and table of a schema for which nothing says how many entries it may have."""
+    if (name := schema.get("$ref", "").rpartition("/")[2]) and name not in above:
+        yield from unbounded(known[name], known, name, above | {name})
+    for kind, bound in (("array", "maxItems"), ("object", "maxProperties")):
+        entries = schema.get("items" if kind == "array" else "additionalProperties")
+        if schema.get("type") == kind and isinstance(entries, dict):
+            if bound not in schema:
+                yield where
+            yield from unbounded(entries, known, f"{where}[]", above)
+    for word in ("anyOf", "oneOf", "allOf", "prefixItems"):
+        for inner in schema.get(word, ()):
+            yield from unbounded(inner, known, where, above)
+    for name, inner in schema.get("properties", {}).items():
+        yield from unbounded(inner, known, f"{where}.{name}", above)
+
+
+@pytest.mark.parametrize("name", [*families()])
+def test_no_list_or_table_of_a_file_grows_without_end(name: str) -> None:
+    schema = family(name).schema()
+    found = unbounded(schema, schema.get("$defs", {}), "given", frozenset())
+    assert [where for where in found if not where.startswith(_MODELS)] == [], "Field(max_length=…) bounds them"
+
+
 @pytest.mark.parametrize("limit", LIMITS)
 def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
     name, given, largest, said = LIMITS[limit]
@@ -104,6 +184,18 @@ def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
     with pytest.raises(FileError) as refused:
         family(name).read(given(largest + 1))
     assert said in str(refused.value)
+
+
+def test_an_actor_with_weights_for_each_state_may_go_on() -> None:
+    states = [f"s{number}" for number in range(10)]
+    weights = {state: [int(other == state) for other in states] for state in states}
+    family("actor-critic").read(
+        {
+            "trajectory": {"states": states, "actions": ["left"] * 9, "rewards": [1] * 9, "terminal": ["s9"]},
+            "values": dict.fromkeys(states, 0), "theta": [0] * 10, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+            "features": {state: {"left": weights[state], "right": [0] * 10} for state in states[:9]},
+        }
+    )  # fmt: skip
 
 
 def test_two_hundred_characters_of_a_number_are_read() -> None:

@@ -7,7 +7,7 @@ from rldrill.problems.family import Family
 
 _SAYS = (
     "default", "enum", "const", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "minItems", "maxItems",
-    "minLength", "maxLength", "pattern", "title",
+    "minProperties", "maxProperties", "minLength", "maxLength", "pattern", "title",
 )  # fmt: skip
 
 
