@@ -7,6 +7,8 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from fractions import Fraction
+from math import nan
 from statistics import median
 from tempfile import NamedTemporaryFile
 from typing import Any
@@ -147,27 +149,85 @@ def _random_model(states: int) -> list[list[Any]]:
 
 
 def models() -> dict[str, float]:
-    """Seconds for the optimal values: ours and exact, one policy's by sympy, and policy iteration in floats."""
-    from fractions import Fraction
-
+    """Seconds for the optimal values: ours and exact, and what others take for the same models; NaN without them."""
     from rldrill.problems.models import Model
     from rldrill.solutions.optimality import optimum
 
+    peers: tuple[tuple[str, int, Callable[[int, list[list[Any]], Any], object]], ...] = (
+        ("Storm's exact engine", 300, _by_storm),
+        ("sympy's linsolve, for the optimal policy alone", 100, _by_sympy),
+        ("quantecon's policy iteration in floats", 1000, _by_quantecon),
+        ("policy iteration in numpy's floats", 1000, _in_floats),
+    )
     found = {}
-    for states in (10, 30, 100, 300, 1000):
+    for states in (10, 10, 30, 100, 300, 1000):  # the first time all that is needed is imported and compiled
         rows = _random_model(states)
         model = Model.model_validate({"transitions": rows, "terminal": ["end"]})
         start = time.process_time()
         best = optimum(model, type(model.transitions[0].probability)("9/10")).policy
         found[f"{states} states, exact"] = time.process_time() - start
-        if states <= 100:
-            start = time.process_time()
-            _by_sympy(states, rows, best)
-            found[f"{states} states, sympy's linsolve, for the optimal policy alone"] = time.process_time() - start
-        start = time.process_time()
-        _in_floats(states, [[*row[:3], float(Fraction(row[3])), row[4]] for row in rows])
-        found[f"{states} states, policy iteration in numpy's floats"] = time.process_time() - start
+        for name, most, solve in peers:
+            if states <= most:
+                found[f"{states} states, {name}"] = _seconds(solve, states, rows, best)
     return found
+
+
+def _seconds(solve: Callable[..., object], *model: object) -> float:
+    """How long it takes; NaN where what it needs is not installed."""
+    start = time.process_time()
+    try:
+        solve(*model)
+    except ImportError:
+        return nan
+    return time.process_time() - start
+
+
+def _pairs(rows: list[list[Any]]) -> dict[tuple[int, int], list[tuple[int, Fraction, int]]]:
+    """By the numbers of state and action where it leads, with which probability and reward; the end is number −1."""
+    found: dict[tuple[int, int], list[tuple[int, Fraction, int]]] = {}
+    for state, action, after, chance, reward in rows:
+        target = -1 if after == "end" else int(after[1:])
+        found.setdefault((int(state[1:]), int(action[1:])), []).append((target, Fraction(chance), reward))
+    return found
+
+
+def _by_storm(states: int, rows: list[list[Any]], _: Any) -> None:
+    """Storm knows no discount: with a probability of 1/10 every step leads to an end."""
+    import stormpy
+
+    lines = ["@type: MDP", "@value_type: rational", "@parameters", "", "@reward_models", "r"]
+    lines += ["@nr_states", str(states + 1), "@nr_choices", str(4 * states + 1), "@model"]
+    for (state, action), outcomes in _pairs(rows).items():
+        if action == 0:
+            lines.append(f"state {state} [0]{' init' if state == 0 else ''}")
+        lines.append(f"\taction {action} [{sum(chance * reward for _, chance, reward in outcomes)}]")
+        going = {target: chance * Fraction(9, 10) for target, chance, _ in outcomes if target >= 0}
+        going[states] = 1 - sum(going.values())
+        lines += [f"\t\t{target} : {going[target]}" for target in sorted(going)]
+    lines += [f"state {states} [0] done", "\taction 0 [0]", f"\t\t{states} : 1", ""]
+    with NamedTemporaryFile("w", suffix=".drn") as file:
+        print("\n".join(lines), file=file, flush=True)
+        model = stormpy.build_model_from_drn[stormpy.Rational](file.name)
+    (wanted,) = stormpy.parse_properties('R{"r"}max=? [F "done"]')
+    stormpy.model_checking(model, wanted)
+
+
+def _by_quantecon(states: int, rows: list[list[Any]], _: Any) -> None:
+    import numpy as np
+    from quantecon.markov import DiscreteDP
+    from scipy.sparse import csr_matrix
+
+    pairs = _pairs(rows) | {(states, 0): [(-1, Fraction(1), 0)]}
+    rewards = [float(sum(chance * reward for _, chance, reward in outcomes)) for outcomes in pairs.values()]
+    places = [
+        (float(chance), number, target % (states + 1))
+        for number, outcomes in enumerate(pairs.values())
+        for target, chance, _ in outcomes
+    ]
+    chances, numbers, targets = zip(*places, strict=True)
+    moves = csr_matrix((chances, (numbers, targets)), shape=(len(pairs), states + 1))
+    chosen = np.array(list(pairs))
+    DiscreteDP(np.array(rewards), moves, 0.9, chosen[:, 0], chosen[:, 1]).solve(method="policy_iteration")
 
 
 def _by_sympy(states: int, rows: list[list[Any]], policy: Any) -> None:
@@ -182,14 +242,14 @@ def _by_sympy(states: int, rows: list[list[Any]], policy: Any) -> None:
     linsolve(equations, V)
 
 
-def _in_floats(states: int, rows: list[list[Any]]) -> None:
+def _in_floats(states: int, rows: list[list[Any]], _: Any) -> None:
     import numpy as np
 
     P, r = np.zeros((4, states, states)), np.zeros((4, states))
     for state, action, after, chance, reward in rows:
-        r[int(action[1:]), int(state[1:])] += chance * reward
+        r[int(action[1:]), int(state[1:])] += float(Fraction(chance)) * reward
         if after != "end":
-            P[int(action[1:]), int(state[1:]), int(after[1:])] += chance
+            P[int(action[1:]), int(state[1:]), int(after[1:])] += float(Fraction(chance))
     chosen, every = r.argmax(axis=0), np.arange(states)
     while True:
         V = np.linalg.solve(np.eye(states) - 0.9 * P[chosen, every], r[chosen, every])

@@ -15,6 +15,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from math import isnan
 from pathlib import Path
 from statistics import median
 
@@ -53,6 +54,8 @@ def measured(table: str, root: Path) -> Measured:
 def _cell(values: list[float]) -> str:
     if not values:
         return "–"
+    if any(map(isnan, values)):
+        return "not installed"
     low, middle, high = (f"{value:,.3g}" if value < 100 else f"{value:,.0f}" for value in _spread(values))
     return f"{middle} ({low}–{high})"
 
