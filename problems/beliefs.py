@@ -10,7 +10,7 @@ from rldrill.problems.document import Block, Table
 from rldrill.problems.exact import OpenProbability, Parameter, Probability, Scalar, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Name, Named, OpenDistributionField, check_keys, check_sum
+from rldrill.problems.models import Hypotheses, Name, Named, OpenDistributionField, check_keys, check_sum
 from rldrill.problems.readings import distribution, note_of, told
 
 Likelihood = Mapping[str, Mapping[str, Scalar]]
@@ -53,7 +53,7 @@ def _by_reading(likelihood: Likelihood, info: ValidationInfo) -> Likelihood:
 
 
 #: What a sensor reads with which probability, by reading; written so, or by hypothesis, where these are told apart.
-LikelihoodField = Annotated[Named[Named[OpenProbability]], AfterValidator(_by_reading)]
+LikelihoodField = Annotated[Hypotheses[Hypotheses[OpenProbability]], AfterValidator(_by_reading)]
 
 
 def check_distribution(chances: Mapping[str, Scalar], what: str) -> None:

@@ -53,6 +53,8 @@ Entry = TypeVar("Entry")
 Name = Annotated[str, BeforeValidator(read_name), WithJsonSchema({"type": ["string", "integer"], "title": "a name"})]
 #: A table with an entry for every name of some states, actions or hypotheses.
 Named = Annotated[dict[Name, Entry], Field(max_length=MOST_STATES)]
+#: The same for what the world may be like, of which there may be more: a sum over all of them takes a second.
+Hypotheses = Annotated[dict[Name, Entry], Field(max_length=5000)]
 #: Names of some states, actions or hypotheses.
 Names = Annotated[tuple[Name, ...], Field(max_length=MOST_STATES)]
 #: What was seen at every step of a run.
@@ -274,8 +276,8 @@ def _meant(chances: dict[str, Chance], info: ValidationInfo) -> dict[str, Chance
 
 
 #: Probabilities by name that sum to 1; what a program rounded is read as it is meant.
-DistributionField = Annotated[Named[Probability], AfterValidator(_meant)]
-OpenDistributionField = Annotated[Named[OpenProbability], AfterValidator(_meant)]
+DistributionField = Annotated[Hypotheses[Probability], AfterValidator(_meant)]
+OpenDistributionField = Annotated[Hypotheses[OpenProbability], AfterValidator(_meant)]
 
 
 def read_policy(value: object, info: ValidationInfo) -> object:
