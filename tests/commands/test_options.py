@@ -28,7 +28,8 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     quiz: {
         "number": (None, 1, 1000), "level": (None, 1, 3), "seed": (None, 0, None), "exam_date": (None, None, None),
         "minutes": (None, 1, 600), "exam": (None, None, None), "version": (None, None, None),
-        "plain": (False, None, None), "answers": (None, None, None), "notation": (None, None, None),
+        "plain": (False, None, None), "mistake": (None, None, None), "answers": (None, None, None),
+        "notation": (None, None, None),
     },
     worksheet: {
         "count": (None, 1, 100), "minutes": (None, 1, 600), "level": (None, 1, 3), "exclude": (None, None, None),
