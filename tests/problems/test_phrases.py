@@ -2,6 +2,7 @@
 
 import pytest
 
+import rldrill
 from rldrill.problems import phrases
 from rldrill.problems.document import Paragraph
 from rldrill.problems.exact import Parameter, Scalar
@@ -61,3 +62,12 @@ def test_where_an_episode_ends() -> None:
     assert phrases.terminal_note(("over", "out")) == (
         Paragraph("Episodes end in over and out, terminal states, whose values are $0$."),
     )
+
+
+def test_states_are_told_apart_only_where_there_are_several() -> None:
+    rows = {"left": [1, 0], "right": [0, 1]}
+    given = {"theta": ["w", 1], "at": 2, "features": {"hall": rows}}
+    one = rldrill.read({"family": "linear-policy", "given": given})
+    two = rldrill.read({"family": "linear-policy", "given": given | {"features": {"hall": rows, "door": rows}}})
+    assert one.parts[0].ask == "For which $w$ do both actions have the same value?"
+    assert two.parts[0].ask == "In each state, for which $w$ do both actions have the same value?"
