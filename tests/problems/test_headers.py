@@ -20,6 +20,10 @@ def test_a_head_says_what_the_family_says() -> None:
     ]
 
 
+def test_every_family_has_three_levels() -> None:
+    assert {head.levels for head in catalogue.headers()} == {(1, 2, 3)}
+
+
 def test_a_head_that_lacks_something_says_what(tmp_path: Path) -> None:
     (tmp_path / "new.py").write_text('"""Something."""\n\nTITLE = "New"\nSOURCE = "a book"\n\n\ndef draw(): ...\n')
     with pytest.raises(BrokenFamily, match=r"new\.py: a family must have REVISION, above its first class; add it\."):
