@@ -138,6 +138,19 @@ def test_the_points_of_a_part_are_earned_by_its_steps() -> None:
             assert sum(points for _, points in exercise.scheme(part.label)) == part.points
 
 
+def test_every_update_of_three_that_are_alike_earns_a_point_of_three() -> None:
+    exercise = draw("td-zero", 2, 7)
+    assert exercise.parts[0].points == 3
+    assert [points for _, points in exercise.scheme("a")] == [1, 1, 1]
+
+
+def test_no_piece_of_a_working_stands_without_points_before_the_last() -> None:
+    for name in ("policy-value", "lqr-infinite", "sarsa", "kalman-filter"):
+        exercise = draw(name, 2, 4)
+        for part in exercise.parts:
+            assert all(points > 0 for _, points in exercise.scheme(part.label)[:-1])
+
+
 @pytest.mark.parametrize("what", ["sheet", "key"])
 def test_nothing_is_in_the_margins_and_pages_are_filled(what: str, request: pytest.FixtureRequest) -> None:
     pages = measured(request.getfixturevalue(what).read_bytes())
