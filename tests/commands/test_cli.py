@@ -157,6 +157,18 @@ def test_a_pipe_that_closes_early_is_no_error() -> None:
     assert process.stdout.splitlines()[-1] == "141"  # ended by SIGPIPE, as cat and grep are
 
 
+@pytest.mark.parametrize(("arguments", "code"), [(["list"], 0), (["show", "nothing"], 2)])
+def test_a_command_that_ends_at_once_has_written_all_and_run_its_exit_handlers(arguments: list[str], code: int) -> None:
+    program = "import atexit; atexit.register(print, 'the last line'); from rldrill.__main__ import run; run()"
+    process = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, encoding="utf-8", timeout=120,
+        cwd=ROOT, check=False,
+    )  # fmt: skip
+    assert process.returncode == code
+    assert process.stdout.endswith("the last line\n")
+    assert ("td-zero" in process.stdout) == (code == 0)
+
+
 def test_without_a_home_and_with_an_ascii_terminal() -> None:
     process = run("show", "td-zero/1/1", HOME="/nonexistent", LC_ALL="C", PYTHONIOENCODING="ascii")
     assert "Traceback" not in process.stderr
