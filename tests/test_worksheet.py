@@ -22,7 +22,7 @@ from rldrill.exam.exam import Exam, Head, Layout, Version
 from rldrill.exam.planning import plan
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
-from rldrill.print.paper import paper_of, pdf
+from rldrill.print.paper import pdf
 from rldrill.print.worksheet import even_columns, space_of, worksheet_source
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
@@ -245,11 +245,6 @@ def test_paper_sizes_tags_and_language(paper: str, size: str, tmp_path: Path) ->
     assert re.search(r"Tagged: +yes", said)
     assert "Version A" in said
     assert re.search(rb"/Lang *\(en", path.read_bytes())
-
-
-def test_there_are_two_papers() -> None:
-    with pytest.raises(UsageError, match="a4 or letter"):
-        paper_of("a5")
 
 
 def test_the_same_bytes_in_every_process() -> None:
