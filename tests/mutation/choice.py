@@ -12,7 +12,7 @@ from covering import Covering
 from places import ROOMS, Mutation, Source
 
 #: So many tests for one change at most: to load the files of more takes longer than they are likely to be worth.
-MOST = 1000
+MOST = 4000
 
 #: The rank of tests that have nothing to do with a change, as far as names tell.
 _NOT = 5

@@ -128,7 +128,9 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     source = Source.read(tmp_path, "rldrill/tax.py")
     constant, product = mutations(source)
     assert choice.tests(source, product) == (ids[0], ids[2])
-    assert choice.tests(source, constant) == ids[:2]
+    assert choice.tests(source, constant) == (ids[0], ids[2])  # the constant is used in the statement
+    (tmp_path / "rldrill" / "tax.py").write_text("RATE = 3\n")
+    assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 
 
 def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
