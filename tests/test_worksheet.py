@@ -422,7 +422,8 @@ def test_a_blueprint_is_written_read_and_printed(tmp_path: Path, monkeypatch: py
     assert "is there already" in refused("--init", "exam.toml")
     assert run("exam.toml", "--versions", 1)[0] == ["exam.pdf", "exam-key.pdf", "exam.json"]
     assert json.loads(Path("exam.json").read_text())["points"] == 60
-    assert "leave the other names out" in refused("exam.toml", "bellman")
+    for more in (("bellman",), ("-n", 3), ("--level", 2)):
+        assert "leave the other names out" in refused("exam.toml", *more)
 
 
 def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:
