@@ -56,7 +56,7 @@ def test_a_wrong_oracle_is_a_disagreement(monkeypatch: pytest.MonkeyPatch) -> No
     assert not finding.clean
 
 
-def test_one_state_with_two_best_actions_is_a_tie(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_state_with_two_best_actions_is_a_tie() -> None:
     # γ = 1/2: stay pays 1 for ever, V*(b) = 2; go pays 1 and leads there, V*(a) = 1 + 1/2·2 = 2; walk pays 2 and ends.
     mdp = {
         "transitions": [["a", "go", "b", 1, 1], ["a", "walk", "end", 1, 2], ["b", "stay", "b", 1, 1]],
