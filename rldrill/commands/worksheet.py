@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete
 from rldrill.exam.choices import Paper, Solutions, Space
 
 if TYPE_CHECKING:
@@ -21,16 +21,12 @@ NAME = "worksheet"
 _PROBLEMS, _MOST = 8, 100
 
 
-def _complete(incomplete: str) -> list[str]:
-    return [*complete_names(incomplete), *complete_ids(incomplete)]
-
-
 def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
-            autocompletion=_complete,
+            autocompletion=complete,
             help="Topics, families, problem IDs, problem files; or one blueprint (.toml). All topics, if none.",
         ),
     ] = None,
@@ -44,7 +40,7 @@ def command(
     level: Level = None,
     exclude: Annotated[
         list[str] | None,
-        typer.Option("--exclude", "-x", metavar="TOPIC|FAMILY", help="Draw nothing of this.", autocompletion=_complete),
+        typer.Option("--exclude", "-x", metavar="TOPIC|FAMILY", help="Draw nothing of this.", autocompletion=complete),
     ] = None,
     seed: Seed = None,
     versions: Annotated[int | None, typer.Option("--versions", min=1, max=999, help="How many versions.")] = None,
