@@ -60,13 +60,18 @@ class Choice:
         running = self.covering.tests(source, mutation) if self.covering else frozenset()
         ranks = zip(self._ranks(source, mutation), self.ids, strict=True)
         for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running]:
-            if running and test not in running and not self._is_dear(test.partition("::")[0]):
+            if running and self._is_far(test, running):
                 continue
             function = test.partition("[")[0]
             keyed.append((rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
             order[rank, function] += 1
         keyed.sort(key=lambda each: each[:3])
         return tuple(test for *_, test in keyed[:MOST])
+
+    def _is_far(self, test: str, running: frozenset[str]) -> bool:
+        """Whether a test was seen not to run a statement; what other programs run for it was not seen."""
+        assert self.covering
+        return test in self.covering.known - running and not self._is_dear(test.partition("::")[0])
 
     def _is_dear(self, file: str) -> bool:
         if file not in self._dear:

@@ -31,6 +31,11 @@ class Covering:
             found[below if below.startswith(("problems/", "solutions/")) else f"rldrill/{below}"] = measured
         return found
 
+    @cached_property
+    def known(self) -> frozenset[str]:
+        """The tests that were run, whatever they came near."""
+        return frozenset(context.rpartition("|")[0] for context in self._data.measured_contexts())
+
     def tests(self, source: Source, mutation: Mutation) -> frozenset[str]:
         """The tests that run the innermost statement with the change, or what the module makes of it.
 

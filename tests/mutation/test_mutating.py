@@ -120,9 +120,9 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     data = CoverageData(str(tmp_path / "noted"))
     data.set_context("")
     data.add_lines({"/elsewhere/rldrill/tax.py": [1, 2]})
-    for test in (ids[0], ids[2]):
+    for test, line in ((ids[0], 3), (ids[1], 2), (ids[2], 3)):
         data.set_context(f"{test}|run")
-        data.add_lines({"/elsewhere/rldrill/tax.py": [3]})
+        data.add_lines({"/elsewhere/rldrill/tax.py": [line]})
     data.write()
     choice = Choice(tmp_path, ids, Covering(tmp_path / "noted"))
     source = Source.read(tmp_path, "rldrill/tax.py")
