@@ -3,13 +3,13 @@
 import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
-from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
@@ -71,6 +71,13 @@ def _demanded(module: ModuleType, name: str) -> Any:
         raise BrokenFamily(f"{module.__file__}: a solver must have {name}; add it.") from None
 
 
+@lru_cache(maxsize=1024)
+def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...]:
+    """The misconceptions of a family that can be made where these formulas are read."""
+    in_reading = {mistake for formula in read for mistake in formula.misread}
+    return tuple([each for each in solver(family).misconceptions if each.is_slip or each in in_reading])
+
+
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
 
@@ -89,9 +96,14 @@ class Solution:
         return self.work.answers
 
     @cached_property
+    def kinds(self) -> Mapping[str, Answer[Any]]:
+        """How the answers of every part are handled."""
+        return {part.label: answer_kind(part.kind) for part in self.problem.parts}
+
+    @cached_property
     def cells(self) -> Mapping[str, Mapping[str, Any]]:
         """The exact answer of every part, taken apart into what is judged one by one."""
-        return {part.label: answer_kind(part.kind).cells(self.answers[part.label]) for part in self.problem.parts}
+        return {label: kind.cells(self.answers[label]) for label, kind in self.kinds.items()}
 
     @property
     def lines(self) -> tuple[Line, ...]:
@@ -127,9 +139,8 @@ class Solution:
     @cached_property
     def applicable(self) -> tuple[Misconception, ...]:
         """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
-        made_in_reading = {mistake for formula in self.work.read for mistake in formula.misread}
-        every, given = solver(self.problem.family).misconceptions, self.problem.given
-        return tuple([each for each in every if (each.is_slip or each in made_in_reading) and each.applies(given)])
+        given = self.problem.given
+        return tuple([each for each in _made(self.problem.family, tuple(self.work.read)) if each.applies(given)])
 
     def misread(self, mistake: Misconception) -> Formula | None:
         """The formula of the working that a mistake reads otherwise, the first of them; None if it is a slip."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq
 from sympy import Expr
@@ -15,7 +15,7 @@ from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
-from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
+from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Quantity
@@ -27,15 +27,7 @@ from rldrill.solutions.rational import generator, linear, without_quotients
 from rldrill.solutions.vector import Vector
 
 
-@dataclass(frozen=True)
-class Step:
-    """One application of a formula: what was put in, and the exact value that came out.
-
-    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
-    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
-    ``$t = 2$``: an update that knows its t says it unasked.
-    """
-
+class _Applied(NamedTuple):
     formula: Formula
     right: Expr
     known: Mapping[str, Any]
@@ -44,6 +36,15 @@ class Step:
     into: Callable[..., Expr] | None = None
     own: bool = False
     label: str | None = None
+
+
+class Step(_Applied):
+    """One application of a formula: what was put in, and the exact value that came out.
+
+    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
+    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
+    ``$t = 2$``: an update that knows its t says it unasked.
+    """
 
     @cached_property
     def named(self) -> Expr:
@@ -342,15 +343,15 @@ class Work:
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
-        symbol = to_sympy(generator(letter))
+        unknown = generator(letter)
         self.lines.append(Equality(left, (right,)))
         if cleared:
             self.lines.append(Equality(cleared[0], (cleared[1],)))
             left = cleared[0]
-        if slope != 1 and left != generator(letter) * slope:
-            self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
-        if (left, right) != (generator(letter), value):
-            self.lines.append(Equality(symbol, (value,)))
+        if slope != 1 and left != unknown * slope:
+            self.lines.append(Equality(unknown * slope, (ZERO - constant,)))
+        if (left, right) != (unknown, value):
+            self.lines.append(Equality(unknown, (value,)))
         return value
 
     def recall(self, formula: Formula) -> None:
