@@ -36,17 +36,18 @@ class Draws:
 
     def whole(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high``, both included."""
-        return _whole(low + self.below(high - low + 1))
+        return _whole(low + int(self._random() * (high - low + 1)))
 
     def nonzero(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0."""
+        random, numbers = self._random, high - low + 1
         while True:
-            if number := self.whole(low, high):
-                return number
+            if number := low + int(random() * numbers):
+                return _whole(number)
 
     def fitting(self, low: int, high: int, fits: Callable[[Fraction], bool]) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0 and fits; where none does, any of them."""
-        numbers = [_whole(number) for number in range(low, high + 1) if number]
+        numbers = _but_zero(low, high)
         return self.choice([number for number in numbers if fits(number)] or numbers)
 
     def choice(self, items: Sequence[Item]) -> Item:
@@ -94,6 +95,12 @@ class Draws:
             return (_whole(1),)
         edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
         return _between(edges)
+
+
+@lru_cache(maxsize=256)
+def _but_zero(low: int, high: int) -> tuple[Fraction, ...]:
+    """The whole numbers from the lower to the higher one that are not 0."""
+    return tuple([Fraction(number) for number in range(low, high + 1) if number])
 
 
 @lru_cache(maxsize=2048)

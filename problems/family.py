@@ -69,6 +69,11 @@ class Givens(BaseModel):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters left open anywhere in the givens."""
+        return self._left_open
+
+    @cached_property
+    def _left_open(self) -> tuple[str, ...]:
+        """The same; what mistakes apply to, the question and the answers ask for them again and again."""
         found: dict[str, None] = {}
         _collect_parameters(_inside(self), found)
         return tuple(found)

@@ -54,7 +54,11 @@ def _rational(number: Fraction) -> fmpq:
 
 def simplest(value: Any) -> Any:
     """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
-    return value if isinstance(value, fmpq) else _simplest(value)
+    return value if type(value) in _SIMPLE else _simplest(value)
+
+
+#: Of what is of these types, nothing can be simpler.
+_SIMPLE = frozenset({fmpq, RationalFunction, tuple, str, bool})
 
 
 @singledispatch
@@ -62,7 +66,6 @@ def _simplest(value: Any) -> Any:
     return value
 
 
-_simplest.register(bool, lambda value: value)
 _simplest.register(int, fmpq)
 _simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
 _simplest.register(sympy.Rational, fraction)
@@ -135,7 +138,7 @@ def length(_value: Any) -> int:
 
 
 length.register(fmpq, fmpq.height_bits)
-length.register(RationalFunction, lambda value: max(map(length, value.coefficients), default=0))
+length.register(RationalFunction, RationalFunction.bits)
 
 
 @length.register(sympy.Expr)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from flint import fmpq
@@ -122,9 +122,9 @@ class Recalled:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture between the steps."""
+    """Pictures between the steps, which are made when somebody looks."""
 
-    picture: Picture
+    pictures: Callable[[], Iterable[Picture]]
 
 
 @dataclass(frozen=True)
@@ -358,9 +358,9 @@ class Work:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""
         self.lines.append(Recalled(formula))
 
-    def picture(self, *pictures: Picture) -> None:
-        """Draw pictures between the steps."""
-        self.lines += map(Drawn, pictures)
+    def picture(self, pictures: Callable[..., Iterable[Picture]], *of: Any) -> None:
+        """Draw pictures between the steps: what a function makes of these values."""
+        self.lines.append(Drawn(partial(pictures, *of)))
 
     def give(self, formula: Formula, value: Any, **indices: Any) -> None:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
