@@ -104,9 +104,14 @@ class Step(_Applied):
 
 @dataclass(frozen=True)
 class Note:
-    """A sentence between the steps."""
+    """A sentence between the steps; one that takes long to make is made when somebody looks."""
 
-    text: str
+    said: str | Callable[[], str]
+
+    @cached_property
+    def text(self) -> str:
+        """The sentence."""
+        return self.said if isinstance(self.said, str) else self.said()
 
 
 @dataclass(frozen=True)
@@ -366,9 +371,10 @@ class Work:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
         self.lines.append(Result((indexed(formula.left, indices),), (value,)))
 
-    def say(self, text: str) -> None:
-        """Write a sentence between the steps; mathematics stands between ``$`` signs."""
-        self.lines.append(Note(text))
+    def say(self, said: str | Callable[[], str]) -> None:
+        """Write a sentence between the steps, or what makes it; mathematics stands between ``$`` signs."""
+        if self.misconception is None:  # nobody reads the working of a mistake
+            self.lines.append(Note(said))
 
     def answer(self, value: Any) -> Any:
         """Give the answer of the next part, and get back what to go on with.

@@ -12,7 +12,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, is_zero, largest, monomial, simplest
+from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, equal, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.limits import rooted
 from rldrill.solutions.matrices import is_matrix
@@ -122,7 +122,7 @@ def _circular(function: Callable[[Expr], Expr], angle: Value) -> Value:
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
     """All keys whose value is the greatest, in their order."""
     best = largest(values)
-    return tuple([key for key, value in zip(keys, values, strict=True) if value == best or is_zero(best - value)])
+    return tuple([key for key, value in zip(keys, values, strict=True) if equal(best, value)])
 
 
 #: All that a compiled formula can call, besides the values of its nodes: nothing of Python's own is among it.
