@@ -350,6 +350,8 @@ def equal(first: Value, second: Value) -> bool:
     """Whether two values are the same number, or the same function of what is left open."""
     if first == second:
         return True
+    if type(first) is type(second) is fmpq:
+        return False
     if is_closed(first) or is_closed(second):
         with suppress(NotReal):
             if difference(first, second) != 0:

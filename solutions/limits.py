@@ -56,6 +56,8 @@ def _check(values: Iterable[Any]) -> None:
                 raise _too_many_digits()
         elif isinstance(value, dict):
             _check(value.values())
+        elif isinstance(value, str):
+            continue
         elif isinstance(value, tuple | list | Vector):
             _check(value)
         elif is_matrix(value):

@@ -152,13 +152,14 @@ class Solution:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
         if carried:
             return self._made(misconception, carried)
-        if misconception not in self._mistaken:
-            self._mistaken[misconception] = self._made(misconception, {})
-        return self._mistaken[misconception]
+        key = misconception.key
+        if key not in self._mistaken:
+            self._mistaken[key] = self._made(misconception, {})
+        return self._mistaken[key]
 
     @cached_property
-    def _mistaken(self) -> dict[Misconception, Mapping[str, Any] | None]:
-        """What the mistakes give that somebody has asked for."""
+    def _mistaken(self) -> dict[tuple[str, str], Mapping[str, Any] | None]:
+        """What the mistakes give that somebody has asked for, by their keys."""
         return {}
 
     def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:

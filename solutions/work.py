@@ -225,7 +225,7 @@ class Work:
         if mistake is None:
             self.read[formula] = None
             return formula.right
-        misread = formula.misread.get(mistake)
+        misread = formula.readings.get(mistake.key)
         if misread is None:
             return formula.right
         self.same = ()

@@ -163,6 +163,10 @@ def compiled(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
 
 
+#: The functions of expressions by their identity: to look for an expression itself takes as long as many a formula.
+_FUNCTIONS: dict[int, tuple[Expr, Callable[[Mapping[str, Any]], Any]]] = {}
+
+
 def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
     """The exact value of an expression.
 
@@ -171,6 +175,9 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
         NoSolution: it has no value.
     """
     try:
-        return compiled(expression)(known)
+        found = _FUNCTIONS.get(id(expression))
+        if found is None:
+            found = _FUNCTIONS[id(expression)] = expression, compiled(expression)
+        return found[1](known)
     except LookupError as error:
         raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None
