@@ -47,7 +47,7 @@ def _defaults(model: type[BaseModel]) -> dict[str, Any]:
 class Givens(BaseModel):
     """What a problem gives: typed, frozen, exact, validated; the same form is read from problem files."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
 
     def __init__(self, **fields: Any) -> None:
         if not _TRUSTED.get():
