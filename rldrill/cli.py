@@ -38,7 +38,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 _COMMANDS = (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, gallery, generate, audit)
-_NAMED = [module for module in _COMMANDS if [module.NAME] == sys.argv[1:2]]
+_NAMED = [module for module in _COMMANDS if sys.argv[1:2] == [module.NAME]]
 for module in _NAMED or _COMMANDS:  # the others would only take time
     app.command(module.NAME)(module.command)
 

@@ -13,7 +13,7 @@ from rldrill.solutions.rational import RationalFunction
 
 Key = TypeVar("Key")
 Given = TypeVar("Given")
-Known = TypeVar("Known", dict[str, Any], list[dict[str, Any]])
+Known = TypeVar("Known", dict[str, Any], list[Any])
 
 #: The one action of a terminal state, worth nothing; no action of a problem can have this name.
 NO_ACTION = "–"

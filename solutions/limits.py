@@ -30,7 +30,7 @@ def bounded(value: Written) -> Written:
         TooLong: a number in it has more digits than anybody writes, and than Python turns into text; or a polynomial
             more terms.
     """
-    if type(value) is not fmpq or value.height_bits() > _LONGEST:
+    if not isinstance(value, fmpq) or value.height_bits() > _LONGEST:
         _check((value,))
     return value
 

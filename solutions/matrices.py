@@ -113,7 +113,9 @@ def is_matrix(value: object) -> TypeGuard[AnyMatrix]:
 
 def matrix(rows: Iterable[Iterable[Value | int]]) -> AnyMatrix:
     """Rows of values as a matrix, of flint's kind if it can be."""
-    lines = [[entry if type(entry) is fmpq else tidy(simplest(entry)) for entry in line] for line in rows]
+    lines: list[list[Any]] = [
+        [entry if type(entry) is fmpq else tidy(simplest(entry)) for entry in line] for line in rows
+    ]
     entries = [entry for line in lines for entry in line]
     if {*map(type, entries)} == {fmpq}:
         return fmpq_mat(len(lines), len(lines[0]), entries)

@@ -30,7 +30,7 @@ class RationalFunction:
     bottom: fmpq_poly
 
     def __add__(self, other: Value | int) -> Value:
-        if type(other) is fmpq:
+        if isinstance(other, fmpq):
             return RationalFunction(self.parameter, self.top + self.bottom * other, self.bottom)
         return self._with(other, operator.add, _sum)
 
@@ -46,7 +46,7 @@ class RationalFunction:
         return -self + other
 
     def __mul__(self, other: Value | int) -> Value:
-        if type(other) is fmpq:
+        if isinstance(other, fmpq):
             return RationalFunction(self.parameter, self.top * other, self.bottom) if other else other
         return self._with(other, operator.mul, _product)
 
@@ -93,7 +93,8 @@ class RationalFunction:
 
     def bits(self) -> int:
         """How many binary digits the longest whole number of its polynomials has."""
-        return max(part for poly in (self.top, self.bottom) for part in (poly.numer().height_bits(), int(poly.denom()).bit_length()))
+        every = (self.top, self.bottom)
+        return max(*(poly.numer().height_bits() for poly in every), *(int(poly.denom()).bit_length() for poly in every))
 
     def _written(self) -> tuple[fmpq_poly, fmpq_poly]:
         """Top and bottom with whole coefficients, unless the bottom is 1; what is below begins with a plus."""

@@ -13,7 +13,7 @@ from rldrill.problems.mathematics import Math, listed, mathematics, name, punctu
 from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear

@@ -10,8 +10,8 @@ from flint import fmpq
 from rldrill.solutions.exact import (
     Value,
     absolute,
-    difference,
     clear_sign,
+    difference,
     is_closed,
     is_rational,
     is_zero,

@@ -96,8 +96,10 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     work.say("Equal bounds, $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, are solved for $c$:")
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
-        lambda: f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
-        f"$c > {decimal(weight, 3)}$."
+        lambda: (
+            f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
+            f"$c > {decimal(weight, 3)}$."
+        )
     )
     work.answer({NEXT: (rarer,)})
 
