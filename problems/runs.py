@@ -113,14 +113,13 @@ def draw_values(rng: Draws, states: Sequence[str], gamma: Fraction) -> dict[str,
 def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:
     """A reward that moves a value towards it and what comes after it: to a multiple of the unit, if there is one."""
 
-    def moved(reward: Fraction) -> Fraction:
-        return old + alpha * (reward + after - old)
+    start, still = old + alpha * (after - old), old - after
 
     def fits(reward: Fraction) -> bool:
-        return moved(reward) != old and (unit is None or moved(reward) % unit == 0)
+        return reward != still and (unit is None or (start + alpha * reward) % unit == 0)
 
     reward = rng.fitting(-6, 9, fits)
-    return reward if fits(reward) else rng.fitting(-6, 9, lambda reward: moved(reward) != old)
+    return reward if fits(reward) else rng.fitting(-6, 9, lambda reward: reward != still)
 
 
 def draw_rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
