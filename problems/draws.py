@@ -45,10 +45,10 @@ class Draws:
             if number := low + int(random() * numbers):
                 return _whole(number)
 
-    def fitting(self, low: int, high: int, fits: Callable[[Fraction], bool]) -> Fraction:
+    def fitting(self, low: int, high: int, fits: Callable[[int], bool]) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0 and fits; where none does, any of them."""
-        numbers = _but_zero(low, high)
-        return self.choice([number for number in numbers if fits(number)] or numbers)
+        numbers = [number for number in range(low, high + 1) if number]
+        return _whole(self.choice([number for number in numbers if fits(number)] or numbers))
 
     def choice(self, items: Sequence[Item]) -> Item:
         """One of the items."""
@@ -99,12 +99,6 @@ class Draws:
             return (1,), 1
         edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
         return tuple(map(sub, edges[1:], edges)), whole
-
-
-@lru_cache(maxsize=256)
-def _but_zero(low: int, high: int) -> tuple[Fraction, ...]:
-    """The whole numbers from the lower to the higher one that are not 0."""
-    return tuple([Fraction(number) for number in range(low, high + 1) if number])
 
 
 @lru_cache(maxsize=2048)

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Parameter, Scalar
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import (
     PARTLY_LISTED,
     Dynamics,
@@ -115,13 +115,14 @@ def draw_values(rng: Draws, states: tuple[str, ...], gamma: Fraction) -> dict[st
 
 def tells_apart(rows: Iterable[Transition], values: Mapping[str, Fraction], gamma: Fraction) -> bool:
     """Whether the actions of a state are worth different numbers, and so are the outcomes of each."""
-    model = Dynamics(transitions=tuple(rows))
-    outcomes = [
-        [Fraction(row.reward) + gamma * values.get(row.next, Fraction(0)) for row in found]
-        for found in model.outcomes.values()
-    ]
-    each = [worth(model, pair, values, gamma) for pair in model.pairs]
-    return all(len({*row}) == len(row) for row in (*outcomes, each))
+    ahead = {state: gamma * value for state, value in values.items()}
+    outcomes: dict[tuple[str, str], list[Fraction]] = {}
+    worths: dict[tuple[str, str], Fraction] = {}
+    for state, action, after, chance, reward in rows:
+        worth, pair = Fraction(reward) + ahead.get(after, 0), (state, action)
+        outcomes.setdefault(pair, []).append(worth)
+        worths[pair] = worths.get(pair, 0) + Fraction(chance) * worth
+    return all(len({*row}) == len(row) for row in (*outcomes.values(), worths.values()))
 
 
 def draw_worth(
@@ -163,8 +164,8 @@ def draw_paying(
 
     No two of its outcomes are worth the same, so that their probabilities matter; none is the place that is barred.
     """
-    ahead = {place: _plain(gamma * value) for place, value in values.items()}
-    wanted = _plain(worth)
+    ahead = {place: plain(gamma * value) for place, value in values.items()}
+    wanted = plain(worth)
     for _ in range(_ATTEMPTS):
         targets = draw_targets(rng, setting, places, pair, shape, barred)
         shares, whole = draw_shares(rng, targets, shape)
@@ -186,12 +187,7 @@ def draw_averaging(
 ) -> tuple[tuple[Fraction, ...], list[Fraction] | None]:
     """Probabilities, and different whole numbers with that mean, if some are found."""
     shares, whole = rng.shares(count, denominators)
-    return tuple([Fraction(share, whole) for share in shares]), averaging(rng, shares, _plain(mean) * whole)
-
-
-def _plain(number: Fraction) -> int | Fraction:
-    """A whole number as Python's, which is computed with three times as fast."""
-    return number.numerator if number.denominator == 1 else number
+    return tuple([Fraction(share, whole) for share in shares]), averaging(rng, shares, plain(mean) * whole)
 
 
 def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> list[Fraction] | None:
