@@ -163,9 +163,10 @@ class Solution:
         return {}
 
     def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        same: Sequence[Any] = () if carried or misconception.is_slip else self.work.values
+        right = () if carried else tuple(self.answers.values())
         try:
-            same = () if carried or misconception.is_slip else self.work.values
-            return run(self.problem, misconception, carried, same).answers
+            return run(self.problem, misconception, carried, same, right).answers
         except (NoSolution, NotGiven):
             return None
 
@@ -182,6 +183,7 @@ def run(
     misconception: Misconception | None = None,
     carried: Mapping[str, Any] | None = None,
     same: Sequence[Any] = (),
+    right: Sequence[Any] = (),
 ) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
 
@@ -190,13 +192,14 @@ def run(
         misconception: the mistake.
         carried: the earlier answers.
         same: what comes out on the right way, up to the formula that is misread.
+        right: the answers of the right way.
 
     Raises:
         NoSolution: the problem has no answer.
         NotGiven: the mistake asks for something that the problem does not give.
         BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
-    work = Work(misconception, carried or {}, same)
+    work = Work(misconception, carried or {}, same, right)
     slipping = None if misconception is None else misconception.solve
     try:
         (slipping or solver(problem.family).solve)(problem.given, work)

@@ -201,11 +201,13 @@ class Work:
         carried: for follow-through, a person's own answers to earlier parts.
         same: what came out on the right way, application by application: up to the formula that is misread, the same
             comes out here.
+        right: for a slip, the answers of the right way, where they are known.
     """
 
     misconception: Misconception | None = None
     carried: Mapping[str, Any] = field(default_factory=dict)
     same: Sequence[Any] = ()
+    right: Sequence[Any] = ()
     values: list[Any] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
