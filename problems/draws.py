@@ -4,7 +4,7 @@ import hashlib
 import random
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from itertools import pairwise
+from operator import sub
 from typing import TypeVar
 
 from rldrill.problems.fractions import Fraction
@@ -36,18 +36,19 @@ class Draws:
 
     def whole(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high``, both included."""
-        return _whole(low + self.below(high - low + 1))
+        return _whole(low + int(self._random() * (high - low + 1)))
 
     def nonzero(self, low: int, high: int) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0."""
+        random, numbers = self._random, high - low + 1
         while True:
-            if number := self.whole(low, high):
-                return number
+            if number := low + int(random() * numbers):
+                return _whole(number)
 
-    def fitting(self, low: int, high: int, fits: Callable[[Fraction], bool]) -> Fraction:
+    def fitting(self, low: int, high: int, fits: Callable[[int], bool]) -> Fraction:
         """A whole number from ``low`` to ``high`` that is not 0 and fits; where none does, any of them."""
-        numbers = [_whole(number) for number in range(low, high + 1) if number]
-        return self.choice([number for number in numbers if fits(number)] or numbers)
+        numbers = [number for number in range(low, high + 1) if number]
+        return _whole(self.choice([number for number in numbers if fits(number)] or numbers))
 
     def choice(self, items: Sequence[Item]) -> Item:
         """One of the items."""
@@ -89,14 +90,17 @@ class Draws:
 
     def split(self, parts: int, denominators: Sequence[int]) -> tuple[Fraction, ...]:
         """Positive probabilities that sum to 1, over one of the denominators that is large enough."""
+        return _over(*self.shares(parts, denominators))
+
+    def shares(self, parts: int, denominators: Sequence[int]) -> tuple[tuple[int, ...], int]:
+        """The same in whole numbers: how many parts of the whole each gets, and how many there are."""
         whole = self.choice([number for number in denominators if number >= parts])
         if whole == 1:
-            return (_whole(1),)
+            return (1,), 1
         edges = (0, *sorted(self._shuffled(range(1, whole), parts - 1)), whole)
-        return _between(edges)
+        return tuple(map(sub, edges[1:], edges)), whole
 
 
 @lru_cache(maxsize=2048)
-def _between(edges: tuple[int, ...]) -> tuple[Fraction, ...]:
-    """The parts of a whole that is cut up, the last edge."""
-    return tuple(Fraction(right - left, edges[-1]) for left, right in pairwise(edges))
+def _over(shares: tuple[int, ...], whole: int) -> tuple[Fraction, ...]:
+    return tuple([Fraction(share, whole) for share in shares])

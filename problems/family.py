@@ -47,7 +47,7 @@ def _defaults(model: type[BaseModel]) -> dict[str, Any]:
 class Givens(BaseModel):
     """What a problem gives: typed, frozen, exact, validated; the same form is read from problem files."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
 
     def __init__(self, **fields: Any) -> None:
         if not _TRUSTED.get():
@@ -69,6 +69,11 @@ class Givens(BaseModel):
 
     def parameters(self) -> tuple[str, ...]:
         """The parameters left open anywhere in the givens."""
+        return self._left_open
+
+    @cached_property
+    def _left_open(self) -> tuple[str, ...]:
+        """The same; what mistakes apply to, the question and the answers ask for them again and again."""
         found: dict[str, None] = {}
         _collect_parameters(_inside(self), found)
         return tuple(found)

@@ -1,6 +1,7 @@
 """Features of states: what inverse reinforcement learning is given instead of rewards."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import gcd
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.features import FeatureVector
@@ -37,13 +38,13 @@ def check_lengths(vectors: Mapping[str, Sequence[object]], what: str) -> None:
 def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) -> dict[str, tuple[Fraction, ...]]:
     """Whole numbers from 0 on; no state's features are a multiple of another's, and no feature is one of another."""
     while True:
-        columns = [tuple(rng.whole(0, most) for _ in states) for _ in range(count)]
+        columns = [tuple([rng.below(most + 1) for _ in states]) for _ in range(count)]
         rows = list(zip(*columns, strict=True))
         if all(len(set(column)) > 1 for column in columns) and _apart(rows) and _apart(columns):
-            return dict(zip(states, rows, strict=True))
+            return {state: tuple(map(Fraction, row)) for state, row in zip(states, rows, strict=True)}
 
 
-def _apart(vectors: Sequence[tuple[Fraction, ...]]) -> bool:
+def _apart(vectors: Sequence[tuple[int, ...]]) -> bool:
     """Whether none is a multiple of another, and none 0."""
-    shapes = [tuple(value / sum(vector) for value in vector) for vector in vectors if any(vector)]
-    return len(set(shapes)) == len(vectors)
+    shapes = {tuple([value // gcd(*vector) for value in vector]) for vector in vectors if any(vector)}
+    return len(shapes) == len(vectors)

@@ -23,7 +23,7 @@ Cell = tuple[int, int]
 class Grid(BaseModel):
     """A grid world drawn as text; a cell is called by row and column, ``r1c3``."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, defer_build=True)
 
     grid: str = Field(
         min_length=1,

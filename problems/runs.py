@@ -13,7 +13,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Open, Scalar, StepSize, shown
 from rldrill.problems.family import Givens
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import Name, Named, Names, Steps, check_ends, check_keys
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
@@ -113,14 +113,13 @@ def draw_values(rng: Draws, states: Sequence[str], gamma: Fraction) -> dict[str,
 def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:
     """A reward that moves a value towards it and what comes after it: to a multiple of the unit, if there is one."""
 
-    def moved(reward: Fraction) -> Fraction:
-        return old + alpha * (reward + after - old)
+    start, still = old + alpha * (after - old), plain(old - after)
 
-    def fits(reward: Fraction) -> bool:
-        return moved(reward) != old and (unit is None or moved(reward) % unit == 0)
+    def fits(reward: int | Fraction) -> bool:
+        return reward != still and (unit is None or (start + alpha * reward) % unit == 0)
 
     reward = rng.fitting(-6, 9, fits)
-    return reward if fits(reward) else rng.fitting(-6, 9, lambda reward: moved(reward) != old)
+    return reward if fits(reward) else rng.fitting(-6, 9, lambda reward: reward != still)
 
 
 def draw_rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
@@ -134,7 +133,8 @@ def draw_rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...
 
 
 def _reward_before(rng: Draws, after: Fraction, unit: int) -> Fraction:
-    return rng.fitting(-5, 9, lambda reward: reward + after != 0 and (reward + after) % unit == 0)
+    later = plain(after)
+    return rng.fitting(-5, 9, lambda reward: reward + later != 0 and (reward + later) % unit == 0)
 
 
 def readable(numbers: Iterable[Fraction]) -> bool:
@@ -161,8 +161,9 @@ def draw_whole(
 
 
 def _reward_to_whole(rng: Draws, later: Fraction, soon: Fraction, value: Fraction, unit: int) -> Fraction:
+    long, short, still = plain(later), plain(soon), plain(value)
     return rng.fitting(
-        -6, 9, lambda reward: (reward + later) % unit == 0 and value not in (reward + soon, reward + later)
+        -6, 9, lambda reward: (reward + long) % unit == 0 and still not in (reward + short, reward + long)
     )
 
 

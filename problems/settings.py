@@ -167,16 +167,16 @@ class Shape:
 
 def draw_outcomes(rng: Draws, state: str, action: str, targets: tuple[str, ...], shape: Shape) -> list[Transition]:
     """The transitions of one action: to all the targets, with random probabilities and rewards."""
-    chances = draw_chances(rng, targets, shape)
+    shares, whole = draw_shares(rng, targets, shape)
     return [
-        Transition(state, action, target, chance, rng.whole(-(shape.reward // 2), shape.reward))
-        for target, chance in zip(targets, chances, strict=True)
+        Transition(state, action, target, Fraction(share, whole), rng.whole(-(shape.reward // 2), shape.reward))
+        for target, share in zip(targets, shares, strict=True)
     ]
 
 
-def draw_chances(rng: Draws, targets: tuple[str, ...], shape: Shape) -> tuple[Fraction, ...]:
-    """Random probabilities of all the targets."""
-    return (Fraction(1),) if len(targets) == 1 else rng.split(len(targets), shape.denominators)
+def draw_shares(rng: Draws, targets: tuple[str, ...], shape: Shape) -> tuple[tuple[int, ...], int]:
+    """Random probabilities of all the targets: how many parts of the whole each gets, and how many there are."""
+    return ((1,), 1) if len(targets) == 1 else rng.shares(len(targets), shape.denominators)
 
 
 def draw_targets(
@@ -193,11 +193,12 @@ def draw_targets(
     """
     state, action = pair
     possible = setting.reached(places, state, action)
-    possible = tuple(place for place in possible if place != barred) or possible
+    if barred is not None:
+        possible = tuple(place for place in possible if place != barred) or possible
     chosen = rng.sample(possible, 1 + rng.below(min(shape.branches, len(possible))))
     if action not in setting.actions[1:] and possible[0] not in chosen:
         chosen = (possible[0], *chosen[1:])
-    return tuple(place for place in places if place in chosen)
+    return tuple([place for place in places if place in chosen])
 
 
 def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:

@@ -3,12 +3,13 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
+from operator import add, mul
 from typing import Literal, NamedTuple
 
 from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Parameter, Scalar, dot
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.exact import Parameter, Scalar
+from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import (
     PARTLY_LISTED,
     Dynamics,
@@ -21,7 +22,7 @@ from rldrill.problems.models import (
     values_table,
 )
 from rldrill.problems.parts import Part, Values
-from rldrill.problems.settings import Setting, Shape, draw_chances, draw_targets
+from rldrill.problems.settings import Setting, Shape, draw_shares, draw_targets
 
 #: Discounts, and the number whose multiples are still whole when they are discounted.
 UNITS = {Fraction(1, 2): 2, Fraction(2, 3): 3, Fraction(4, 5): 5, Fraction(9, 10): 10}
@@ -98,8 +99,8 @@ def draw_mixed(rng: Draws, setting: Setting, shape: Shape, gamma: Fraction, deno
         actions = setting.actions[: shape.actions]
         numbers = None
         while numbers is None:  # else actions would be worth the same, and their probabilities would not matter
-            chances = rng.split(len(actions), denominators) if len(actions) > 1 else (Fraction(1),)
-            numbers = averaging(rng, chances, value)
+            one = (Fraction(1),), [value]
+            chances, numbers = draw_averaging(rng, len(actions), denominators, value) if len(actions) > 1 else one
         policy[state] = dict(zip(actions, chances, strict=True))
         worths |= {(state, action): number for action, number in zip(actions, numbers, strict=True)}
     return Mixed(draw_worth(rng, setting, shape, gamma, values, worths), policy, values)
@@ -114,13 +115,14 @@ def draw_values(rng: Draws, states: tuple[str, ...], gamma: Fraction) -> dict[st
 
 def tells_apart(rows: Iterable[Transition], values: Mapping[str, Fraction], gamma: Fraction) -> bool:
     """Whether the actions of a state are worth different numbers, and so are the outcomes of each."""
-    model = Dynamics(transitions=tuple(rows))
-    outcomes = [
-        [Fraction(row.reward) + gamma * values.get(row.next, Fraction(0)) for row in found]
-        for found in model.outcomes.values()
-    ]
-    each = [worth(model, pair, values, gamma) for pair in model.pairs]
-    return all(len({*row}) == len(row) for row in (*outcomes, each))
+    ahead = {state: gamma * value for state, value in values.items()}
+    outcomes: dict[tuple[str, str], list[Fraction]] = {}
+    worths: dict[tuple[str, str], Fraction] = {}
+    for state, action, after, chance, reward in rows:
+        worth, pair = Fraction(reward) + ahead.get(after, 0), (state, action)
+        outcomes.setdefault(pair, []).append(worth)
+        worths[pair] = worths.get(pair, 0) + Fraction(chance) * worth
+    return all(len({*row}) == len(row) for row in (*outcomes.values(), worths.values()))
 
 
 def draw_worth(
@@ -138,12 +140,11 @@ def draw_worth(
     """
     ends = (setting.terminal,) if shape.ends else ()
     places = (*setting.states[: shape.states], *ends)
+    certain = replace(shape, branches=1)
     rows = [
         row
         for pair, worth in worths.items()
-        for row in draw_paying(
-            rng, setting, places, pair, worth, values, gamma, replace(shape, branches=1) if pair in sure else shape
-        )
+        for row in draw_paying(rng, setting, places, pair, worth, values, gamma, certain if pair in sure else shape)
     ]
     return Model(story=setting.told(ends), transitions=tuple(rows), terminal=ends)
 
@@ -163,31 +164,41 @@ def draw_paying(
 
     No two of its outcomes are worth the same, so that their probabilities matter; none is the place that is barred.
     """
+    ahead = {place: plain(gamma * value) for place, value in values.items()}
+    wanted = plain(worth)
     for _ in range(_ATTEMPTS):
         targets = draw_targets(rng, setting, places, pair, shape, barred)
-        chances = draw_chances(rng, targets, shape)
-        ahead = [gamma * values.get(target, Fraction(0)) for target in targets]
-        mean = worth - dot(chances, ahead)
-        rewards = averaging(rng, chances, mean)
+        shares, whole = draw_shares(rng, targets, shape)
+        later = [ahead.get(target, 0) for target in targets]
+        rewards = averaging(rng, shares, wanted * whole - sum(map(mul, shares, later)))
         if rewards is None or max(map(abs, rewards)) > _LARGEST_REWARD:
             continue
-        if len({reward + after for reward, after in zip(rewards, ahead, strict=True)}) == len(targets):
+        if len({*map(add, rewards, later)}) == len(targets):
             return [
-                Transition(*pair, target, chance, reward)
-                for target, chance, reward in zip(targets, chances, rewards, strict=True)
+                Transition(*pair, target, Fraction(share, whole), reward)
+                for target, share, reward in zip(targets, shares, rewards, strict=True)
             ]
     target = next(place for place in setting.reached(places, *pair) if place != barred)
     return [Transition(*pair, target, Fraction(1), worth - gamma * values.get(target, Fraction(0)))]
 
 
-def averaging(rng: Draws, chances: tuple[Fraction, ...], mean: Fraction) -> list[Fraction] | None:
-    """Different whole numbers with that mean, as far as some are found."""
-    near = mean.numerator // mean.denominator
+def draw_averaging(
+    rng: Draws, count: int, denominators: Sequence[int], mean: Fraction
+) -> tuple[tuple[Fraction, ...], list[Fraction] | None]:
+    """Probabilities, and different whole numbers with that mean, if some are found."""
+    shares, whole = rng.shares(count, denominators)
+    return tuple([Fraction(share, whole) for share in shares]), averaging(rng, shares, plain(mean) * whole)
+
+
+def averaging(rng: Draws, shares: tuple[int, ...], total: int | Fraction) -> list[Fraction] | None:
+    """Different whole numbers that make up a total, each taken as often as its share says, as far as some are found."""
+    first, *others = shares
+    near = total // sum(shares) - 4
     for _ in range(_ATTEMPTS):
-        rest = [near + rng.whole(-4, 4) for _ in chances[1:]]
-        first = (mean - dot(chances[1:], rest)) / chances[0]
-        if first.denominator == 1 and len({first, *rest}) == len(chances):
-            return [first, *rest]
+        rest = [near + rng.below(9) for _ in others]
+        number, left = divmod(total - sum(map(mul, others, rest)), first)
+        if not left and len({number, *rest}) == len(shares):
+            return [*map(Fraction, (number, *rest))]
     return None
 
 

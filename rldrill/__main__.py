@@ -15,6 +15,7 @@ def run() -> NoReturn:
     """Run a command, and end at once: taking down what was imported takes longer than most commands themselves."""
     if not _BRIEF.isdisjoint(sys.argv[1:2]):
         gc.disable()
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # looking for them reads every package's metadata
     code = 0
     try:
         from rldrill.cli import main

@@ -37,7 +37,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
-for module in (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, gallery, generate, audit):
+_COMMANDS = (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, gallery, generate, audit)
+_NAMED = [module for module in _COMMANDS if sys.argv[1:2] == [module.NAME]]
+for module in _NAMED or _COMMANDS:  # the others would only take time
     app.command(module.NAME)(module.command)
 
 

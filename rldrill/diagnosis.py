@@ -313,7 +313,7 @@ def _compared(cause: Cause) -> tuple[Equation, Equation] | None:
         right = step.right if cause.edit is None else cause.edit.right
         with suppress(*UNDONE):
             value = value_of(right, known) if cause.became is None else cause.became
-            return _short(replace(step, right=right, value=value)), _short(step)
+            return _short(step._replace(right=right, value=value)), _short(step)
     if cause.edit is not None and cause.formula is not None:
         return cause.formula.equation(cause.edit.right), cause.formula.equation(cause.formula.right)
     return None

@@ -321,7 +321,7 @@ def _written(lines: Iterable[Line], stated: set[Formula]) -> Iterator[Block]:
         elif isinstance(line, Note):
             yield Paragraph(line.text)
         elif isinstance(line, Drawn):
-            yield line.picture
+            yield from line.pictures()
         elif isinstance(line, Result):
             yield from line.equations()
         elif isinstance(line, Elimination):

@@ -14,7 +14,6 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.errors import BrokenFamily, UsageError
 from rldrill.problems.family import Family, Givens, Problem, trusted
 from rldrill.problems.identity import MAX_SEED, Identity, split_id
-from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
 from rldrill.solutions.solution import Solution, solve
@@ -106,8 +105,10 @@ def flaws(solution: Solution) -> Iterator[str]:
 
 def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:
     """Whether a marker can tell these answers from the right ones, in one part at least."""
-    return any(_differ(solution.cells[part.label], answer_kind(part.kind).cells(answers[part.label]))
-               for part in solution.problem.parts if part.label in answers)  # fmt: skip
+    for label, kind in solution.kinds.items():
+        if label in answers and _differ(solution.cells[label], kind.cells(answers[label])):
+            return True
+    return False
 
 
 def _differ(right: Mapping[str, Any], wrong: Mapping[str, Any]) -> bool:

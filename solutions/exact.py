@@ -1,6 +1,7 @@
 """Exact values, and all that is asked of them, whatever their form: the one place where forms are told apart."""
 
 from collections.abc import Iterable
+from contextlib import suppress
 from decimal import ROUND_HALF_UP, Decimal, localcontext
 from functools import lru_cache, singledispatch
 from math import isfinite
@@ -55,7 +56,11 @@ def _rational(number: Fraction) -> fmpq:
 
 def simplest(value: Any) -> Any:
     """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
-    return value if isinstance(value, fmpq) else _simplest(value)
+    return value if type(value) in _SIMPLE else _simplest(value)
+
+
+#: Of what is of these types, nothing can be simpler.
+_SIMPLE = frozenset({fmpq, RationalFunction, tuple, str, bool})
 
 
 @singledispatch
@@ -63,7 +68,6 @@ def _simplest(value: Any) -> Any:
     return value
 
 
-_simplest.register(bool, lambda value: value)
 _simplest.register(int, fmpq)
 _simplest.register(Rational, lambda value: fmpq(value.numerator, value.denominator))
 _simplest.register(sympy.Rational, fraction)
@@ -136,7 +140,7 @@ def length(_value: Any) -> int:
 
 
 length.register(fmpq, fmpq.height_bits)
-length.register(RationalFunction, lambda value: max(map(length, value.coefficients), default=0))
+length.register(RationalFunction, RationalFunction.bits)
 
 
 @length.register(sympy.Expr)
@@ -313,6 +317,49 @@ def clear_sign(value: Value, at: fmpq | None, precision: int) -> int | None:
         return int(ball > 0) - int(ball < 0) if ball.is_finite() else None
 
 
+@lru_cache(maxsize=4096)
+def _near(value: Value) -> arb:
+    with ctx.workprec(_PRECISIONS[0]):
+        return enclosure(value)
+
+
+def difference(first: Value, second: Value) -> arb:
+    """A ball that holds the difference of two values, which are not subtracted: for closed forms that takes long.
+
+    Raises:
+        NotReal: one of them has no real value, or holds a parameter.
+    """
+    with ctx.workprec(_PRECISIONS[0]):
+        return _near(first) - _near(second)
+
+
+def order(first: Value, second: Value) -> int:
+    """−1, 0 or 1: the sign of the first value less the second.
+
+    Raises:
+        NotReal: the difference is not a real number, or cannot be told from zero.
+    """
+    if is_closed(first) or is_closed(second):
+        with suppress(NotReal):  # a parameter may fall out of the difference
+            ball = difference(first, second)
+            if found := int(ball > 0) - int(ball < 0):
+                return found
+    return sign(first - second)
+
+
+def equal(first: Value, second: Value) -> bool:
+    """Whether two values are the same number, or the same function of what is left open."""
+    if first == second:
+        return True
+    if type(first) is type(second) is fmpq:
+        return False
+    if is_closed(first) or is_closed(second):
+        with suppress(NotReal):
+            if difference(first, second) != 0:
+                return False
+    return is_zero(first - second)
+
+
 def largest(values: Iterable[Value]) -> Value:
     """The greatest of some real values.
 
@@ -325,7 +372,7 @@ def largest(values: Iterable[Value]) -> Value:
     best, *rest = every
     for value in rest:
         try:
-            if sign(value - best) > 0:
+            if order(value, best) > 0:
                 best = value
         except NotReal:
             raise NoSolution("which is the greatest depends on what is left open") from None

@@ -13,13 +13,13 @@ from rldrill.solutions.rational import RationalFunction
 
 Key = TypeVar("Key")
 Given = TypeVar("Given")
-Known = TypeVar("Known", dict[str, Any], list[dict[str, Any]])
+Known = TypeVar("Known", dict[str, Any], list[Any])
 
 #: The one action of a terminal state, worth nothing; no action of a problem can have this name.
 NO_ACTION = "–"
 
 
-def _kept(known: Callable[[Given], Known]) -> Callable[[Given], Known]:
+def kept(known: Callable[[Given], Known]) -> Callable[[Given], Known]:
     """Remember what came out for the last givens: their mistakes ask for what their solution asked for."""
     last: tuple[Any, Any] = None, None
 
@@ -58,7 +58,7 @@ def discounts(gamma: Scalar | tuple[Scalar, ...]) -> dict[str, Any]:
     return {"gamma": exact(gamma)}
 
 
-@_kept
+@kept
 def model(given: Dynamics) -> dict[str, Any]:
     """A model as P, R, actions and successors; pairs of states without a transition have P = R = 0."""
     P: dict[Any, Value] = Sparse()
@@ -106,7 +106,7 @@ def features(given: Mapping[str, Sequence[Scalar]]) -> dict[tuple[int, str], Val
     return {(index, state): exact(value) for state, row in given.items() for index, value in enumerate(row, 1)}
 
 
-@_kept
+@kept
 def trajectory(run: Trajectory) -> dict[str, Any]:
     """A run as s_t, a_t and r_t, by time."""
     return {
@@ -116,7 +116,7 @@ def trajectory(run: Trajectory) -> dict[str, Any]:
     }
 
 
-@_kept
+@kept
 def moves(given: ValueRun | ValueMoves | ActionRun | ActionMoves) -> list[dict[str, Any]]:
     """What is known of every transition, which goes from its time t to t + 1: t, s, a and r."""
     seen: Sequence[StateMove | ActionMove] = given.moves
@@ -140,7 +140,7 @@ def action_run(given: ActionRun) -> dict[str, Any]:
     return known
 
 
-@_kept
+@kept
 def action_values(given: ActionRun | ActionMoves) -> dict[str, Any]:
     """The action values, α and γ; where an episode ends there is one action, worth 0."""
     return {

@@ -13,6 +13,7 @@ from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.formula.formula import Formula, Misconception, slip
+from rldrill.solutions.knowns import kept
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.sheet.linear_methods import (
@@ -86,15 +87,23 @@ def moved_point(given: System, work: Work, state: AnyMatrix, rates: AnyMatrix) -
     return hold(given, next(linearised(undiscretised, Work()))).point(work, state, rates)
 
 
-def _at_zero(given: System, work: Work) -> Iterator[AnyMatrix]:
+@kept
+def _rightly(given: System) -> list[AnyMatrix]:
+    """The right matrices, with which those of both mistakes are compared."""
+    return list(linearised(given, Work()))
+
+
+@kept
+def _at_zero(given: System) -> list[AnyMatrix]:
     """The derivatives where every state and every action is zero."""
     zero = {field: dict.fromkeys(getattr(given, field), Angle(Fraction(0))) for field in ("state", "action")}
-    return linearised(given.model_copy(update=zero), work)
+    return list(linearised(given.model_copy(update=zero), Work()))
 
 
-def _exchanged(given: System, work: Work) -> Iterator[AnyMatrix]:
+@kept
+def _exchanged(given: System) -> list[AnyMatrix]:
     """Sines for cosines in all derivatives, and the other way round."""
-    return linearised(given, work, lambda *of: dynamics.exchanged(dynamics.chained(*of)))
+    return list(linearised(given, Work(), lambda *of: dynamics.exchanged(dynamics.chained(*of))))
 
 
 def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception, ...]:
@@ -104,19 +113,19 @@ def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception
             "derivative-at-zero",
             "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
             when=lambda given: _changes(given, _at_zero),
-        )(lambda given, work: solve(given, work, _at_zero)),
+        )(lambda given, work: solve(given, work, lambda given, _: iter(_at_zero(given)))),
         slip(
             "sine-for-cosine",
             "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
             when=lambda given: _changes(given, _exchanged),
-        )(lambda given, work: solve(given, work, _exchanged)),
+        )(lambda given, work: solve(given, work, lambda given, _: iter(_exchanged(given)))),
     )
 
 
-def _changes(given: System, mistaken: Linearised) -> bool:
+def _changes(given: System, mistaken: Callable[[System], list[AnyMatrix]]) -> bool:
     """Whether a mistake can be made at this operating point, and leads to other derivatives."""
     try:
-        return list(linearised(given, Work())) != list(mistaken(given, Work()))
+        return _rightly(given) != mistaken(given)
     except (NoSolution, ZeroDivisionError):
         return False
 

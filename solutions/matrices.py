@@ -3,14 +3,14 @@
 import operator
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import Any, Protocol, TypeGuard
 
-from flint import fmpq_mat
+from flint import fmpq, fmpq_mat
 
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import surds
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_rational, is_zero, simplest, tidy
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, is_zero, simplest, tidy
 
 
 class AnyMatrix(Protocol):
@@ -113,14 +113,18 @@ def is_matrix(value: object) -> TypeGuard[AnyMatrix]:
 
 def matrix(rows: Iterable[Iterable[Value | int]]) -> AnyMatrix:
     """Rows of values as a matrix, of flint's kind if it can be."""
-    lines = [[tidy(simplest(entry)) for entry in line] for line in rows]
-    if all(is_rational(entry) for line in lines for entry in line):
-        return fmpq_mat(len(lines), len(lines[0]), [entry for line in lines for entry in line])
+    lines: list[list[Any]] = [
+        [entry if type(entry) is fmpq else tidy(simplest(entry)) for entry in line] for line in rows
+    ]
+    entries = [entry for line in lines for entry in line]
+    if {*map(type, entries)} == {fmpq}:
+        return fmpq_mat(len(lines), len(lines[0]), entries)
     return ExactMatrix(tuple(map(tuple, lines)))
 
 
+@lru_cache(maxsize=1024)
 def given(rows: Rows) -> AnyMatrix:
-    """A matrix of a problem's givens."""
+    """A matrix of a problem's givens; mistakes need those that the solution needs."""
     return matrix([exact(entry) for entry in line] for line in rows)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import chain
 from typing import NoReturn
 
@@ -91,6 +92,7 @@ class _Choice:
 _Table = Sequence[Sequence[_Choice]]
 
 
+@lru_cache(maxsize=8)  # the solution of a problem asks for it, and so does every mistake
 def optimum(mdp: Model, gamma: Fraction) -> Optimum:
     """The optimal values of a model, by policy iteration.
 

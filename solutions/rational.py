@@ -30,6 +30,8 @@ class RationalFunction:
     bottom: fmpq_poly
 
     def __add__(self, other: Value | int) -> Value:
+        if isinstance(other, fmpq):
+            return RationalFunction(self.parameter, self.top + self.bottom * other, self.bottom)
         return self._with(other, operator.add, _sum)
 
     __radd__ = __add__
@@ -44,6 +46,8 @@ class RationalFunction:
         return -self + other
 
     def __mul__(self, other: Value | int) -> Value:
+        if isinstance(other, fmpq):
+            return RationalFunction(self.parameter, self.top * other, self.bottom) if other else other
         return self._with(other, operator.mul, _product)
 
     __rmul__ = __mul__
@@ -86,6 +90,11 @@ class RationalFunction:
         """All coefficients that are not zero, as they are written: whole numbers if there is a quotient."""
         top, bottom = self._written()
         return tuple(c for poly in (top, bottom) for c in poly.coeffs() if c)
+
+    def bits(self) -> int:
+        """How many binary digits the longest whole number of its polynomials has."""
+        every = (self.top, self.bottom)
+        return max(*(poly.numer().height_bits() for poly in every), *(int(poly.denom()).bit_length() for poly in every))
 
     def _written(self) -> tuple[fmpq_poly, fmpq_poly]:
         """Top and bottom with whole coefficients, unless the bottom is 1; what is below begins with a plus."""

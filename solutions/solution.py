@@ -3,13 +3,13 @@
 import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
 
 from rldrill.problems.errors import BrokenFamily
 from rldrill.problems.family import Family, Problem
-from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.answers.kinds import Answer, answer_kind
 from rldrill.solutions.exact import NoSolution, NotGiven
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.work import Line, Recalled, Step, Work
@@ -71,6 +71,13 @@ def _demanded(module: ModuleType, name: str) -> Any:
         raise BrokenFamily(f"{module.__file__}: a solver must have {name}; add it.") from None
 
 
+@lru_cache(maxsize=1024)
+def _made(family: Family, read: tuple[Formula, ...]) -> tuple[Misconception, ...]:
+    """The misconceptions of a family that can be made where these formulas are read."""
+    in_reading = {mistake for formula in read for mistake in formula.misread}
+    return tuple([each for each in solver(family).misconceptions if each.is_slip or each in in_reading])
+
+
 #: Of a longer working no mistakes are made: nobody does it by hand, and each takes as long as the solution.
 _MOST_LINES = 2000
 
@@ -89,9 +96,14 @@ class Solution:
         return self.work.answers
 
     @cached_property
+    def kinds(self) -> Mapping[str, Answer[Any]]:
+        """How the answers of every part are handled."""
+        return {part.label: answer_kind(part.kind) for part in self.problem.parts}
+
+    @cached_property
     def cells(self) -> Mapping[str, Mapping[str, Any]]:
         """The exact answer of every part, taken apart into what is judged one by one."""
-        return {part.label: answer_kind(part.kind).cells(self.answers[part.label]) for part in self.problem.parts}
+        return {label: kind.cells(self.answers[label]) for label, kind in self.kinds.items()}
 
     @property
     def lines(self) -> tuple[Line, ...]:
@@ -127,9 +139,8 @@ class Solution:
     @cached_property
     def applicable(self) -> tuple[Misconception, ...]:
         """The misconceptions of the family that can be made here: slips, and misreadings of what is read here."""
-        made_in_reading = {mistake for formula in self.work.read for mistake in formula.misread}
-        every, given = solver(self.problem.family).misconceptions, self.problem.given
-        return tuple([each for each in every if (each.is_slip or each in made_in_reading) and each.applies(given)])
+        given = self.problem.given
+        return tuple([each for each in _made(self.problem.family, tuple(self.work.read)) if each.applies(given)])
 
     def misread(self, mistake: Misconception) -> Formula | None:
         """The formula of the working that a mistake reads otherwise, the first of them; None if it is a slip."""
@@ -141,19 +152,21 @@ class Solution:
         """The answers that a mistake gives; None where it leads to none, so that nobody can give it."""
         if carried:
             return self._made(misconception, carried)
-        if misconception not in self._mistaken:
-            self._mistaken[misconception] = self._made(misconception, {})
-        return self._mistaken[misconception]
+        key = misconception.key
+        if key not in self._mistaken:
+            self._mistaken[key] = self._made(misconception, {})
+        return self._mistaken[key]
 
     @cached_property
-    def _mistaken(self) -> dict[Misconception, Mapping[str, Any] | None]:
-        """What the mistakes give that somebody has asked for."""
+    def _mistaken(self) -> dict[tuple[str, str], Mapping[str, Any] | None]:
+        """What the mistakes give that somebody has asked for, by their keys."""
         return {}
 
     def _made(self, misconception: Misconception, carried: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        same: Sequence[Any] = () if carried or misconception.is_slip else self.work.values
+        right = () if carried else tuple(self.answers.values())
         try:
-            same = () if carried or misconception.is_slip else self.work.values
-            return run(self.problem, misconception, carried, same).answers
+            return run(self.problem, misconception, carried, same, right).answers
         except (NoSolution, NotGiven):
             return None
 
@@ -170,6 +183,7 @@ def run(
     misconception: Misconception | None = None,
     carried: Mapping[str, Any] | None = None,
     same: Sequence[Any] = (),
+    right: Sequence[Any] = (),
 ) -> Work:
     """Let the family's solver work, with a mistake or somebody's earlier answers if given.
 
@@ -178,13 +192,14 @@ def run(
         misconception: the mistake.
         carried: the earlier answers.
         same: what comes out on the right way, up to the formula that is misread.
+        right: the answers of the right way.
 
     Raises:
         NoSolution: the problem has no answer.
         NotGiven: the mistake asks for something that the problem does not give.
         BrokenFamily: the right way does, or it answers other parts than those that are asked.
     """
-    work = Work(misconception, carried or {}, same)
+    work = Work(misconception, carried or {}, same, right)
     slipping = None if misconception is None else misconception.solve
     try:
         (slipping or solver(problem.family).solve)(problem.given, work)

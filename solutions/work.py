@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
+from typing import Any, NamedTuple
 
 from flint import fmpq
 from sympy import Expr
@@ -13,9 +13,9 @@ from rldrill.problems.mathematics import Math, listed, mathematics, name, punctu
 from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
-from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy, to_sympy
+from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
 from rldrill.solutions.formula.compiling import DivisionError, value_of
-from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination, multiple
+from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.notation import Quantity
@@ -27,15 +27,7 @@ from rldrill.solutions.rational import generator, linear, without_quotients
 from rldrill.solutions.vector import Vector
 
 
-@dataclass(frozen=True)
-class Step:
-    """One application of a formula: what was put in, and the exact value that came out.
-
-    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
-    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
-    ``$t = 2$``: an update that knows its t says it unasked.
-    """
-
+class _Applied(NamedTuple):
     formula: Formula
     right: Expr
     known: Mapping[str, Any]
@@ -44,6 +36,15 @@ class Step:
     into: Callable[..., Expr] | None = None
     own: bool = False
     label: str | None = None
+
+
+class Step(_Applied):
+    """One application of a formula: what was put in, and the exact value that came out.
+
+    ``into`` names the quantity that comes out, where it is not the formula's own; ``own`` says that the right side is
+    the problem's own (a derivative of its dynamics), not the formula's; ``label`` which of many steps it is,
+    ``$t = 2$``: an update that knows its t says it unasked.
+    """
 
     @cached_property
     def named(self) -> Expr:
@@ -103,9 +104,14 @@ class Step:
 
 @dataclass(frozen=True)
 class Note:
-    """A sentence between the steps."""
+    """A sentence between the steps; one that takes long to make is made when somebody looks."""
 
-    text: str
+    said: str | Callable[[], str]
+
+    @cached_property
+    def text(self) -> str:
+        """The sentence."""
+        return self.said if isinstance(self.said, str) else self.said()
 
 
 @dataclass(frozen=True)
@@ -121,9 +127,9 @@ class Recalled:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture between the steps."""
+    """Pictures between the steps, which are made when somebody looks."""
 
-    picture: Picture
+    pictures: Callable[[], Iterable[Picture]]
 
 
 @dataclass(frozen=True)
@@ -195,11 +201,13 @@ class Work:
         carried: for follow-through, a person's own answers to earlier parts.
         same: what came out on the right way, application by application: up to the formula that is misread, the same
             comes out here.
+        right: for a slip, the answers of the right way, where they are known.
     """
 
     misconception: Misconception | None = None
     carried: Mapping[str, Any] = field(default_factory=dict)
     same: Sequence[Any] = ()
+    right: Sequence[Any] = ()
     values: list[Any] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     answers: dict[str, Any] = field(default_factory=dict)
@@ -219,7 +227,7 @@ class Work:
         if mistake is None:
             self.read[formula] = None
             return formula.right
-        misread = formula.misread.get(mistake)
+        misread = formula.readings.get(mistake.key)
         if misread is None:
             return formula.right
         self.same = ()
@@ -342,32 +350,33 @@ class Work:
         if sign(slope) < 0:
             slope, constant = ZERO - slope, ZERO - constant
         value = bounded(simplest(ZERO - constant / slope))
-        symbol = to_sympy(generator(letter))
+        unknown = generator(letter)
         self.lines.append(Equality(left, (right,)))
         if cleared:
             self.lines.append(Equality(cleared[0], (cleared[1],)))
             left = cleared[0]
-        if slope != 1 and left != generator(letter) * slope:
-            self.lines.append(Equality(multiple(slope, symbol), (ZERO - constant,)))
-        if (left, right) != (generator(letter), value):
-            self.lines.append(Equality(symbol, (value,)))
+        if slope != 1 and left != unknown * slope:
+            self.lines.append(Equality(unknown * slope, (ZERO - constant,)))
+        if (left, right) != (unknown, value):
+            self.lines.append(Equality(unknown, (value,)))
         return value
 
     def recall(self, formula: Formula) -> None:
         """Write a formula down as it stands: a definition that steps by other formulas serve."""
         self.lines.append(Recalled(formula))
 
-    def picture(self, *pictures: Picture) -> None:
-        """Draw pictures between the steps."""
-        self.lines += map(Drawn, pictures)
+    def picture(self, pictures: Callable[..., Iterable[Picture]], *of: Any) -> None:
+        """Draw pictures between the steps: what a function makes of these values."""
+        self.lines.append(Drawn(partial(pictures, *of)))
 
     def give(self, formula: Formula, value: Any, **indices: Any) -> None:
         """Write down what comes out for the quantity of a formula, by other means than putting in."""
         self.lines.append(Result((indexed(formula.left, indices),), (value,)))
 
-    def say(self, text: str) -> None:
-        """Write a sentence between the steps; mathematics stands between ``$`` signs."""
-        self.lines.append(Note(text))
+    def say(self, said: str | Callable[[], str]) -> None:
+        """Write a sentence between the steps, or what makes it; mathematics stands between ``$`` signs."""
+        if self.misconception is None:  # nobody reads the working of a mistake
+            self.lines.append(Note(said))
 
     def answer(self, value: Any) -> Any:
         """Give the answer of the next part, and get back what to go on with.

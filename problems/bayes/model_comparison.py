@@ -1,5 +1,6 @@
 """The evidences of models of a coin, their posterior odds, and which of them is the most probable."""
 
+from functools import cache, lru_cache
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -16,6 +17,18 @@ from rldrill.problems.parts import Number, Part, Values, YesNo
 TITLE = "Model comparison"
 SOURCE = "MacKay 2003, section 3.3"
 REVISION = 2
+
+
+@lru_cache(maxsize=4096)  # the same coins are drawn again and again
+def _evidence(certain: tuple[tuple[Fraction, Fraction], ...], a: int, b: int, heads: int, tails: int) -> Fraction:
+    if certain:
+        return sum((theta**heads * (1 - theta) ** tails * chance for theta, chance in certain), Fraction(0))
+    result = Fraction(1)
+    for toss in range(heads + tails):
+        seen = (toss, 0) if toss < heads else (heads, toss - heads)
+        counts = (a + seen[0], b + seen[1])
+        result *= Fraction(counts[toss >= heads], sum(counts))
+    return result
 
 
 class CoinModel(Givens):
@@ -55,14 +68,7 @@ class CoinModel(Givens):
 
     def evidence(self, heads: int, tails: int) -> Fraction:
         """The probability of these tosses in their order, toss by toss."""
-        if self.certain:
-            return sum((theta**heads * (1 - theta) ** tails * chance for theta, chance in self.certain), Fraction(0))
-        result = Fraction(1)
-        for toss in range(heads + tails):
-            seen = (toss, 0) if toss < heads else (heads, toss - heads)
-            counts = (self.a + seen[0], self.b + seen[1])
-            result *= Fraction(counts[toss >= heads], sum(counts))
-        return result
+        return _evidence(self.certain, self.a, self.b, heads, tails)
 
     def allows(self, heads: int, tails: int) -> bool:
         """Whether there can be such tosses."""
@@ -155,15 +161,15 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(models=models, prior=dict(zip(names, prior, strict=True)), heads=heads, tails=tails)
 
 
+_coin = cache(CoinModel)
+
+
 def _models(level: int, rng: Draws, *, two: bool) -> dict[str, CoinModel]:
-    fair = CoinModel(theta=_HALF)
-    unknown = CoinModel()
-    loaded = CoinModel(theta=rng.fraction("1/3", "2/3", "1/4", "3/4"))
+    fair, unknown = _coin(theta=_HALF), _coin()
+    loaded = _coin(theta=rng.fraction("1/3", "2/3", "1/4", "3/4"))
     share = rng.fraction("1/4", "1/3")
-    marked = CoinModel(thetas=((share, _HALF), (1 - share, _HALF)))
-    bent, worn = (
-        CoinModel(a=int(a), b=int(b)) for a, b in (rng.distinct(2, 1, 3), rng.choice(((1, 1), (2, 2), (3, 3))))
-    )
+    marked = _coin(thetas=((share, _HALF), (1 - share, _HALF)))
+    bent, worn = (_coin(a=a, b=b) for a, b in (rng.integers(2, 1, 3), rng.choice(((1, 1), (2, 2), (3, 3)))))
     if level == 1:
         return rng.choice(({"unknown": unknown, "fair": fair}, {"loaded": loaded, "fair": fair}))
     if two:

@@ -13,7 +13,7 @@ from rldrill.problems.models import Dynamics, Lookahead, Transition, draw_letter
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting, draw_targets
-from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_apart, worth
+from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, tells_apart, worth
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
@@ -54,7 +54,7 @@ def draw(level: int, rng: Draws) -> Given:
         if any(old.probability == Fraction(1, 2) != new.probability for old, new in zip(rows, opened, strict=True)):
             return draw(level, rng)  # a half would be guessed
         return Given(dynamics=Dynamics(transitions=tuple(opened)), values=_named(values, rows), gamma=left, find=True)
-    if level == 2 and rng.chance(Fraction(1, 2)) and (worths := averaging(rng, rng.split(2, (4, 5)), values[state])):
+    if level == 2 and rng.chance(Fraction(1, 2)) and (worths := draw_averaging(rng, 2, (4, 5), values[state])[1]):
         shape = Shape(states=4, actions=2, branches=2)
         rows = [
             row

@@ -23,7 +23,7 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open, unknown
 from rldrill.problems.settings import Shape, draw_outcomes, draw_setting, draw_targets
-from rldrill.problems.valued import averaging, draw_paying, draw_values, tells_apart
+from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, tells_apart
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
@@ -90,8 +90,8 @@ def _to_find(rng: Draws) -> Given:
     shape = Shape(states=4, actions=2, branches=2, denominators=(4,))
     actions = setting.actions[: 2 + rng.below(2)]
     values = draw_values(rng, setting.states, gamma)
-    chances = rng.split(len(actions), (4,))
-    worths = averaging(rng, chances, values[state]) or [values[state] + number for number in range(len(actions))]
+    chances, worths = draw_averaging(rng, len(actions), (4,), values[state])
+    worths = worths or [values[state] + number for number in range(len(actions))]
     rows = [
         row
         for action, worth in zip(actions, worths, strict=True)

@@ -9,7 +9,7 @@ from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Discounts, Exact, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.fractions import Fraction
+from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.parts import Choice, Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
@@ -106,9 +106,9 @@ def _rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
 
 def _reward_before(rng: Draws, later: Fraction, gamma: Fraction, multiple: int) -> Fraction:
     """A reward that makes a multiple of a number with what comes later, where that is whole; but not 0 or the same."""
-    after = gamma * later
+    after, same = plain(gamma * later), plain(later)
     whole = multiple if after.denominator == 1 else Fraction(1, after.denominator)
-    return rng.fitting(-4, 9, lambda reward: reward + after not in (0, later) and (reward + after) % whole == 0)
+    return rng.fitting(-4, 9, lambda reward: reward + after not in (0, same) and (reward + after) % whole == 0)
 
 
 def _total(rewards: Sequence[Fraction], gamma: Fraction) -> Fraction:

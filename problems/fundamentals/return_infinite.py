@@ -84,8 +84,8 @@ def _round(rng: Draws, length: int, gamma: Fraction, unit: Fraction = Fraction(1
     """Rewards of a round, not all equal, whose return is a multiple of the unit."""
     opening = _first(rng, length - 1)
 
-    def fits(last: Fraction) -> bool:
-        worth = _from_start((*opening, last), 0, gamma)
+    def fits(last: int) -> bool:
+        worth = _from_start((*opening, Fraction(last)), 0, gamma)
         return worth != 0 and worth % unit == 0 and last != opening[0]
 
     return (*opening, rng.fitting(-9, 12, fits))

@@ -1,13 +1,14 @@
 """The feature expectations of a policy, estimated from trajectories that were recorded."""
 
 from collections.abc import Mapping
+from operator import mul
 from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
 from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
+from rldrill.problems.exact import Discount, Exact, Parameter, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.feature_vectors import FeaturesField, check_features, draw_features
 from rldrill.problems.features import features_table
@@ -81,14 +82,20 @@ def draw(level: int, rng: Draws) -> Given:
 def _different(runs: list[tuple[str, ...]], features: Mapping[str, tuple[Fraction, ...]]) -> bool:
     """Whether, with γ = 1/2, every trajectory matters, and every state of it: the mean is another without it."""
 
-    def summed(run: tuple[str, ...]) -> tuple[Fraction, ...]:
-        weights = [Fraction(1, 2**time) for time in range(len(run))]
-        return tuple(dot(weights, column) for column in zip(*(features[state] for state in run), strict=True))
+    length = len(runs[0])
+    weights = [2 ** (length - time) for time in range(length)]
+    whole = {state: [feature.numerator for feature in row] for state, row in features.items()}
+
+    def summed(run: tuple[str, ...]) -> list[int]:
+        return [sum(map(mul, weights, column)) for column in zip(*[whole[state] for state in run], strict=True)]
 
     sums = [summed(run) for run in runs]
-    mean = tuple(sum(column) / len(runs) for column in zip(*sums, strict=True))
-    shorter = [summed(run[:time] + run[time + 1 :]) == summed(run) for run in runs for time in range(len(run))]
-    return mean not in sums and not any(shorter)
+    total = [sum(column) for column in zip(*sums, strict=True)]
+    return all(
+        total != [len(runs) * number for number in found]
+        and all(summed(run[:time] + run[time + 1 :]) != found for time in range(length))
+        for run, found in zip(runs, sums, strict=True)
+    )
 
 
 def _back(rng: Draws, states: tuple[str, ...]) -> Given:

@@ -1,7 +1,6 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
-from collections.abc import Mapping, Sequence
-from math import lcm
+from collections.abc import Iterable, Mapping, Sequence
 from operator import mul
 from typing import Self
 
@@ -89,10 +88,15 @@ class Given(Givens):
         return {state: self.start.get(state, Fraction(0)) for state in self.states}
 
 
-#: The probability of every next state from every state, whatever is done.
-Chain = Mapping[str, Mapping[str, Fraction]]
+#: The probability of every next state from every state, whatever is done, in so many parts of 1.
+Chain = Mapping[str, Mapping[str, int]]
+_CERTAIN = 48
+#: Feature expectations, and the features behind them, of every state.
+Found = tuple[dict[str, int], dict[str, int]]
+#: The probabilities of two actions, in twelfths; and discounts, above and below the line.
+_CHANCES = ((6, 6), (3, 9), (9, 3), (4, 8), (8, 4))
+_GAMMAS = ((1, 2), (2, 3), (3, 4))
 
-_NEVER = Fraction(0)
 _STATES, _END, _ACTIONS = ("A", "B", "C"), "end", ("left", "right")
 
 #: How many states, actions and features there are.
@@ -106,41 +110,47 @@ def draw(level: int, rng: Draws) -> Given:
     found = None
     while found is None:
         motion = {action: {state: _outcomes(rng, states) for state in states} for action in actions}
-        policy = {state: dict(zip(actions, _chances(rng, choices), strict=True)) for state in states}
-        gamma = rng.fraction("1/2", "2/3", "3/4")
+        policy = {state: (12,) if choices == 1 else rng.choice(_CHANCES) for state in states}
+        above, below = rng.choice(_GAMMAS)
         chain = {
-            state: _row([(policy[state][action], motion[action][state]) for action in actions], states)
-            for state in states
+            state: _row(policy[state], [outcomes[state] for outcomes in motion.values()], states) for state in states
         }
-        found = _expected(rng, chain, gamma, size) if _connected(chain) and _suits(level, chain) else None
+        if _connected(chain) and _suits(level, chain):
+            later = [[above * chance for chance in row.values()] for row in chain.values()]
+            found = _expected(rng, later, below * _CERTAIN, size)
         if found and choices > 1 and any(_alike([rows[state] for rows in motion.values()], found) for state in states):
             found = None
-    features = {
-        state: tuple(mu[state] - gamma * dot(chain[state].values(), mu.values()) for mu in found) for state in states
-    }
     start = dict(zip(states, rng.split(count, (3, 4) if count == 2 else (4, 5)), strict=True))
-    given = Given(motion=motion, policy=policy, features=features, start=start, terminal=(_END,), gamma=gamma)
+    given = Given(
+        motion={action: {state: _over(4, row) for state, row in rows.items()} for action, rows in motion.items()},
+        policy={state: _over(12, dict(zip(actions, chances, strict=True))) for state, chances in policy.items()},
+        features={state: tuple(Fraction(phi[state]) for _, phi in found) for state in states},
+        start=start,
+        terminal=(_END,),
+        gamma=Fraction(above, below),
+    )
     if level < 3:
         return given
-    opened = {**policy, rng.choice(states): {"left": Parameter("q"), "right": Parameter("1-q")}}
-    matched = dot(start.values(), found[0].values()) if rng.chance(Fraction(2, 3)) else None
+    opened = {**given.policy, rng.choice(states): {"left": Parameter("q"), "right": Parameter("1-q")}}
+    matched = dot(start.values(), map(Fraction, found[0][0].values())) if rng.chance(Fraction(2, 3)) else None
     return given.model_copy(update={"policy": opened, "matched": matched})
 
 
-def _chances(rng: Draws, choices: int) -> tuple[Fraction, ...]:
-    chance = Fraction(1) if choices == 1 else rng.fraction("1/2", "1/4", "3/4", "1/3", "2/3")
-    return (chance, 1 - chance)[:choices]
+def _over(below: int, row: Mapping[str, int]) -> dict[str, Fraction]:
+    return {name: Fraction(above, below) for name, above in row.items()}
 
 
-def _outcomes(rng: Draws, states: tuple[str, ...]) -> dict[str, Fraction]:
+def _outcomes(rng: Draws, states: tuple[str, ...]) -> dict[str, int]:
+    """Where an action leads, with what probabilities in quarters."""
     targets = rng.sample((*states, _END), 1 + rng.below(2))
-    return dict(zip(targets, rng.split(len(targets), (len(targets), 4)[: len(targets)]), strict=True))
+    shares, whole = rng.shares(len(targets), (len(targets), 4)[: len(targets)])
+    return {target: share * 4 // whole for target, share in zip(targets, shares, strict=True)}
 
 
-def _row(choices: Sequence[tuple[Fraction, Mapping[str, Fraction]]], states: tuple[str, ...]) -> dict[str, Fraction]:
+def _row(chances: Iterable[int], choices: Iterable[Mapping[str, int]], states: tuple[str, ...]) -> dict[str, int]:
     """Where a state leads, whatever is done: of every action its probability, and where it leads."""
-    row = dict.fromkeys(states, _NEVER)
-    for taken, outcomes in choices:
+    row = dict.fromkeys(states, 0)
+    for taken, outcomes in zip(chances, choices, strict=True):
         for target, chance in outcomes.items():
             if target in row:
                 row[target] += taken * chance
@@ -150,8 +160,8 @@ def _row(choices: Sequence[tuple[Fraction, Mapping[str, Fraction]]], states: tup
 def _connected(chain: Chain) -> bool:
     """Whether every state leads to one, is not left for itself alone, and the end is reached from somewhere."""
     kept = {state: sum(row.values()) for state, row in chain.items()}
-    return any(chance < 1 for chance in kept.values()) and all(
-        chance and chance - chain[state][state] < 1 for state, chance in kept.items()
+    return min(kept.values()) < _CERTAIN and all(
+        chance and chance - chain[state][state] < _CERTAIN for state, chance in kept.items()
     )
 
 
@@ -161,39 +171,30 @@ def _suits(level: int, chain: Chain) -> bool:
     return level == 3 or len(chain) > 2 or coupled == (level == 2)
 
 
-def _alike(rows: Sequence[Mapping[str, Fraction]], expected: Sequence[Mapping[str, Fraction]]) -> bool:
+def _alike(rows: Sequence[Mapping[str, int]], found: Sequence[Found]) -> bool:
     """Whether it makes no difference which of some actions is taken."""
-    worth = [
-        [sum((chance * mu.get(state, 0) for state, chance in row.items()), Fraction(0)) for mu in expected]
-        for row in rows
-    ]
+    worth = [[sum(chance * mu.get(state, 0) for state, chance in row.items()) for mu, _ in found] for row in rows]
     return worth[0] == worth[1]
 
 
-def _expected(rng: Draws, chain: Chain, gamma: Fraction, size: int) -> list[dict[str, Fraction]] | None:
+def _expected(rng: Draws, later: Sequence[Sequence[int]], below: int, size: int) -> list[Found] | None:
     """Different whole feature expectations whose features are small whole numbers; None where some tries find none."""
-    later = [_over_one([gamma * chance for chance in row.values()]) for row in chain.values()]
-    found: list[tuple[int, ...]] = []
+    found: dict[tuple[int, ...], list[int]] = {}
     for _ in range(20):
-        mu = rng.integers(len(chain), 2, 16)
-        phi = _features(mu, later)
-        if len(phi) == len(mu) and len(set(phi)) > 1 and mu not in found:
-            found.append(mu)
+        mu = rng.integers(len(later), 2, 16)
+        phi = _features(mu, later, below)
+        if len(phi) == len(mu) and len(set(phi)) > 1:
+            found[mu] = phi
         if len(found) == size:
-            return [dict(zip(chain, map(Fraction, each), strict=True)) for each in found]
+            return [(dict(zip(_STATES, mu, strict=False)), dict(zip(_STATES, phi, strict=False)))
+                    for mu, phi in found.items()]  # fmt: skip
     return None
 
 
-def _over_one(numbers: Sequence[Fraction]) -> tuple[list[int], int]:
-    """Numbers over their common denominator: what stands above it, and what it is."""
-    below = lcm(*(number.denominator for number in numbers))
-    return [number.numerator * (below // number.denominator) for number in numbers], below
-
-
-def _features(mu: Sequence[int], later: Sequence[tuple[Sequence[int], int]]) -> list[int]:
+def _features(mu: Sequence[int], later: Sequence[Sequence[int]], below: int) -> list[int]:
     """The features behind feature expectations, as far as they are small whole numbers."""
     phi = []
-    for own, (row, below) in zip(mu, later, strict=True):
+    for own, row in zip(mu, later, strict=True):
         value, rest = divmod(own * below - sum(map(mul, row, mu)), below)
         if rest or not 0 < value <= 9:
             break

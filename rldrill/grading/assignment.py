@@ -4,12 +4,15 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from rldrill.exam.manifest import Printed, printed, read_exam
 from rldrill.files import read_text, shown
 from rldrill.grading.answers_file import JOINERS, PLACE, Entry, table
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import looks_like_id, split_id
+
+if TYPE_CHECKING:
+    from rldrill.exam.manifest import Printed
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +24,7 @@ class Sitting:
 
     student: str
     number: str
-    version: Printed | None
+    version: "Printed | None"
     why: str = ""
 
 
@@ -41,6 +44,8 @@ class Assignment:
 
     def __init__(self, manifest: Path, version: str | None = None, roster: Path | None = None) -> None:
         self.manifest = manifest
+        from rldrill.exam.manifest import printed, read_exam
+
         exam = read_exam(manifest)[0]
         self.title, self.partial, self.scale = exam.head.title, exam.partial, exam.scale
         self._ids_printed = exam.layout.ids
@@ -77,7 +82,7 @@ class Assignment:
         whose = f"{entry.student!r} is" if entry.student else "an answer without a student is"
         return Sitting(entry.student, entry.number, None, f"{whose} not on the roster; correct the name or number.")
 
-    def place(self, entry: Entry, version: Printed) -> int | str:
+    def place(self, entry: Entry, version: "Printed") -> int | str:
         """Where in the version an answer belongs, from 0; or why it does not."""
         name = entry.problem
         if PLACE.fullmatch(name):
@@ -107,12 +112,12 @@ class Assignment:
             return f"{name} is of another level than the exam's"
         return f"{name} is not in this exam"
 
-    def guesses(self, entries: Sequence[Entry], version: Printed) -> bool:
+    def guesses(self, entries: Sequence[Entry], version: "Printed") -> bool:
         """Whether somebody tries IDs out, to learn which ones the exam has, and redraw their keys."""
         ids = {entry.problem for entry in entries if looks_like_id(entry.problem)}
         return not self._ids_printed and len(ids) > 2 * len(version.ids) + 10
 
-    def called(self, version: Printed, place: int) -> str:
+    def called(self, version: "Printed", place: int) -> str:
         """What reports call a problem: its ID only where that was printed, for an ID names its own key."""
         return (self._ids_printed and version.ids[place]) or f"problem {place + 1}"
 

@@ -7,11 +7,9 @@ from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from time import perf_counter
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rldrill.diagnosis import IN_A_FILE, Diagnosis
-from rldrill.exam.exam import Version
-from rldrill.exam.manifest import read_exam
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
@@ -19,6 +17,9 @@ from rldrill.grading.report import MISSING, Judged, Score
 from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
+
+if TYPE_CHECKING:
+    from rldrill.exam.exam import Version
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
 Ref: TypeAlias = str | tuple[str, int]
@@ -114,8 +115,8 @@ class Desk:
         return self._problems[ref]
 
     @cached_property
-    def _makes(self) -> Mapping[str, Callable[[], Version]]:
-        from rldrill.exam.manifest import codes
+    def _makes(self) -> Mapping[str, "Callable[[], Version]"]:
+        from rldrill.exam.manifest import codes, read_exam
 
         assert self._manifest is not None, "a number in a version needs an exam"
         return dict(zip(codes(self._manifest), read_exam(self._manifest)[1], strict=True))

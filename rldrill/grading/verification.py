@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
-from rldrill.exam.manifest import Printed
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
 from rldrill.grading.assignment import Assignment, Sitting, folded
@@ -16,6 +16,9 @@ from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id, split_id
+
+if TYPE_CHECKING:
+    from rldrill.exam.manifest import Printed
 
 #: How long the grading of one student may take, and that of a run, in seconds.
 STUDENT = 30.0
@@ -187,7 +190,7 @@ class _Run:
         return StudentReport(sitting.student, tuple(parts), sitting.number, version, tuple(paths), extra)
 
     def _parts(
-        self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: Printed | None
+        self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: "Printed | None"
     ) -> Iterator[MarkedPart]:
         try:
             if perf_counter() - self._begun > RUN:

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import lru_cache
 
 from flint import fmpq
@@ -10,6 +11,7 @@ from rldrill.solutions.exact import (
     Value,
     absolute,
     clear_sign,
+    difference,
     is_closed,
     is_rational,
     is_zero,
@@ -58,8 +60,13 @@ _remembered = lru_cache(maxsize=4096)(_tolerance)
 
 def within(value: Value, key: Value, bound: fmpq) -> bool:
     """Whether |value − key| ≤ bound, the bound included."""
-    difference = value - key
-    return sign(bound - difference) >= 0 and sign(bound + difference) >= 0
+    if is_closed(value) or is_closed(key):
+        with suppress(NotReal):
+            size = abs(difference(value, key))
+            if size < bound or size > bound:
+                return bool(size < bound)
+    exactly = value - key
+    return sign(bound - exactly) >= 0 and sign(bound + exactly) >= 0
 
 
 def is_right(value: Value, key: Value, *, rounded: bool = True) -> bool:
@@ -105,15 +112,15 @@ def equivalent(value: Value, key: Value) -> bool:
     What the proof cannot decide (logarithms of the parameter) is the same if both are real at every point, and no
     point tells them apart in a thousand bits.
     """
-    difference = simplest(value - key)
-    if not is_closed(difference):
-        return bool(difference == 0)
+    gap = simplest(value - key)
+    if not is_closed(gap):
+        return bool(gap == 0)
     try:
-        if any(clear_sign(difference, point, _FEW_BITS) for point in points(value)):
+        if any(clear_sign(gap, point, _FEW_BITS) for point in points(value)):
             return False
-        proved = vanishes(difference)
+        proved = vanishes(gap)
         if proved is None:
-            return all(clear_sign(difference, point, _MANY_BITS) == 0 for point in points(value))
+            return all(clear_sign(gap, point, _MANY_BITS) == 0 for point in points(value))
         return proved
     except NotReal:
         return False

@@ -46,7 +46,7 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         asked = step > 1 or given.outcome is None
         belief = _moves(event, work, moves, belief, known)
         if asked:
-            work.picture(*before_and_after(before, belief))
+            work.picture(before_and_after, before, belief)
             belief = work.answer(belief)
     if given.ahead is not None:
         _told(work, given.ahead)

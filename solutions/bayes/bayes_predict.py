@@ -37,7 +37,7 @@ def solve(given: Given, work: Work) -> None:
         actions = actions[given.after :]
     for action in actions:
         after = _moved(work, action, belief, motion)
-        work.picture(*before_and_after(belief, after))
+        work.picture(before_and_after, belief, after)
         belief = work.answer(after)
 
 

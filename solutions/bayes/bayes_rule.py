@@ -44,7 +44,7 @@ def solve(given: Given, work: Work) -> None:
         readings = readings[1:]
     for reading in readings:
         posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})
-        work.picture(*before_and_after(belief, posterior))
+        work.picture(before_and_after, belief, posterior)
         belief = work.answer(posterior)
 
 

@@ -69,7 +69,7 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
     """The bounds, then the arm that has the greatest."""
     known = _counted(given, averages) | {"c": exact(given.c)}
     bounds = work.answer({arm: work.step(UCB, a=arm, **known) for arm in given.tried})
-    work.say(f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
+    work.say(lambda: f"In decimals: {', '.join(f'$U({arm}) ≈ {decimal(bound, 4)}$' for arm, bound in bounds.items())}.")
     if given.untried:
         work.say(f"No bound is as great as that of an arm that was never pulled: {joined([*given.untried])}.")
         work.answer({NEXT: given.untried})
@@ -96,8 +96,10 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     work.say("Equal bounds, $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, are solved for $c$:")
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
-        f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
-        f"$c > {decimal(weight, 3)}$."
+        lambda: (
+            f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
+            f"$c > {decimal(weight, 3)}$."
+        )
     )
     work.answer({NEXT: (rarer,)})
 

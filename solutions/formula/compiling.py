@@ -4,7 +4,6 @@ import keyword
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from math import factorial
-from operator import itemgetter
 from typing import Any
 
 import sympy
@@ -13,7 +12,7 @@ from sympy import Expr
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, is_zero, largest, monomial, simplest
+from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, equal, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.limits import rooted
 from rldrill.solutions.matrices import is_matrix
@@ -85,7 +84,7 @@ class DivisionError(NoSolution):
 
 def _inverse(value: Any) -> Any:
     try:
-        return value.inv() if is_matrix(value) else ONE / value
+        return ONE / value if type(value) is fmpq or not is_matrix(value) else value.inv()
     except ZeroDivisionError:
         raise DivisionError("it would divide by zero, or invert a singular matrix") from None
 
@@ -123,7 +122,7 @@ def _circular(function: Callable[[Expr], Expr], angle: Value) -> Value:
 def arg_max(keys: Sequence[Any], values: Sequence[Value]) -> tuple[Any, ...]:
     """All keys whose value is the greatest, in their order."""
     best = largest(values)
-    return tuple([key for key, value in zip(keys, values, strict=True) if value == best or is_zero(best - value)])
+    return tuple([key for key, value in zip(keys, values, strict=True) if equal(best, value)])
 
 
 #: All that a compiled formula can call, besides the values of its nodes: nothing of Python's own is among it.
@@ -151,26 +150,21 @@ def needs(expression: Expr) -> tuple[str, ...]:
 
 
 @cache
-def compiled(expression: Expr) -> Callable[..., Any]:
-    """The expression as a Python function of the names that it needs, in their order.
+def compiled(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
+    """The expression as a Python function of what is known.
 
     What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
     get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
-    they are printed, and are bound as arguments. Typed answers and the names of states never do.
+    they are printed, and are looked up in what is known. Typed answers and the names of states never do.
     """
     compiler = Compiler()
-    source = f"lambda {', '.join(map(_checked, needs(expression)))}: {compiler.doprint(expression)}"
+    names = "".join([f"{_checked(name)} := known['{name}'], " for name in needs(expression)])
+    source = f"lambda known: ({names}{compiler.doprint(expression)},)[-1]"
     return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
 
 
-@cache
-def _reader(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
-    """The same as a function of all that is known."""
-    function, names = compiled(expression), needs(expression)
-    if len(names) < 2:
-        return lambda known: function(*[known[name] for name in names])
-    values = itemgetter(*names)
-    return lambda known: function(*values(known))
+#: The functions of expressions by their identity: to look for an expression itself takes as long as many a formula.
+_FUNCTIONS: dict[int, tuple[Expr, Callable[[Mapping[str, Any]], Any]]] = {}
 
 
 def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
@@ -181,6 +175,9 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
         NoSolution: it has no value.
     """
     try:
-        return _reader(expression)(known)
+        found = _FUNCTIONS.get(id(expression))
+        if found is None:
+            found = _FUNCTIONS[id(expression)] = expression, compiled(expression)
+        return found[1](known)
     except LookupError as error:
         raise NotGiven(f"no value is given for {error.args[0]!r}, which the formula needs") from None

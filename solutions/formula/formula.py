@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from sympy import Expr
@@ -46,6 +46,11 @@ class Misconception:
 
     def __repr__(self) -> str:
         return f"<misconception {self.name}>"
+
+    @cached_property
+    def key(self) -> tuple[str, str]:
+        """What tells it from others, in a form that is quickly looked up."""
+        return self.name, self.says
 
     @property
     def is_slip(self) -> bool:
@@ -101,6 +106,11 @@ class Formula:
 
     def __repr__(self) -> str:
         return f"<formula {self.key}>"
+
+    @cached_property
+    def readings(self) -> Mapping[tuple[str, str], Expr]:
+        """How each mistake reads it, by the mistake's key: every step of every mistake asks for it."""
+        return {mistake.key: right for mistake, right in self.misread.items()}
 
     def equation(self, right: Expr | None = None) -> Equation:
         """The formula typeset, or with another right side: how a mistake reads it."""

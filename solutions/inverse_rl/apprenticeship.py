@@ -59,8 +59,8 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         limit = exact(given.tolerance)
         stops = sign(limit - left) >= 0
         relation = "≤" if stops else ">"
-        compared = f"$‖w‖ ≈ {decimal(left, 3)} {relation} {shown(given.tolerance)}$"
-        work.say(f"{compared}: the method {'stops' if stops else 'goes on'}.")
+        compared = f"{relation} {shown(given.tolerance)}$: the method {'stops' if stops else 'goes on'}."
+        work.say(lambda: f"$‖w‖ ≈ {decimal(left, 3)} {compared}")
         work.answer(stops)
 
 

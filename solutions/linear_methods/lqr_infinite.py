@@ -47,9 +47,12 @@ def solve(given: Given, work: Work) -> None:
     if closed.nrows() == 1 and given.gamma == 1:
         loop = f"A − B {given.notation.gain}"
         value = closed[0, 0]
-        number = f"= {told(value)}" if is_rational(value) else f"≈ {decimal(value, 4)}"
-        work.say(f"${loop} {number}$ is between $−1$ and $1$: stable, as it must be.")
+        work.say(lambda: f"${loop} {_told(value)}$ is between $−1$ and $1$: stable, as it must be.")
     work.answer(closed)
+
+
+def _told(value: Value) -> str:
+    return f"= {told(value)}" if is_rational(value) else f"≈ {decimal(value, 4)}"
 
 
 def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator) -> None:
