@@ -1,9 +1,10 @@
 """The problems for one place of an exam, one for every version: none twice, and no answer twice if there are enough."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache, partial
 from itertools import islice
 
 from rldrill.exam.fairness import chosen, content, told
@@ -24,29 +25,48 @@ _BALANCED = 6
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A problem that could stand in a place, with what fairness asks of it."""
+    """A problem that could stand in a place, with what fairness asks of it.
 
-    exercise: Exercise
+    Thousands wait for a place of a large exam, and with its solution each would take many times the memory: those that
+    are taken are drawn once more.
+
+    Args:
+        exercise: what makes the problem.
+        content: what is given, as text.
+        told: the answers that are worth copying, with their parts.
+        chosen: the answers that are chosen from a few.
+        options: what those are chosen from.
+        time: the minutes that it takes.
+        form: what it asks for: problems of one form are worth the same points part by part.
+    """
+
+    exercise: Callable[[], Exercise]
     content: str
     told: frozenset[tuple[str, str]]
     chosen: tuple[tuple[str, str], ...]
+    options: Mapping[str, tuple[str, ...]]
     time: Fraction
-
-    @property
-    def form(self) -> tuple[tuple[str, str], ...]:
-        """What it asks for: problems of one form are worth the same points part by part."""
-        return tuple((part.label, part.kind.name) for part in self.exercise.problem.parts)
+    form: tuple[tuple[str, str], ...]
 
 
-def candidate(exercise: Exercise) -> Candidate:
-    """A problem as a candidate."""
+def candidate(made: Callable[[], Exercise]) -> Candidate:
+    """The problem that is made so, as a candidate."""
+    exercise = made()
+    parts = {part.label: part for part in exercise.problem.parts}
+    answers = tuple(chosen(exercise))
     return Candidate(
-        exercise,
+        made,
         content(exercise),
         frozenset(told(exercise)),
-        tuple(chosen(exercise)),
+        answers,
+        {label: _options(parts[label]) for label, _ in answers},
         minutes(exercise.solution),
+        tuple((label, part.kind.name) for label, part in parts.items()),
     )
+
+
+#: Of a small exam nothing is drawn twice.
+_remembered = lru_cache(maxsize=256)(draw)
 
 
 @dataclass(frozen=True)
@@ -123,9 +143,8 @@ def _drawn(place: Place, seeds: Iterable[int], used: set[str]) -> Iterator[Candi
         if stale == _STALE:
             return
         stale += 1
-        exercise = draw(place.family, place.level, seed)
-        found = candidate(exercise)
-        if found.content not in seen and set(place.parts) <= {len(exercise.problem.parts)}:
+        found = candidate(partial(_remembered, place.family, place.level, seed))
+        if found.content not in seen and set(place.parts) <= {len(found.form)}:
             seen.add(found.content)
             stale = 0
             yield found
@@ -204,9 +223,8 @@ def _one_sided(each: Candidate, balance: Counter[tuple[str, str]]) -> int:
     """How much more often than the rarest its choices are right already."""
     if not each.chosen:
         return 0
-    parts = {part.label: part for part in each.exercise.problem.parts}
     return sum(
-        balance[label, answer] - min(balance[label, option] for option in _options(parts[label]))
+        balance[label, answer] - min(balance[label, option] for option in each.options[label])
         for label, answer in each.chosen
     )
 

@@ -1,10 +1,8 @@
 """The PDFs of one version of an exam, made from the manifest alone: in this process, or in several at once."""
 
 import os
-import signal
 from collections import deque
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
@@ -12,6 +10,7 @@ from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rldrill.background import deaf
 from rldrill.exam.exam import Exam, Layout, Version
 from rldrill.exam.manifest import read_exam
 from rldrill.print.fonts import needs_system_fonts
@@ -60,7 +59,7 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
     if len(tasks) < _MANY or others < 1:
         yield from map(_typeset, tasks)
         return
-    with _deaf():
+    with deaf():
         os.environ["RAYON_NUM_THREADS"] = "1"  # what Typst goes by: each process takes one processor
         pool = get_context("spawn").Pool(others, maxtasksperchild=_REPLACED)
     with pool:  # which ends them, whatever happens
@@ -77,19 +76,6 @@ def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[Task]:
             yield _typeset(waiting.popleft())
         while running and (running[0].ready() or not waiting):
             yield running.popleft().get()
-
-
-@contextmanager
-def _deaf() -> Iterator[None]:
-    """What is started here does not hear Ctrl-C: that is for the process that waits for it."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _typeset(task: Task) -> Task:
