@@ -16,11 +16,11 @@ def three_steps(advance: Callable[[], None]) -> tuple[int, ...]:
     return (os.getpid(),)
 
 
-def refuses(advance: Callable[[], None]) -> None:
+def refuses(_: Callable[[], None]) -> None:
     raise UsageError("There are too few problems.")
 
 
-def is_ended(advance: Callable[[], None]) -> None:
+def is_ended(_: Callable[[], None]) -> None:
     os.kill(os.getpid(), signal.SIGTERM)
 
 
