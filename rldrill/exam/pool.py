@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
 from itertools import islice
@@ -19,6 +19,8 @@ _ATTEMPTS, _EACH, _STALE = 400, 20, 200
 #: Drawing goes on while twice as many problems serve so many more versions, and to so many problems altogether or a
 #: version.
 _GROWTH, _ENOUGH, _ENOUGH_EACH = Fraction(11, 10), 100, 16
+#: An answer is rather shared than versions unequally long: a problem may be off by so many tolerances then.
+_CLOSE = Fraction(5, 4)
 #: So many are looked at to find one that keeps yes and no in balance.
 _BALANCED = 6
 
@@ -92,7 +94,7 @@ def problems(place: Place, count: int, draws: Draws, used: set[str], most: int =
     """Problems for a place; fewer than ``count`` if the family has no more, and none if none fits.
 
     Those of one form are taken that have the most different answers. Where they are too few, as little is shared as can
-    be, and no answer more often than it must.
+    be among those that take about as long, and no answer more often than it must.
 
     Args:
         place: what is wanted.
@@ -104,12 +106,22 @@ def problems(place: Place, count: int, draws: Draws, used: set[str], most: int =
     best, groups = _searched(place, count, (draws.below(most) for _ in range(_ATTEMPTS + _EACH * count)), used)
     if len(best) == count or not groups:
         return best
-    nearest = [_nearest_first(group, place) for group in groups]
-    apart = max((_apart(group, count) for group in nearest), key=len)
-    if len(apart) == count:
-        return apart
-    large = [group for group in groups if len(group) >= count] or [max(groups, key=len)]
-    return min((_spread(group, place, count) for group in large), key=_shared)
+    nearest = [(_nearest_first(group, centre := _centred(place, group)), centre) for group in groups]
+    far = _CLOSE * place.tolerance
+    close = [([each for each in group if _excess(each, group, centre) <= far], centre) for group, centre in nearest]
+    for some in (close, nearest):
+        apart = max((_apart(group, count) for group, _ in some), key=len)
+        if len(apart) == count:
+            return apart
+    large = next(filter(None, ([each for each in some if len(each[0]) >= count] for some in (close, nearest))), None)
+    largest = max(nearest, key=lambda each: len(each[0]))
+    return min((_spread(group, centre, count) for group, centre in large or [largest]), key=_shared)
+
+
+def _centred(place: Place, group: Sequence[Candidate]) -> Place:
+    """The place with the minutes that most of its problems take, where none are wanted."""
+    times = sorted(each.time for each in group)
+    return place if place.time is not None else replace(place, time=times[len(times) // 2])
 
 
 def variety(family: str, level: int, most: int) -> int:
