@@ -310,7 +310,8 @@ def _reprinted(
 
     exam, makes = read_exam(source)
     _keep_sealed(exam, changes)
-    personal = makes[0]().person is not None
+    personal, number = makes[0]().person is not None, len(makes)
+    del makes  # hundreds of versions are not kept while they are typeset
     layout = replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
     target = output or source.with_suffix(".pdf")
     check_output(target)
@@ -325,10 +326,11 @@ def _reprinted(
         for path in files.pdfs():
             path.unlink(missing_ok=True)
     if beside or only_keys:
-        return _counted(files, len(makes), lambda advance: print_from(source, files, advance))
+        return _counted(files, number, lambda advance: print_from(source, files, advance))
     make_room(files, force=force)
-    data = json.loads(source.read_text(encoding="utf-8")) | {"layout": asdict(layout), "typst": now}
-    return _counted(files, len(makes), lambda advance: write(files, written(data), advance))
+    how = {"layout": asdict(layout), "typst": now}
+    data = written(json.loads(source.read_text(encoding="utf-8")) | how)
+    return _counted(files, number, lambda advance: write(files, data, advance))
 
 
 def _counted(files: "Files", number: int, run: Callable[[Callable[[], None]], Iterator[Path]]) -> list[Path]:
