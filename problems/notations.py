@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, lru_cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ _INDEXED = re.compile(r"(?P<stem>[^\W\d_])(?P<index>[₀-₉]*[′']*)")
 #: What is capital in Sutton & Barto's notation, or a return in the lecture's, and a matrix elsewhere.
 _AMBIGUOUS = tuple(Glyph(letter, "variable") for letter in "Rsa")
 _OF_LINEAR_SYSTEMS = tuple(Glyph(letter, "variable") for letter in "BL")
+_REWARD, _STATE_AND_ACTION = Glyph("r", "variable"), mathematics("(s_ⓣ, a_ⓣ)")
 
 _in_use: ContextVar[str] = ContextVar("notation", default=LECTURE)
 
@@ -125,8 +127,11 @@ def _may_be_matrix(pattern: Math) -> bool:
 
 @lru_cache(maxsize=4096)
 def is_linear(math: Any) -> bool:
-    """Whether something is of linear systems: it has a transpose, the matrix B or the gain L."""
+    """Whether something is of linear systems: it has a transpose, the matrix B, the gain L or the reward r(sₜ, aₜ)."""
     if isinstance(math, Script) and math.above == Glyph("T", "word"):
+        return True
+    items = math.items if isinstance(math, Row) else ()
+    if any(left == _REWARD and _fits(_STATE_AND_ACTION, right, {}) for left, right in pairwise(items)):
         return True
     return math in _OF_LINEAR_SYSTEMS or any(map(is_linear, _children(math)))
 

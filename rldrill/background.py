@@ -1,19 +1,74 @@
-"""Work in the background of a terminal."""
+"""Work beside the thread that a terminal talks to: in another thread, or in a process of its own."""
 
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from threading import Thread
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+T = TypeVar("T")
 
 
 def in_background(work: Callable[[], None]) -> Thread:
     """Start a thread that Ctrl-C passes by: else it may reach this one, and the prompt would not hear of it."""
     thread = Thread(target=work, daemon=True)
+    with deaf():
+        thread.start()
+    return thread
+
+
+@contextmanager
+def deaf() -> Iterator[None]:
+    """What is started here does not hear Ctrl-C: that is for the thread that waits for it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
-        thread.start()
-        return thread
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # a new thread has the mask of the one before
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # what is new has the mask of what started it
     try:
-        thread.start()
+        yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-    return thread
+
+
+def apart(work: Callable[[Callable[[], None]], T], advance: Callable[[], None]) -> T:
+    """Do some work in a process of its own, which takes all its memory with it when it ends.
+
+    Args:
+        work: the work, which calls what it is given at each of its steps; with its result and errors it can be pickled.
+        advance: called here at each of its steps.
+
+    Raises:
+        ChildProcessError: the process was ended by somebody.
+    """
+    from multiprocessing import get_context
+
+    context = get_context("spawn")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=_apart, args=(there, work), daemon=True)
+    with deaf():
+        process.start()
+    there.close()
+    try:
+        while True:
+            match here.recv():
+                case None:
+                    advance()
+                case BaseException() as error:
+                    raise error
+                case (result,):
+                    return result
+    except EOFError:
+        raise ChildProcessError("a process was ended before its work was done") from None
+    finally:
+        process.kill()
+        process.join()
+
+
+def _apart(connection: "Connection", work: Callable[[Callable[[], None]], Any]) -> None:
+    try:
+        connection.send((work(lambda: connection.send(None)),))
+    except Exception as error:  # it is raised on the other side
+        connection.send(error)

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -23,9 +24,9 @@ from rldrill.exam.planning import plan
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
-from rldrill.print.worksheet import even_columns, space_of, worksheet_source
+from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
 from rldrill.problems.errors import UsageError
-from rldrill.problems.parts import Matrix, Number, Part
+from rldrill.problems.parts import Choice, Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.rule import RULE
@@ -172,11 +173,22 @@ def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["expected-return", "a"] == 4  # eight minutes' worth, the most
+    assert rooms["expected-return", "a"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
     part = long.parts[0]
     assert space_of(long, part, "none") == 0 < space_of(long, part, "tight") < space_of(long, part, "wide")
+
+
+def test_short_options_stand_side_by_side_and_are_read_down_the_columns() -> None:
+    exercise = draw("backup-diagram-name", 1, 1)
+    (part, *_) = exercise.parts
+    six = {letter: f"option {letter}" for letter in "ABCDEF"}
+    assert options(replace(part, kind=Choice(six))) == "#choices(3, {})\n".format(
+        ", ".join(f'[#"({letter}) option {letter}";]' for letter in "ACEBDF")
+    )
+    long = {letter: "of an option that is a whole sentence there is one on a line " + letter for letter in "AB"}
+    assert options(replace(part, kind=Choice(long))).startswith("#choices(1, ")
 
 
 @pytest.mark.parametrize(("cells", "columns"), [(1, 1), (5, 5), (6, 3), (7, 4), (11, 4), (16, 4)])

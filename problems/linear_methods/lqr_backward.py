@@ -119,7 +119,7 @@ def question(given: Given) -> Question:
             (f"What is the {matrix} ${P}_{{{time}}}$ of the {'cost-to-go' if in_costs else 'value'} ${value}$",
              Matrix(n, n)),
         ]  # fmt: skip
-    wanted.append((f"What is the best first action ${u}_0$", Matrix(m, 1)))
+    wanted.append((f"What is the best first action ${u}_0 = −{L}_0 {x}_0$", Matrix(m, 1)))
     blocks = _plain(given) if given.plain and not in_costs else _costs(given)
     if len(given.asked) < given.horizon:
         first = f"Only the first {len(given.asked)} of the {given.horizon} times are asked for"

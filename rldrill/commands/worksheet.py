@@ -13,6 +13,7 @@ from rldrill.exam.choices import Paper, Solutions, Space
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
     from rldrill.exam.exam import Exam
+    from rldrill.exam.fairness import Fairness
     from rldrill.exam.sealing import Secret
     from rldrill.export.formats import Format
     from rldrill.print.exam_files import Files
@@ -137,6 +138,7 @@ def _is_blueprint_file(names: list[str], blueprint: "Blueprint") -> bool:
 
 
 def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None) -> "Exam":
+    from rldrill.exam.fairness import fairness
     from rldrill.exam.planning import plan
     from rldrill.exam.roster import read_roster
 
@@ -144,7 +146,7 @@ def _drawn(blueprint: "Blueprint", roster: Path | None, secret_file: Path | None
     with _progress("Drawing", len(people) or blueprint.versions) as advance:
         exam = plan(blueprint, roster=people, secret=_secret(secret_file), advance=advance)
     typer.echo(f"seed {exam.seed}", err=True)
-    _tell_fairness(exam)
+    _tell_fairness(len(exam.versions), fairness(exam))
     return exam
 
 
@@ -159,12 +161,9 @@ def _secret(path: Path | None) -> "Secret | None":
     return secret
 
 
-def _tell_fairness(exam: "Exam") -> None:
-    from rldrill.exam.fairness import fairness
-
-    if (number := len(exam.versions)) == 1:
+def _tell_fairness(number: int, figures: "Fairness") -> None:
+    if number == 1:
         return
-    figures = fairness(exam)
     typer.echo(f"{number} versions: {figures.says()}", err=True)
     if scarce := figures.says_what_is_scarce(number):
         typer.echo(f"rldrill: {scarce}", err=True)
@@ -242,8 +241,8 @@ def _is_problem(name: str) -> bool:
 def _printed(
     blueprint: "Blueprint", output: Path, roster: Path | None, secret_file: Path | None, *, only_keys: bool, force: bool
 ) -> list[Path]:
-    from rldrill.exam.manifest import manifest, written
-    from rldrill.exam.planning import plan, version_codes
+    from rldrill.exam.drawn import drawn
+    from rldrill.exam.planning import version_codes
     from rldrill.exam.roster import read_roster
     from rldrill.exam.selection import fresh_seed
     from rldrill.print.exam_files import Files, check_output, make_room, write
@@ -263,10 +262,9 @@ def _printed(
     if fresh:  # what is there is of another seed: that is told before any work is done
         make_room(files, force=force)
     with _progress("Drawing", number) as advance:
-        exam = plan(blueprint.but(seed=seed), roster=people, secret=secret, advance=advance)
-    data = written(manifest(exam, typst_version()))
-    _tell_fairness(exam)
-    del exam
+        exam = drawn(blueprint.but(seed=seed), typst_version(), roster=people, secret=secret, advance=advance)
+    _tell_fairness(number, exam.fairness)
+    data = exam.manifest
     if not files.manifest.exists() or files.manifest.read_bytes() != data or force:
         make_room(files, force=force)
     return _counted(files, number, lambda advance: write(files, data, advance))
@@ -285,7 +283,8 @@ def _reprinted(
 
     exam, makes = read_exam(source)
     _keep_sealed(exam, changes)
-    personal = makes[0]().person is not None
+    personal, number = makes[0]().person is not None, len(makes)
+    del makes  # hundreds of versions are not kept while they are typeset
     layout = replace(exam.layout, **{name: value for name, value in changes.items() if value is not None})
     target = output or source.with_suffix(".pdf")
     check_output(target)
@@ -300,10 +299,11 @@ def _reprinted(
         for path in files.pdfs():
             path.unlink(missing_ok=True)
     if beside or only_keys:
-        return _counted(files, len(makes), lambda advance: print_from(source, files, advance))
+        return _counted(files, number, lambda advance: print_from(source, files, advance))
     make_room(files, force=force)
-    data = json.loads(source.read_text(encoding="utf-8")) | {"layout": asdict(layout), "typst": now}
-    return _counted(files, len(makes), lambda advance: write(files, written(data), advance))
+    how = {"layout": asdict(layout), "typst": now}
+    data = written(json.loads(source.read_text(encoding="utf-8")) | how)
+    return _counted(files, number, lambda advance: write(files, data, advance))
 
 
 def _counted(files: "Files", number: int, run: Callable[[Callable[[], None]], Iterator[Path]]) -> list[Path]:

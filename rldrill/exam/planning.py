@@ -11,6 +11,7 @@ from rldrill.exam.sealing import Secret
 from rldrill.exam.selection import MAX_DRAWN, fresh_seed
 from rldrill.exam.slots import Slot, slots
 from rldrill.exam.worth import error, partial, worth
+from rldrill.exercise import Exercise
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import UsageError
 from rldrill.problems.identity import MAX_SEED
@@ -54,7 +55,7 @@ def plan(
     points: list[dict[str, int]] = []
     rules: list[dict[str, str]] = []
     for index, row in enumerate(_dealt(columns, count)):
-        exercises = [each.exercise for each in row]
+        exercises = [each.exercise() for each in row]
         points = points or worth(places, exercises, blueprint.points, blueprint.place_of_total)
         rules = rules or partial(places, exercises)
         worthy = [replace(exercise, worth=each) for exercise, each in zip(exercises, points, strict=True)]
@@ -93,7 +94,7 @@ def _columns(
 
     Where it is steered, they take the minutes that are expected.
     """
-    columns = [[] if place.fixed is None else [candidate(place.fixed)] * count for place in places]
+    columns = [[] if place.fixed is None else [_same(place.fixed)] * count for place in places]
     used = {column[0].content for column in columns if column}
     tolerance = _TOLERANCE * sum(place.minutes for place in places)
     ahead = Fraction(0)  # by so many minutes the versions are longer than they should be, until here
@@ -114,6 +115,10 @@ def _columns(
         for _ in range(count * index // len(places), count * (index + 1) // len(places)):
             advance()
     return columns
+
+
+def _same(exercise: Exercise) -> Candidate:
+    return candidate(lambda: exercise)
 
 
 def _too_few(place: Slot, *, some: bool) -> Exception:

@@ -1,9 +1,10 @@
 """The problems for one place of an exam, one for every version: none twice, and no answer twice if there are enough."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache, partial
 from itertools import islice
 
 from rldrill.exam.fairness import chosen, content, told
@@ -18,35 +19,56 @@ _ATTEMPTS, _EACH, _STALE = 400, 20, 200
 #: Drawing goes on while twice as many problems serve so many more versions, and to so many problems altogether or a
 #: version.
 _GROWTH, _ENOUGH, _ENOUGH_EACH = Fraction(11, 10), 100, 16
+#: An answer is rather shared than versions unequally long: a problem may be off by so many tolerances then.
+_CLOSE = Fraction(5, 4)
 #: So many are looked at to find one that keeps yes and no in balance.
 _BALANCED = 6
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A problem that could stand in a place, with what fairness asks of it."""
+    """A problem that could stand in a place, with what fairness asks of it.
 
-    exercise: Exercise
+    Thousands wait for a place of a large exam, and with its solution each would take many times the memory: those that
+    are taken are drawn once more.
+
+    Args:
+        exercise: what makes the problem.
+        content: what is given, as text.
+        told: the answers that are worth copying, with their parts.
+        chosen: the answers that are chosen from a few.
+        options: what those are chosen from.
+        time: the minutes that it takes.
+        form: what it asks for: problems of one form are worth the same points part by part.
+    """
+
+    exercise: Callable[[], Exercise]
     content: str
     told: frozenset[tuple[str, str]]
     chosen: tuple[tuple[str, str], ...]
+    options: Mapping[str, tuple[str, ...]]
     time: Fraction
-
-    @property
-    def form(self) -> tuple[tuple[str, str], ...]:
-        """What it asks for: problems of one form are worth the same points part by part."""
-        return tuple((part.label, part.kind.name) for part in self.exercise.problem.parts)
+    form: tuple[tuple[str, str], ...]
 
 
-def candidate(exercise: Exercise) -> Candidate:
-    """A problem as a candidate."""
+def candidate(made: Callable[[], Exercise]) -> Candidate:
+    """The problem that is made so, as a candidate."""
+    exercise = made()
+    parts = {part.label: part for part in exercise.problem.parts}
+    answers = tuple(chosen(exercise))
     return Candidate(
-        exercise,
+        made,
         content(exercise),
         frozenset(told(exercise)),
-        tuple(chosen(exercise)),
+        answers,
+        {label: _options(parts[label]) for label, _ in answers},
         minutes(exercise.solution),
+        tuple((label, part.kind.name) for label, part in parts.items()),
     )
+
+
+#: Of a small exam nothing is drawn twice.
+_remembered = lru_cache(maxsize=256)(draw)
 
 
 @dataclass(frozen=True)
@@ -72,7 +94,7 @@ def problems(place: Place, count: int, draws: Draws, used: set[str], most: int =
     """Problems for a place; fewer than ``count`` if the family has no more, and none if none fits.
 
     Those of one form are taken that have the most different answers. Where they are too few, as little is shared as can
-    be, and no answer more often than it must.
+    be among those that take about as long, and no answer more often than it must.
 
     Args:
         place: what is wanted.
@@ -84,12 +106,22 @@ def problems(place: Place, count: int, draws: Draws, used: set[str], most: int =
     best, groups = _searched(place, count, (draws.below(most) for _ in range(_ATTEMPTS + _EACH * count)), used)
     if len(best) == count or not groups:
         return best
-    nearest = [_nearest_first(group, place) for group in groups]
-    apart = max((_apart(group, count) for group in nearest), key=len)
-    if len(apart) == count:
-        return apart
-    large = [group for group in groups if len(group) >= count] or [max(groups, key=len)]
-    return min((_spread(group, place, count) for group in large), key=_shared)
+    nearest = [(_nearest_first(group, centre := _centred(place, group)), centre) for group in groups]
+    far = _CLOSE * place.tolerance
+    close = [([each for each in group if _excess(each, group, centre) <= far], centre) for group, centre in nearest]
+    for some in (close, nearest):
+        apart = max((_apart(group, count) for group, _ in some), key=len)
+        if len(apart) == count:
+            return apart
+    large = next(filter(None, ([each for each in some if len(each[0]) >= count] for some in (close, nearest))), None)
+    largest = max(nearest, key=lambda each: len(each[0]))
+    return min((_spread(group, centre, count) for group, centre in large or [largest]), key=_shared)
+
+
+def _centred(place: Place, group: Sequence[Candidate]) -> Place:
+    """The place with the minutes that most of its problems take, where none are wanted."""
+    times = sorted(each.time for each in group)
+    return place if place.time is not None else replace(place, time=times[len(times) // 2])
 
 
 def variety(family: str, level: int, most: int) -> int:
@@ -123,9 +155,8 @@ def _drawn(place: Place, seeds: Iterable[int], used: set[str]) -> Iterator[Candi
         if stale == _STALE:
             return
         stale += 1
-        exercise = draw(place.family, place.level, seed)
-        found = candidate(exercise)
-        if found.content not in seen and set(place.parts) <= {len(exercise.problem.parts)}:
+        found = candidate(partial(_remembered, place.family, place.level, seed))
+        if found.content not in seen and set(place.parts) <= {len(found.form)}:
             seen.add(found.content)
             stale = 0
             yield found
@@ -204,9 +235,8 @@ def _one_sided(each: Candidate, balance: Counter[tuple[str, str]]) -> int:
     """How much more often than the rarest its choices are right already."""
     if not each.chosen:
         return 0
-    parts = {part.label: part for part in each.exercise.problem.parts}
     return sum(
-        balance[label, answer] - min(balance[label, option] for option in _options(parts[label]))
+        balance[label, answer] - min(balance[label, option] for option in each.options[label])
         for label, answer in each.chosen
     )
 

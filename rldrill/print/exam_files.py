@@ -1,12 +1,13 @@
 """The files of an exam: a worksheet and a key for every version, the manifest, and all of a roster in one."""
 
 import errno
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rldrill.exam.exam import Layout
-from rldrill.exam.manifest import codes, is_manifest
+from rldrill.exam.manifest import codes, is_manifest, read_exam
 from rldrill.print.bundle import bundled
 from rldrill.print.typesetting import Task, typeset
 from rldrill.problems.errors import FileError, UsageError
@@ -139,19 +140,26 @@ def print_from(manifest: Path, files: Files, advance: Callable[[], None] = lambd
         FileError: the manifest is damaged.
         OSError: a file cannot be written; ``filename`` says which.
     """
-    tasks = [
-        Task(manifest, index, files.layout, _missing(files.worksheet(code)), _missing(files.key(code)))
-        for index, code in enumerate(files.codes)
-    ]
-    waiting = [task for task in tasks if task.worksheet or task.key]
-    for _ in range(len(tasks) - len(waiting)):
+    waiting = _waiting(manifest, files)
+    some = bool(waiting)
+    for _ in range(len(files.codes) - len(waiting)):
         advance()
-    for task in typeset(waiting):
+    for written in typeset(waiting):
         advance()
-        yield from filter(None, (task.worksheet, task.key))
-    if files.bundle is not None and (waiting or not files.bundle.exists()):
+        yield from written
+    if files.bundle is not None and (some or not files.bundle.exists()):
         write_bytes_atomically(files.bundle, bundled(_there(files)))
         yield files.bundle
+
+
+def _waiting(manifest: Path, files: Files) -> deque[Task]:
+    exam, makes = read_exam(manifest)
+    exam = replace(exam, layout=files.layout)
+    tasks = (
+        Task(exam, make, _missing(files.worksheet(code)), _missing(files.key(code)))
+        for code, make in zip(files.codes, makes, strict=True)
+    )
+    return deque(task for task in tasks if task.worksheet or task.key)
 
 
 def _missing(path: Path | None) -> Path | None:

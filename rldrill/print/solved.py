@@ -1,5 +1,6 @@
 """A part as a marker needs it: the answer, the working with the points of its steps, and typical wrong answers."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -20,6 +21,7 @@ from rldrill.solutions.drawing import distinguishable
 from rldrill.solutions.exact import NotReal
 from rldrill.solutions.formula.formula import Misconception
 
+_NAMED = re.compile(r"\b([VQ])\^?([π*])((?:\((?:[^()]|\([^()]*\))*\))?)(?!\w)")
 #: So many typical wrong answers to a part are told.
 _MISTAKES = 5
 
@@ -49,9 +51,15 @@ def _earned(blocks: tuple[Block, ...], points: int) -> str:
 
 def _mistakes(exercise: Exercise, part: Part, title: str) -> str:
     rows = [
-        f"([{given}], [{text(mistake.says)}{_read(exercise, mistake)}])" for given, mistake in _wrong(exercise, part)
+        f"([{given}], [{text(_with_mathematics(mistake.says))}{_read(exercise, mistake)}])"
+        for given, mistake in _wrong(exercise, part)
     ]
     return f"#mistakes([{plain(title)}], {', '.join(rows)})\n" if rows else ""
+
+
+def _with_mathematics(sentence: str) -> str:
+    """A sentence for every screen, with what it names as a formula would write it: ``V^π`` and ``Q*``."""
+    return _NAMED.sub(r"$\1^\2\3$", sentence)
 
 
 def _read(exercise: Exercise, mistake: Misconception) -> str:

@@ -1,19 +1,16 @@
 """The PDFs of one version of an exam, made from the manifest alone: in this process, or in several at once."""
 
 import os
-import signal
 from collections import deque
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from functools import cache
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rldrill.exam.exam import Exam, Layout, Version
-from rldrill.exam.manifest import read_exam
+from rldrill.background import deaf
+from rldrill.exam.exam import Exam, Version
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
@@ -35,22 +32,20 @@ class Task:
     """A version that is to be typeset.
 
     Args:
-        manifest: the file that holds the exam.
-        index: which of its versions.
-        layout: how it is printed, which the command line may have changed.
+        exam: what all versions have in common, and how they are printed.
+        make: what makes the version, which takes a while.
         worksheet: where the worksheet is written; None for nowhere.
         key: where the key is written; None for nowhere.
     """
 
-    manifest: Path
-    index: int
-    layout: Layout
+    exam: Exam
+    make: Callable[[], Version]
     worksheet: Path | None
     key: Path | None
 
 
-def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
-    """Typeset versions, and tell each when it is written.
+def typeset(tasks: deque[Task]) -> Iterator[list[Path]]:
+    """Typeset versions, and tell of each what was written; the tasks are taken out one by one, and forgotten.
 
     Raises:
         FileError: the manifest holds a problem that cannot be made.
@@ -58,18 +53,19 @@ def typeset(tasks: Sequence[Task]) -> Iterator[Task]:
     """
     others = min(cpu_count() or 1, len(tasks) // (_MANY // 2)) - 1
     if len(tasks) < _MANY or others < 1:
-        yield from map(_typeset, tasks)
+        while tasks:
+            yield _typeset(tasks.popleft())
         return
-    with _deaf():
+    with deaf():
         os.environ["RAYON_NUM_THREADS"] = "1"  # what Typst goes by: each process takes one processor
         pool = get_context("spawn").Pool(others, maxtasksperchild=_REPLACED)
     with pool:  # which ends them, whatever happens
-        yield from _shared(pool, others, deque(tasks))
+        yield from _shared(pool, others, tasks)
 
 
-def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[Task]:
+def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[list[Path]]:
     """Other processes have a task each and one in store, and this one takes its part as well: that saves memory."""
-    running: deque[AsyncResult[Task]] = deque()
+    running: deque[AsyncResult[list[Path]]] = deque()
     while waiting or running:
         while waiting and len(running) < 2 * others:
             running.append(pool.apply_async(_typeset, (waiting.popleft(),)))
@@ -79,27 +75,10 @@ def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[Task]:
             yield running.popleft().get()
 
 
-@contextmanager
-def _deaf() -> Iterator[None]:
-    """What is started here does not hear Ctrl-C: that is for the process that waits for it."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _typeset(task: Task) -> Task:
-    exam, makes = _read(task.manifest, task.manifest.stat().st_mtime_ns)
-    with used(task.layout.notation):
-        write(replace(exam, layout=task.layout), makes[task.index](), task.worksheet, task.key)
-    return task
-
-
-_read = cache(lambda path, _: read_exam(path))
+def _typeset(task: Task) -> list[Path]:
+    with used(task.exam.layout.notation):
+        write(task.exam, task.make(), task.worksheet, task.key)
+    return [path for path in (task.worksheet, task.key) if path is not None]
 
 
 def write(exam: Exam, version: Version, worksheet: Path | None, key: Path | None) -> None:

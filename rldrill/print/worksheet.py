@@ -9,19 +9,23 @@ from rldrill.print.exam_page import broken, ending, front, heading, label, setup
 from rldrill.print.solved import solved_part
 from rldrill.print.words import Words, words
 from rldrill.problems import parts
+from rldrill.problems.document import Paragraph
 from rldrill.problems.notations import all_in_notation
 from rldrill.problems.parts import Part
 from rldrill.render.mathematics.typst import equation, plain, text
 from rldrill.render.typst import document
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.effort import minutes_of
 
 #: The least room for a minute of working, in centimetres; pages give more where they have it. A part that is only
 #: ticked has a minute and a half without any, and what takes long has room for eight minutes.
-SPACES = {"none": Fraction(0), "tight": Fraction(3, 10), "normal": Fraction(5, 10), "wide": Fraction(1)}
+SPACES = {"none": Fraction(0), "tight": Fraction(3, 10), "normal": Fraction(4, 10), "wide": Fraction(1)}
 _LEAST, _LONGEST = Fraction(8, 10), 8
 _TICKED = Fraction(3, 2)
 _PER_LINE = 14
+#: So many options stand side by side at most, where a line has room for so many signs, with so many between them.
+_OPTIONS, _LINE, _BETWEEN = 4, 108, 8
 _COLUMNS = 5
 
 
@@ -84,11 +88,14 @@ def space_of(exercise: Exercise, part: Part, space: str) -> Fraction:
 
 
 def options(part: Part) -> str:
-    """What there is to choose from, where there is."""
+    """What there is to choose from, where there is: in columns, one read after the other, if it is short."""
     if not isinstance(part.kind, parts.Choice):
         return ""
-    lines = (text(f"({key}) {option}") for key, option in part.kind.options.items())
-    return "".join(f"#block[#checkbox #h(0.4em) {line}]\n" for line in lines)
+    lines = [f"({key}) {option}" for key, option in part.kind.options.items()]
+    widest = max(len(unicode_text(Paragraph(line))) for line in lines)
+    rows = math.ceil(len(lines) / min(_OPTIONS, max(1, _LINE // (widest + _BETWEEN))))
+    across = [line for row in range(rows) for line in lines[row::rows]]
+    return f"#choices({math.ceil(len(lines) / rows)}, {', '.join(f'[{text(line)}]' for line in across)})\n"
 
 
 def _field(exercise: Exercise, part: Part, told: Words) -> str:

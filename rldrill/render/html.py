@@ -56,7 +56,8 @@ class Html:
     def table(self, table: Table) -> str:
         """A table, moved sideways where the screen is narrower."""
         head = "".join(
-            f'<th scope="col" aria-label="{escape(inline(cell))}">{self.text(cell)}</th>' for cell in table.header
+            f'<th scope="col" aria-label="{escape(inline(cell))}">{self.text(cell)}</th>' if cell else "<td></td>"
+            for cell in table.header
         )
         lines = ("".join(f"<td>{self.text(cell)}</td>" for cell in line) for line in table.rows)
         body = "".join(f"<tr>{line}</tr>" for line in lines)

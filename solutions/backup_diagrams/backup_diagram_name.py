@@ -9,26 +9,38 @@ from rldrill.solutions.work import Work
 
 #: What each diagram looks like: why it is the right one, and why it was a wrong one.
 _LOOKS: dict[Backup, str] = {
-    "bellman-v": "The Bellman equation for V^π starts at a state and averages over all actions, then over all next "
-    "states: it branches twice and has no arc.",
-    "bellman-q": "The Bellman equation for Q^π starts at an action and averages over all next states, then over all "
-    "actions there: it branches twice and has no arc.",
-    "bellman-optimality-v": "The Bellman optimality equation for V* starts at a state, has an arc across its actions, "
-    "and branches from each of them to all next states.",
-    "bellman-optimality-q": "The Bellman optimality equation for Q* starts at an action, branches to all next states, "
-    "and has an arc across the actions of each.",
-    "td-zero": "TD(0) starts at a state and follows one action to one next state: a line without branches, one step "
-    "long.",
-    "n-step-td": "n-step TD starts at a state and follows a run of several steps to a state where the episode has not "
-    "ended: a line without branches.",
-    "monte-carlo": "The Monte Carlo method starts at a state and follows the whole run: a line without branches down "
-    "to the end of the episode.",
-    "sarsa": "Sarsa starts at an action and follows it to one next state and to the one action taken there: a line "
-    "without branches.",
-    "expected-sarsa": "Expected Sarsa starts at an action, follows it to one next state, and averages over all actions "
-    "there: only these branch, and without an arc.",
-    "q-learning": "Q-learning starts at an action, follows it to one next state, and takes the maximum over all "
-    "actions there: only these branch, under an arc.",
+    "bellman-v": "starts at a state and averages over all actions, then over all next states: it branches twice and "
+    "has no arc.",
+    "bellman-q": "starts at an action and averages over all next states, then over all actions there: it branches "
+    "twice and has no arc.",
+    "bellman-optimality-v": "starts at a state, has an arc across its actions, and branches from each of them to all "
+    "next states.",
+    "bellman-optimality-q": "starts at an action, branches to all next states, and has an arc across the actions of "
+    "each.",
+    "td-zero": "starts at a state and follows one action to one next state: a line without branches, one step long.",
+    "n-step-td": "starts at a state and follows a run of several steps to a state where the episode has not ended: a "
+    "line without branches.",
+    "monte-carlo": "starts at a state and follows the whole run: a line without branches down to the end of the "
+    "episode.",
+    "sarsa": "starts at an action and follows it to one next state and to the one action taken there: a line without "
+    "branches.",
+    "expected-sarsa": "starts at an action, follows it to one next state, and averages over all actions there: only "
+    "these branch, and without an arc.",
+    "q-learning": "starts at an action, follows it to one next state, and takes the maximum over all actions there: "
+    "only these branch, under an arc.",
+}
+#: What each is called in a sentence without mathematics.
+_NAMES: dict[Backup, str] = {
+    "bellman-v": "The Bellman equation for V^π",
+    "bellman-q": "The Bellman equation for Q^π",
+    "bellman-optimality-v": "The Bellman optimality equation for V*",
+    "bellman-optimality-q": "The Bellman optimality equation for Q*",
+    "td-zero": "TD(0)",
+    "n-step-td": "n-step TD",
+    "monte-carlo": "The Monte Carlo method",
+    "sarsa": "Sarsa",
+    "expected-sarsa": "Expected Sarsa",
+    "q-learning": "Q-learning",
 }
 
 
@@ -36,7 +48,7 @@ def solve(given: Given, work: Work) -> None:
     """One letter for every diagram."""
     for item in given.diagrams:
         letter = item.letters[item.shows]
-        work.say(f"{_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
+        work.say(f"The diagram {_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
         work.answer(letter)
 
 
@@ -45,7 +57,7 @@ def _took_it_for(wrong: Backup) -> Misconception:
 
     @slip(
         f"took-it-for-{wrong}",
-        _LOOKS[wrong],
+        f"{_NAMES[wrong]} {_LOOKS[wrong]}",
         when=lambda given: any(wrong != item.shows and wrong in item.options for item in given.diagrams),
     )
     def took_it(given: Given, work: Work) -> None:

@@ -158,6 +158,12 @@ def test_answers_are_shared_only_where_there_are_too_few_and_that_is_told() -> N
     assert figures.says_what_is_scarce(6).startswith(said)
 
 
+def test_where_answers_are_too_few_versions_are_still_equally_long() -> None:
+    """Sixty versions of a problem that has 47 different answers."""
+    entries = (Entry(family="bandit", level=3), Entry(family="td-zero", level=2), Entry(family="return", level=2))
+    assert fairness(plan(Blueprint(problems=entries, seed=1, versions=60))).spread <= 0.1
+
+
 def test_of_a_topic_those_families_come_first_that_have_an_answer_for_every_version() -> None:
     wanted = blueprint("monte-carlo", "bellman", count=4, seed=3)
     assert all(slot.variety >= 40 for slot in slots(wanted, 3, 40))

@@ -19,7 +19,9 @@ import pytest
 import rldrill
 from rldrill.exam.exam import Exam, Head, Version
 from rldrill.export.formats import FORMATS, export, format_of
+from rldrill.problems.document import Table
 from rldrill.problems.errors import UsageError
+from rldrill.render.html import Html
 
 PROBLEMS = [
     "td-zero/2/7",
@@ -208,3 +210,9 @@ def test_the_ending_tells_the_format(path: str, name: str) -> None:
 def test_an_unknown_format_is_said() -> None:
     with pytest.raises(UsageError, match="There is no format 'docs'"):
         format_of(None, "docs")
+
+
+def test_an_empty_corner_of_a_table_is_no_heading() -> None:
+    written = Html().table(Table(("", "$s$"), (("$V$", "3"),)))
+    assert written.count("<th ") == 1
+    assert "<td></td><th " in written

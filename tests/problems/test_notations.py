@@ -66,6 +66,14 @@ def test_what_is_one_letter_of_a_linear_system_is_told_by_what_stands_around_it(
         assert any(line.startswith("s₁ = ") for line in steps)
 
 
+@pytest.mark.parametrize("family", ["lqr-backward", "lqr-gain", "lqr-infinite", "lqr-reward", "ddp-backward"])
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_what_is_asked_of_a_linear_system_keeps_its_states_and_actions(family: str, level: int) -> None:
+    with used("sutton-barto"):
+        for part in rldrill.draw(family, level, 3).parts:
+            assert not re.search("[SARG][₀₁ₜ]", unicode_text(Paragraph(part.ask)))
+
+
 def test_a_formula_in_a_working_is_rewritten_on_both_sides() -> None:
     with used("sutton-barto"):
         steps = [unicode_text(block) for block in rldrill.load("n-step-return/2/1").working("a")]

@@ -13,7 +13,7 @@ from printed import poppler, words
 _DPI = 50
 _CM = _DPI / 2.54
 #: The margins of exams, in centimetres, a little less for what hangs into them; the head stands above the text.
-_SIDE, _BOTTOM, _HEAD = 1.9, 1.6, 2.2
+_SIDE, _BOTTOM, _HEAD = 1.9, 1.4, 2.0
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def _image(path: Path) -> NDArray[np.bool_]:
 
 def _filled(image: NDArray[np.bool_]) -> float:
     rows = np.flatnonzero(image.any(axis=1))
-    top, bottom = _HEAD * _CM, image.shape[0] - 1.8 * _CM
+    top, bottom = _HEAD * _CM, image.shape[0] - 1.6 * _CM
     return float((rows.max(initial=0) - top) / (bottom - top))
 
 
