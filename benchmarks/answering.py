@@ -40,7 +40,7 @@ class Person:
             self._next = exercise
             yield exercise
 
-    def __call__(self, prompt: str) -> str:
+    def __call__(self, prompt: str, _keys: str = "") -> str:
         now = time.perf_counter()
         if self._since is not None:
             self.times.setdefault(self._since[0], []).append(now - self._since[1])

@@ -21,7 +21,7 @@ def lines(name: str, level: int, seed: int, width: int, height: int) -> int:
     console = Console(file=StringIO(), width=width, height=height, color_system=None, highlight=False)
     shown = 0
 
-    def ask(_: str) -> str:
+    def ask(*_: str) -> str:
         nonlocal shown
         shown = shown or console.file.getvalue().count("\n") + 1  # type: ignore[attr-defined]
         raise EOFError

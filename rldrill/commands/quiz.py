@@ -75,7 +75,7 @@ def command(
     """
     from rldrill.problems.errors import UsageError
     from rldrill.problems.identity import names_a_problem
-    from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
+    from rldrill.quiz.prompt import is_interactive, line_editor
 
     if not is_interactive():
         raise UsageError(
@@ -85,25 +85,25 @@ def command(
     if exam is not None:
         _sit(exam, version, answers, seed, plain=plain)
         return
-    hold_resumes()
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
     wanted = list(names or ())
-    plan, drilled = None, None
+    plan, drilled, said = None, None, ""
     if mistake is not None:
         if exam_date is not None:
             raise UsageError("--mistake says what is asked; leave --exam-date out.")
         from rldrill.quiz.drilling import drill
 
         drilled = drill(mistake, keeper.read(), wanted, level)
-        typer.echo(drilled.says())
+        said = drilled.says()
     elif exam_date is not None or not (level or seed is not None or any(map(names_a_problem, wanted))):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        if plan is not None:
-            typer.echo(plan.says())  # before the libraries that take a while
+        said = "" if plan is None else plan.says()
+    if said:
+        typer.echo(said)  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
     from rldrill.quiz.questions import planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
@@ -134,15 +134,16 @@ def command(
         more=None if drilled is None else lambda: drilled.exercises(fresh_seed()),
     )
     attempts = keeper.read()
+    terminal = console(plain=plain)
     screen = Screen(
-        console(plain=plain),
-        line_editor(),
+        terminal,
+        line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal),
         recorder,
         None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
         lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
         plain=plain,
+        said=said,
     )
-    on_resume(screen.redraw)
     if not screen.run(exercises, session):
         raise typer.Exit(130)
 
@@ -177,7 +178,10 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():
         sitting.resume()
-    if not SittingScreen(console(plain=plain), line_editor(), utc_now, plain=plain).run(sitting):
+    terminal = console(plain=plain)
+    ask = line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal)
+    screen = SittingScreen(terminal, ask, utc_now, plain=plain)
+    if not screen.run(sitting):
         raise typer.Exit(130)
 
 

@@ -7,7 +7,6 @@ from enum import Enum
 from itertools import islice
 
 from rich.console import Console, Group, RenderableType
-from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -18,6 +17,7 @@ from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
 from rldrill.quiz.ahead import Ahead
+from rldrill.quiz.display import Display
 from rldrill.quiz.ending import ending, weakest
 from rldrill.quiz.hints import ladder
 from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
@@ -26,9 +26,8 @@ from rldrill.quiz.recording import Recorder
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.render.compact import WIDEST, Compact
-from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, compared, render, renderable, turn_page, words
+from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
@@ -91,25 +90,22 @@ class Screen:
         topics: Callable[[], RenderableType] = Text,
         *,
         plain: bool = False,
+        said: str = "",
     ) -> None:
         self._plain = plain
         self._console = console
-        spelling = Spelling(console.encoding)
-        self._ask: Ask = lambda prompt: ask(spelling.plain(prompt))
+        self._display = Display(console, ask, plain=plain, said=said)
+        self._print, self._indented, self._signed = self._display.print, self._display.indented, self._display.signed
         self._recorder = recorder or Recorder()
         self._seen = None if seen is None else set(seen)
         self._topics = topics
         self._pasted: list[str] = []
         self._keys: tuple[str, ...] = KEYS
         self._ahead = Ahead(iter(()))
-        self._redraw: Callable[[], object] = Text
-        self._prompt = ""
-        self._begun = False
 
-    def redraw(self) -> str:
-        """Show what is asked now once more; what is returned is its prompt."""
-        self._redraw()
-        return self._prompt
+    def redraw(self) -> None:
+        """Show the page once more, as wide as the window is now."""
+        self._display.redraw()
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -124,7 +120,6 @@ class Screen:
                 try:
                     self._problems(more, session)
                 finally:
-                    self._redraw = Text
                     if session.parts or more is exercises:
                         self.summary(session, self._recorder.elapsed - begin)
                 more = self._five_more(session)
@@ -149,7 +144,7 @@ class Screen:
     def _five_more(self, session: Session) -> Iterator[Exercise] | None:
         """Problems of the mistake that is drilled, or of the weakest skill, if there is one and they are wanted."""
         more = (session.more or _of_the_weakest(session)) if session.parts else None
-        if more is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
+        if more is None or self._line("f five more of these · Enter ends > ", "fq ").strip().lower() != "f":
             return None
         self._print()
         return islice(more(), _FIVE)
@@ -160,7 +155,7 @@ class Screen:
         if self._seen is None or exercise.id is None or family.name in self._seen:
             return Then.NEXT
         self._seen.add(family.name)
-        self._page()
+        self._display.turn()
         self._print(words("New: ", (family.title, "bold"), "."))
         wanted = self._key("Enter shows one worked example · n goes to the problem > ")
         if wanted == "q":
@@ -182,7 +177,7 @@ class Screen:
     def _key(self, prompt: str) -> str:
         """The key that is meant where no answer is asked for; help and the map are shown, and it is asked again."""
         while True:
-            text = self._line(prompt).strip().lower().removeprefix(":")
+            text = self._line(prompt, "nqt? ").strip().lower().removeprefix(":")
             match COMMANDS.get(text, text):
                 case "?":
                     self._help()
@@ -206,14 +201,8 @@ class Screen:
                 session.records.remove(record)
             record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
-    def _page(self) -> None:
-        """Every problem begins at the top of the screen; but before the first it is said what comes."""
-        begun, self._begun = self._begun, True
-        if begun and not self._plain:
-            turn_page(self._console)
-
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
-        self._page()
+        self._display.turn()
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
         line = [(f"Problem {number}", "bold")]
@@ -276,29 +265,21 @@ class Screen:
     def _typed(self, prompt: str, kind: Kind) -> str:
         """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
         if not isinstance(kind, Matrix | Values | Numbers | Policy):
-            return self._line(prompt)
-        self._prompt = prompt
-        lines = [*self._pasted, *([] if self._pasted else [self._ask(prompt)])]
+            return self._line(prompt, "?")
+        lines = [*self._pasted, *([] if self._pasted else [self._display.ask(prompt, "?")])]
         self._pasted = []
         while sum(line.count("[") - line.count("]") for line in lines) > 0:
-            lines.append(self._ask("... "))
+            lines.append(self._display.ask("... "))
             if not lines[-1].strip():
                 break
         return "\n".join(lines)
 
-    def _line(self, prompt: str) -> str:
-        """One line, the next of those that were pasted together, if there are any left."""
-        self._prompt = prompt
-        self._pasted = self._pasted or self._ask(prompt).split("\n")
+    def _line(self, prompt: str, keys: str = "") -> str:
+        """One line or key, the next of those lines that were pasted together, if there are any left."""
+        self._pasted = self._pasted or self._display.ask(prompt, keys).split("\n")
         return self._pasted.pop(0)
 
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
-        def again() -> None:
-            self._print(Text(record.exercise.id or "your own problem", style="dim"))
-            self._question(record.exercise)
-            self._print(asked(part.part, only=len(record.parts) == 1))
-
-        self._redraw = again
         while part.state is State.OPEN:
             text = self._typed(prompt, part.part.kind).strip()
             match command(text, record.exercise, part.part.kind):
@@ -313,7 +294,9 @@ class Screen:
                 case "?":
                     self._help()
                 case "p":
-                    self._redraw()
+                    self._print(Text(record.exercise.id or "your own problem", style="dim"))
+                    self._question(record.exercise)
+                    self._print(asked(part.part, only=len(record.parts) == 1))
                 case "t":
                     self._print(self._topics())
                 case "h":
@@ -349,7 +332,7 @@ class Screen:
         prompt = "Enter next · p problem · w working · v variant · r again · q quit > "
         self._ahead.begin()
         while True:
-            text = self._line(prompt).strip()
+            text = self._line(prompt, "npwvrqt? ").strip()
             match COMMANDS.get(text.lower().removeprefix(":"), text):
                 case "" | "next" | "n":
                     return Then.NEXT
@@ -447,20 +430,6 @@ class Screen:
             return
         for line in ending(session, seconds):
             self._print(line)
-
-    def _indented(self, content: RenderableType) -> None:
-        self._print(Padding(content, (0, 0, 0, 2), expand=False))
-
-    def _signed(self, sign: tuple[str, str], content: RenderableType) -> None:
-        """A sign or word, with its style, and what it is about, whose further lines stand under the first."""
-        grid = Table.grid(padding=(0, 1, 0, 0))
-        grid.add_column(no_wrap=True)
-        grid.add_column(overflow="fold")
-        grid.add_row(words(sign), content)
-        self._indented(grid)
-
-    def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None:

@@ -7,19 +7,19 @@ from datetime import datetime, timedelta
 from fractions import Fraction
 
 from rich.console import Console, RenderableType
-from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Kind, Part
+from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
-from rldrill.render.compact import WIDEST, Compact
+from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, render, renderable, turn_page, words
+from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
@@ -54,9 +54,14 @@ class SittingScreen:
     def __init__(self, console: Console, ask: Ask, now: Callable[[], datetime], *, plain: bool = False) -> None:
         self._plain = plain
         self._console = console
-        self._ask = ask
+        self._display = Display(console, ask, plain=plain)
+        self._ask, self._print, self._whole = self._display.ask, self._display.print, self._display.whole
         self._now = now
-        self._kept, self._told, self._begun = True, False, False
+        self._kept, self._told = True, False
+
+    def redraw(self) -> None:
+        """Show the page once more, as wide as the window is now."""
+        self._display.redraw()
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -212,11 +217,8 @@ class SittingScreen:
         exercise = sitting.version.exercises[number]
         points = sum(part.points for part in exercise.parts)
         title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
-        if self._begun and not self._plain:
-            turn_page(self._console)
-        else:
-            self._print()
-        self._begun = True
+        self._print()
+        self._display.turn()
         self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
         self._print()
         if self._plain:
@@ -266,9 +268,9 @@ class SittingScreen:
                 own = next(each for each in exercise.parts if each.label == part.part)
                 self._graded(f"{number}{part.part}", part, own.kind)
                 if not part.accepted:
-                    self._indented(render(exercise.working(part.part)))
+                    self._display.indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
-                    self._indented(renderable(exercise.answer(own)))
+                    self._display.indented(renderable(exercise.answer(own)))
         if not self._kept:
             self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
             return
@@ -284,16 +286,6 @@ class SittingScreen:
         typed = "" if part.verdict is None else f"{' '.join(part.typed.split())[:60]}  "
         points = f"{_number(part.points)} of {part.of}"
         self._print(words((f"{mark} {name}", f"bold {style}"), f"  {points}  ", (typed, "bold"), says))
-
-    def _indented(self, content: RenderableType) -> None:
-        self._print(Padding(content, (0, 0, 0, 2), expand=False))
-
-    def _whole(self, content: RenderableType) -> None:
-        """A line with a path or a command, which is not broken, so that it can be copied."""
-        self._console.print(content, soft_wrap=True)
-
-    def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:

@@ -1,54 +1,16 @@
 """The quiz in a pseudo-terminal, narrow and wide: every key, and every way to end."""
 
-import os
 import re
 import signal
-import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pexpect
 import pytest
 
-#: A blank, or a line that ends there, or a colour that does.
-_BLANK = r"(?:\s|\x1b\[[0-9;?]*[a-z])"
+from terminals import Terminal
+
 RACING_CAR = str(Path(__file__).parent.parent.parent / "examples" / "racing-car.toml")
-
-
-class Terminal:
-    """A quiz that runs, with a history of its own."""
-
-    def __init__(self, home: Path, width: int, *arguments: str, **environment: str) -> None:
-        own = {"TERM": "xterm", "NO_COLOR": "1", "RLDRILL_HOME": str(home), "PYTHONUTF8": "1", **environment}
-        inherited = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
-        self.child = pexpect.spawn(
-            sys.executable, ["-m", "rldrill", "quiz", *arguments], encoding="utf-8", timeout=15, echo=False,
-            dimensions=(30, width), env={**inherited, **own}, preexec_fn=_deaf,
-        )  # fmt: skip
-
-    def types(self, line: str, *then: str) -> None:
-        """Type a line, and wait for one text after the other."""
-        self.child.sendline(line)
-        self.sees(*then)
-
-    def sees(self, *texts: str) -> None:
-        """Wait for one text after the other."""
-        for text in texts:
-            self.child.expect(re.escape(text).replace(r"\ ", rf"{_BLANK}+") + f"{_BLANK}*")
-
-    def ends(self) -> int:
-        """Wait for the end; what is returned is the exit code."""
-        self.child.expect(pexpect.EOF)
-        self.child.close()
-        assert isinstance(self.child.exitstatus, int)
-        return self.child.exitstatus
-
-
-def _deaf() -> None:
-    """A child inherits what whoever runs the tests has blocked and ignores; the quiz must not mind."""
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @pytest.fixture(params=[60, 120])
@@ -99,14 +61,46 @@ def test_ctrl_c_sums_up(terminal: Terminal) -> None:
     assert terminal.ends() == 130
 
 
-@pytest.mark.parametrize("terminal", [60], indirect=True)
-def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: Terminal) -> None:
-    terminal.child.send("cool: 7/2, ")
-    time.sleep(0.3)  # nothing tells that it was read
-    os.kill(terminal.child.pid, signal.SIGSTOP)
-    time.sleep(0.1)  # else going on comes before having stopped
-    os.kill(terminal.child.pid, signal.SIGCONT)
-    terminal.sees("Value iteration starts", "(a) > cool: 7/2, ")
+def test_where_keys_are_offered_one_key_is_enough(terminal: Terminal) -> None:
+    terminal.presses("?", "show it again", "this help", "(a) > ")
+    terminal.types("s", "(b) > ")
+    terminal.types("s", "Enter next")
+    terminal.presses("p", "Value iteration starts", "Enter next")
+    terminal.presses("w", "V₁", "Enter next")
+    terminal.types("cool: fast", "was not judged: cool: fast", "Enter next")
+    terminal.presses(" ", "0 of 2 parts right", "f five more of these")
+    terminal.presses("f", "Problem 1 of 5", "(a) > ")
+    terminal.types("s")
+    terminal.child.close(force=True)
+
+
+def test_a_letter_that_begins_an_answer_is_no_key(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "return/1/7")
+    running.sees("(a) > ")
+    for key in "hwsq":
+        running.presses(key, f"\x1b[0m{key}\x1b")  # it stands there, and is deleted
+        running.presses("\x7f", "\x1b[K")
+    running.presses("2\r", "✓ Right. At the first try")
+    running.child.close(force=True)
+
+
+def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 60, RACING_CAR, then="echo It is stopped; fg; echo and ended")
+    running.sees("(a) > ")
+    running.presses("cool: 7/2, ", "cool: 7/2, ")
+    running.presses("\x1a", "It is stopped", "Value iteration starts", "(a) > cool: 7/2, ")
+    running.types("warm: 5/2", "Right", "(b) > ")
+    running.child.sendeof()
+    running.sees("1 of 2 parts right", "and ended")
+
+
+def test_in_a_window_of_another_size_all_is_there_again_and_fits(terminal: Terminal) -> None:
+    terminal.types("1, 2", "✗", "(a) > ")
+    terminal.presses("cool: 7/2, ", "cool: 7/2, ")
+    terminal.child.setwinsize(30, 70)
+    terminal.sees("Value iteration starts", "(a) > 1, 2", "(a) > cool: 7/2, ")
+    drawn = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", terminal.child.before)
+    assert max(map(len, drawn.split("\r\n"))) <= 70
     terminal.types("warm: 5/2", "Right")
 
 

@@ -36,7 +36,7 @@ class Hand:
         self.prompts: list[str] = []
         self.time = START
 
-    def ask(self, prompt: str) -> str:
+    def ask(self, prompt: str, _keys: str = "") -> str:
         self.prompts.append(prompt)
         self.time += timedelta(minutes=1)
         line = next(self._lines, EOFError)

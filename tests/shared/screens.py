@@ -47,7 +47,7 @@ def transcript(kind: str) -> str:
                      emoji=False)  # fmt: skip
     lines = iter(TYPED)
 
-    def ask(prompt: str) -> str:
+    def ask(prompt: str, _keys: str = "") -> str:
         typed = next(lines, None)
         if typed is None:
             screen.print(prompt, end="\n")
