@@ -1,5 +1,6 @@
 """``rldrill quiz``."""
 
+import gc
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from itertools import islice
@@ -144,6 +145,7 @@ def command(
         plain=plain,
         said=said,
     )
+    _collect_again()
     if not screen.run(exercises, session):
         raise typer.Exit(130)
 
@@ -181,8 +183,15 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     terminal = console(plain=plain)
     ask = line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal)
     screen = SittingScreen(terminal, ask, utc_now, plain=plain)
+    _collect_again()
     if not screen.run(sitting):
         raise typer.Exit(130)
+
+
+def _collect_again() -> None:
+    """From now on memory is tidied up, but for what is imported, which stays."""
+    gc.freeze()
+    gc.enable()
 
 
 def _expected(minutes: int | None) -> int:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from enum import Enum
 from itertools import islice
 
@@ -157,7 +156,7 @@ class Screen:
         self._seen.add(family.name)
         self._display.turn()
         self._print(words("New: ", (family.title, "bold"), "."))
-        wanted = self._key("Enter shows one worked example · n goes to the problem > ")
+        wanted = self._key("Enter shows a worked example · n the problem · t topics > ")
         if wanted == "q":
             return Then.QUIT
         self._print()
@@ -447,7 +446,7 @@ def _without_value(diagnosis: Diagnosis) -> Equation | None:
         return right  # a formula has no value
     if len(right.rights) == 1:
         return None
-    return replace(right, rights=right.rights[:-1], signs=right.signs[:-1])
+    return right.without_last()
 
 
 def _how(part: PartRecord) -> str:

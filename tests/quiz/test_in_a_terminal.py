@@ -106,9 +106,9 @@ def test_in_a_window_of_another_size_all_is_there_again_and_fits(terminal: Termi
 
 def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
-    running.sees("Your first quiz", "New: ", "n goes to the problem > ")
-    running.types("topics", "fundamentals", "0 of", "n goes to the problem > ")
-    running.types("?", "this help", "n goes to the problem > ")
+    running.sees("Your first quiz", "New: ", "n the problem · t topics > ")
+    running.types("topics", "fundamentals", "0 of", "n the problem · t topics > ")
+    running.types("?", "this help", "n the problem · t topics > ")
     running.types("", "your turn > ")
     running.types("", "Problem 1 of 10", "h hint", "> ")
     running.types("q", "Nothing was answered")
@@ -117,14 +117,14 @@ def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
 
 def test_of_a_topic_that_is_named_the_easy_problems_come_first(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80, "bayes")
-    running.sees("Your first quiz: 10 problems, easy ones before others.", "n goes to the problem > ")
+    running.sees("Your first quiz: 10 problems, easy ones before others.", "n the problem · t topics > ")
     running.types("n", "Problem 1 of 10", "level 1", "> ")
     running.child.close(force=True)
 
 
 def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 120, "--mistake", "forgot gamma", "bellman", "-n", "1", "--seed", "5")
-    running.sees("Only “forgot gamma”, not made so far", "n goes to the problem > ")
+    running.sees("Only “forgot gamma”, not made so far", "n the problem · t topics > ")
     running.types("n", "Problem 1 of 1", "Bellman backup", "> ")
     running.types("s", "The answer:", "Enter next")
     running.types("", "“forgot gamma”: made in none of 1 problem.", "f five more of these")
@@ -134,7 +134,7 @@ def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> Non
 
 def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
-    running.sees("n goes to the problem > ")
+    running.sees("n the problem · t topics > ")
     running.types("quit", "Nothing was answered")
     assert running.ends() == 0
 

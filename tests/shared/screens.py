@@ -33,7 +33,7 @@ def exercises() -> list[Exercise]:
 
 #: What is typed, line by line, at whatever is asked.
 TYPED = (
-    "", "", "banana", "h", "h", "h", "h", "99", "p", "s", "?", "w", "x", "",
+    "", "", "banana", "h", "h", "h", "h", "h", "99", "p", "s", "?", "w", "x", "",
     "cool: 3, warm: 2.5", "m", "V(cool) = 4 + 1/2*2 = 5", "", "s", "cool: fast, warm: slow", "t", "s", "",
     "[1, 2; np.sqrt(4), 1/2]", "w", "w", "s", "", "a", "b", "",
 )  # fmt: skip
