@@ -460,7 +460,10 @@ def _how(part: PartRecord) -> str:
 def _read_otherwise(verdict: Verdict, part: PartRecord) -> str:
     """How an answer was read, where that is not how it was typed."""
     read = _PLACES.sub("", verdict.read)
-    return read if _signs(read) != _signs(part.answers[-1].typed) else ""
+    kind = part.part.kind
+    # Whoever is asked for one value need not name it.
+    value = read.rpartition(": ")[2] if isinstance(kind, Values) and len(kind.keys) == 1 else read
+    return "" if _signs(part.answers[-1].typed) in (_signs(read), _signs(value)) else read
 
 
 def _signs(text: str) -> str:

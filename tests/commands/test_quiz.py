@@ -108,6 +108,14 @@ def test_what_cannot_be_read_costs_nothing() -> None:
     assert session.parts[0].state is State.DONE
 
 
+def test_how_an_answer_was_read_is_told_only_where_it_was_typed_otherwise() -> None:
+    # One value is asked for, which has a name: V(even) = 2 + 1/5·(−1 + 1/2·8 − 2) = 11/5.
+    typist, _, _ = quiz("11/5", names=("td-zero/1/3",))
+    assert "Right." in typist.seen
+    assert "read as" not in typist.seen
+    assert "read as even: 11/5" in quiz("2 1/5", names=("td-zero/1/3",))[0].seen
+
+
 def test_hint_first_the_formula_then_the_sentence() -> None:
     typist, session, _ = quiz("h", "h", "w")
     formula = typist.seen.index("maxₐ Σₛ′")

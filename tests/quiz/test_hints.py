@@ -16,8 +16,8 @@ def test_the_first_line_has_the_numbers_in_and_the_next_one_what_comes_out() -> 
     formula, symbols, first, whole = rungs(exercise, "b")
     assert formula.strip() == "Rₜ = rₜ₊₁ + γRₜ₊₁"
     assert "γ = 1/2" in symbols
-    assert first.split() == "R₀ = 1 + 1/2·4".split()
-    assert whole.split() == "R₀ = 1 + 1/2·4 = 3".split()
+    assert first.split() == ["R₀", "=", "1", "+", "1/2·4"]
+    assert whole.split() == ["R₀", "=", "1", "+", "1/2·4", "=", "3"]
 
 
 def test_what_is_found_on_the_way_is_no_symbol_that_is_told_before() -> None:
