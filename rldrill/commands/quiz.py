@@ -2,6 +2,7 @@
 
 import gc
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -146,7 +147,9 @@ def command(
         said=said,
     )
     _collect_again()
-    if not screen.run(exercises, session):
+    with closing(keeper):
+        finished = screen.run(exercises, session)
+    if not finished:
         raise typer.Exit(130)
 
 
