@@ -6,7 +6,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from rldrill.quiz.prompt import Ask
+from rldrill.quiz.prompt import Ask, Prompt
 from rldrill.render.compact import WIDEST
 from rldrill.render.encodable import Spelling
 from rldrill.render.terminal import turn_page, words
@@ -48,11 +48,14 @@ class Display:
         for content in self._shown:
             self.console.print(content, width=self.width)
 
-    def ask(self, prompt: str, keys: str = "") -> str:
+    def ask(self, prompt: Prompt, keys: str = "") -> str:
         """Ask for a line, or for one of the keys, which need no Enter."""
-        prompt = self._spelling.plain(prompt)
-        typed = self._typed(prompt, keys)
-        self._shown.append(Text(f"{prompt}{typed}"))
+
+        def written() -> str:
+            return self._spelling.plain(prompt() if callable(prompt) else prompt)
+
+        typed = self._typed(written if callable(prompt) else written(), keys)
+        self._shown.append(Text(f"{written()}{typed}"))
         return typed
 
     def print(self, content: RenderableType = "") -> None:

@@ -6,7 +6,7 @@ import signal
 import sys
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from prompt_toolkit.application import Application
@@ -20,10 +20,14 @@ _STILL = 0.1
 _ALONE = "nptwvrqf? "
 
 
+#: What stands before what is typed; one that is worked out is so again every second, as a clock is.
+Prompt: TypeAlias = str | Callable[[], str]
+
+
 class Ask(Protocol):
     """Asks for what is typed: a line, or the lines that are pasted together. EOFError is the end of input."""
 
-    def __call__(self, prompt: str, keys: str = "", /) -> str:
+    def __call__(self, prompt: Prompt, keys: str = "", /) -> str:
         """Ask; each of ``keys``, at the beginning of the line, needs no Enter where the terminal knows keys."""
 
 
@@ -45,9 +49,9 @@ def line_editor(redraw: Callable[[], None], *, plain: bool) -> Ask:
     return lines
 
 
-def lines(prompt: str, _keys: str = "", /) -> str:
+def lines(prompt: Prompt, _keys: str = "", /) -> str:
     """One line with its Enter, whatever the keys; what is pasted or typed ahead is taken together."""
-    typed = [input(prompt)]
+    typed = [input(prompt() if callable(prompt) else prompt)]
     while _is_waiting():
         try:
             typed.append(input())
@@ -71,10 +75,10 @@ class _Editor:
         self._size = app.output.get_size()
         app.before_render += self._look_at_size
 
-    def __call__(self, prompt: str, keys: str = "", /) -> str:
+    def __call__(self, prompt: Prompt, keys: str = "", /) -> str:
         self._keys = keys
         # Python's own way with Ctrl-C loses none that comes while a prompt begins or ends.
-        return self._session.prompt(prompt, handle_sigint=False)
+        return self._session.prompt(prompt, refresh_interval=float(callable(prompt)), handle_sigint=False)
 
     def _bindings(self) -> "KeyBindings":
         from prompt_toolkit.filters import Condition

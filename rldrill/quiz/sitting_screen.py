@@ -5,8 +5,10 @@ import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from fractions import Fraction
+from functools import partial
 
 from rich.console import Console, RenderableType
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -38,6 +40,8 @@ _HELP = (
 )
 #: The title of a problem with the lines around it, and the prompt.
 _BESIDES = 5
+#: The last seconds are told one by one.
+_SECONDS = 60
 _GO = re.compile(r"go\s+(\d{1,3})\s*\(?([a-z])?\)?")
 
 
@@ -128,7 +132,7 @@ class SittingScreen:
                 shown = place.problem
             self._part(sitting, place)
             try:
-                text = self._ask(self._prompt(sitting, place)).strip()
+                text = self._ask(partial(self._prompt, sitting, place)).strip()
             except EOFError:
                 self._print()
                 return False
@@ -209,7 +213,8 @@ class SittingScreen:
         try:
             read_answer(sitting.exercise(place).solution, sitting.part(place), text)
         except Unreadable as error:
-            self._print(words(("  ? Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message))
+            kept = words(("Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message)
+            self._display.signed(("?", "yellow"), kept)
             return False
         return True
 
@@ -291,11 +296,14 @@ class SittingScreen:
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:
     """What is asked in a part, and how the answer is typed."""
     shape = how_to_type(part.kind, exercise.problem.parameters)
-    return asked(part, only=len(exercise.parts) == 1), words((f"  {shape}", "dim"))
+    return asked(part, only=len(exercise.parts) == 1), Padding(words((shape, "dim")), (0, 0, 0, 2), expand=False)
 
 
 def _clock(left: timedelta) -> str:
-    minutes = -(-int(left.total_seconds()) // 60)
+    seconds = int(left.total_seconds())
+    if seconds < _SECONDS:
+        return f"{seconds} s"
+    minutes = -(-seconds // 60)
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
 
 
