@@ -6,6 +6,8 @@ from contextlib import closing
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
+from shutil import get_terminal_size
+from textwrap import fill
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -105,7 +107,7 @@ def command(
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
         said = "" if plan is None else plan.says()
     if said:
-        typer.echo(said)  # before the libraries that take a while
+        typer.echo(fill(said, get_terminal_size().columns - 1))  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
     from rldrill.quiz.questions import planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
@@ -143,6 +145,7 @@ def command(
         recorder,
         None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
         lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+        plan,
         plain=plain,
         said=said,
     )

@@ -99,6 +99,11 @@ class Plan:
         late.sort(key=lambda skill: self.memories[skill].recall(now))
         return list(dict.fromkeys(map(self._within_reach, late)))
 
+    def again(self, skill: Skill, now: datetime) -> str:
+        """When a skill that was answered is asked again: tomorrow, in 4 days."""
+        days = math.ceil((self.due_at(skill) - now) / _DAY)
+        return f"in {days} days" if days > 1 else "tomorrow"
+
     def _within_reach(self, skill: Skill) -> Skill:
         memory, below = self.memories[skill], Skill(skill.family, skill.level - 1)
         if memory.lapses < 2 or below not in self._place:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from datetime import timedelta
 from enum import Enum
 from itertools import islice
 
@@ -12,6 +13,7 @@ from rich.text import Text
 from rldrill.diagnosis import Diagnosis
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
+from rldrill.history.memory import Skill
 from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
@@ -20,8 +22,9 @@ from rldrill.quiz.display import Display
 from rldrill.quiz.ending import ending, weakest
 from rldrill.quiz.hints import ladder
 from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
+from rldrill.quiz.planning import Plan
 from rldrill.quiz.prompt import Ask
-from rldrill.quiz.recording import Recorder
+from rldrill.quiz.recording import Recorder, utc_now
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.render.compact import WIDEST, Compact
@@ -64,6 +67,7 @@ _BESIDES = 4
 _FIVE, _LEVEL = 5, 2
 #: After so many misses the next hint is the first line with the numbers in.
 _MISSES = 3
+_DAY = timedelta(days=1)
 #: The names of places that nobody types.
 _PLACES = re.compile(r"(?:row \d+, column \d+|entry \d+): ")
 
@@ -87,6 +91,7 @@ class Screen:
         recorder: Recorder | None = None,
         seen: Iterable[str] | None = None,
         topics: Callable[[], RenderableType] = Text,
+        plan: Plan | None = None,
         *,
         plain: bool = False,
         said: str = "",
@@ -98,6 +103,7 @@ class Screen:
         self._recorder = recorder or Recorder()
         self._seen = None if seen is None else set(seen)
         self._topics = topics
+        self._plan = plan
         self._pasted: list[str] = []
         self._keys: tuple[str, ...] = KEYS
         self._ahead = Ahead(iter(()))
@@ -329,6 +335,7 @@ class Screen:
 
     def _after(self, record: Record) -> Then:
         prompt = "Enter next · p problem · w working · v variant · r again · q quit > "
+        self._comes_again(record.exercise)
         self._ahead.begin()
         while True:
             text = self._line(prompt, "npwvrqt? ").strip()
@@ -351,6 +358,15 @@ class Screen:
                     self._help()
                 case _:
                     self._print(words(("  All parts of this problem are done, so that was not judged: ", "dim"), text))
+
+    def _comes_again(self, exercise: Exercise) -> None:
+        """Say when the like of it is asked again."""
+        if self._plan is None or exercise.problem.level is None:
+            return
+        skill = Skill(exercise.problem.family.name, exercise.problem.level)
+        self._plan.learn(self._recorder.attempts)
+        if skill in self._plan.memories:
+            self._print(Text(f"This comes again {self._plan.again(skill, utc_now())}.", style="dim"))
 
     def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
         diagnosis = record.diagnosis(part)
@@ -427,7 +443,11 @@ class Screen:
         if not parts:
             self._print("Nothing was answered. Come back soon.")
             return
-        for line in ending(session, seconds):
+        due = None
+        if self._plan is not None:
+            self._plan.learn(self._recorder.attempts)
+            due = len(self._plan.due(utc_now() + _DAY))
+        for line in ending(session, seconds, due):
             self._print(line)
 
 

@@ -111,7 +111,10 @@ def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     running.types("?", "this help", "n the problem · t topics > ")
     running.types("", "your turn > ")
     running.types("", "Problem 1 of 10", "h hint", "> ")
-    running.types("q", "Nothing was answered")
+    running.types("s", "> ")
+    running.types("s", "This comes again tomorrow.", "Enter next")
+    running.presses("q", "0 of 2 parts right", "Tomorrow, 1 due: rldrill quiz")
+    running.presses("\r")
     assert running.ends() == 0
 
 
