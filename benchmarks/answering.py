@@ -33,7 +33,11 @@ _VERDICT, _PROMPT = "[✓✗≈]|Not understood", r">(?:[\s\b]|\x1b\[[0-9;?]*[A-
 
 
 #: What the quiz cannot do without.
-_NEEDED = "import typer, rich.console, pydantic, sympy, flint, fsrs, prompt_toolkit, sqlite3, platformdirs; print('>')"
+_NEEDED = """
+import typer, rich.console, sympy, flint, fsrs, prompt_toolkit, sqlite3, platformdirs
+from pydantic import BaseModel
+input('>')
+"""
 _ROUNDS = 7
 
 
@@ -58,7 +62,7 @@ def starts(home: str) -> dict[str, float]:
     """The seconds of the processor up to what the quiz says first, and up to its first question."""
     quiz = ("-m", "rldrill", "quiz")
     cases = {
-        "the bare imports": (("-c", f"{_NEEDED}; input()"), ">"),
+        "the bare imports": (("-c", _NEEDED), ">"),
         "the first line": (quiz, "Your first quiz"),
         "a newcomer's first prompt": (quiz, "n the problem"),
         "the first question": ((*quiz, "return/1/7"), r"\(a\) >"),

@@ -5,12 +5,12 @@ from collections.abc import Callable, Iterable, Iterator
 from datetime import timedelta
 from enum import Enum
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from rldrill.diagnosis import Diagnosis
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
 from rldrill.history.memory import Skill
@@ -33,6 +33,9 @@ from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
+
+if TYPE_CHECKING:
+    from rldrill.diagnosis import Diagnosis
 
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
 _FIRST_LINE = "Still wrong, so h now shows the first line with the numbers in; w shows all of it."
@@ -459,7 +462,7 @@ def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None
     return lambda: (draw(family, level, fresh_seed()) for _ in range(_FIVE))
 
 
-def _without_value(diagnosis: Diagnosis) -> Equation | None:
+def _without_value(diagnosis: "Diagnosis") -> Equation | None:
     """The line as it should be, without what comes out of it; None where nothing else stands there."""
     right = diagnosis.right
     if right is None or diagnosis.place is None or diagnosis.place.step is None:

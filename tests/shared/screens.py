@@ -57,7 +57,7 @@ def transcript(kind: str) -> str:
 
     clock = count(0, 5)
     # What is said of a wrong answer must not hang on how fast the machine is.
-    with patch("rldrill.quiz.session.AT_THE_PROMPT", None), screen.capture() as captured:
+    with patch("rldrill.diagnosis.AT_THE_PROMPT", None), screen.capture() as captured:
         Screen(
             screen, ask, Recorder(clock=lambda: float(next(clock))), seen=(), topics=lambda: "(the map)", plain=plain
         ).run(exercises(), Session(4))
