@@ -1,4 +1,4 @@
-"""A newcomer's first minutes, key by key: what stands on the screen after each, and what the clock says.
+"""A newcomer's first minutes, key by key: what is new on the screen after each, and what the clock says.
 
     pip install pyte
     python benchmarks/newcomer.py [COLUMNS LINES] > minutes.txt
@@ -31,6 +31,7 @@ class Newcomer:
         self._stream = pyte.Stream(self._screen)
         self._size, self._home = (lines, columns), home
         self._begun, self._written = time.perf_counter(), ""
+        self._before: list[str] = []
 
     def starts(self) -> None:
         """Start the quiz."""
@@ -79,7 +80,18 @@ class Newcomer:
             except pexpect.EOF:
                 break
         print(f"\n[{last - self._begun:5.1f} s] {pressed}")
-        print("\n".join(f"  | {line.rstrip()}" for line in self._screen.display).rstrip("| \n"))
+        shown = "\n".join(line.rstrip() for line in self._screen.display).rstrip().splitlines()
+        print("\n".join(f"  | {line}".rstrip() for line in _new(self._before, shown)))
+        self._before = shown
+
+
+def _new(before: list[str], shown: list[str]) -> list[str]:
+    """The lines that were not there before, however far those have scrolled; the prompt was, but for what was typed."""
+    for gone in range(len(before)):
+        kept = before[gone:-1]
+        if kept and shown[: len(kept)] == kept:
+            return shown[len(kept) :]
+    return shown
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from places import ROOMS, Mutation, Source
 MOST = 1000
 
 #: What test files import that start other programs or look at PDFs: their tests come last of their rank.
-_DEAR = {"pexpect", "printed", "subprocess"}
+_DEAR = {"pexpect", "printed", "subprocess", "terminals"}
 
 
 @dataclass(frozen=True)
