@@ -89,6 +89,7 @@ class _Editor:
             bindings.add(key, filter=Condition(partial(self._offers, key)))(_press)
         bindings.add("enter", filter=Condition(self._is_more_coming))(_next_line)
         bindings.add("c-z")(self._suspend)
+        bindings.add("c-l")(self._clear)
         return bindings
 
     def _offers(self, key: str) -> bool:
@@ -102,6 +103,11 @@ class _Editor:
         from prompt_toolkit.application import run_in_terminal
 
         event.app.suspend_to_background()
+        run_in_terminal(self._redraw)
+
+    def _clear(self, _: "KeyPressEvent") -> None:
+        from prompt_toolkit.application import run_in_terminal
+
         run_in_terminal(self._redraw)
 
     def _look_at_size(self, app: "Application[str]") -> None:

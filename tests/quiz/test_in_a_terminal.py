@@ -101,6 +101,7 @@ def test_in_a_window_of_another_size_all_is_there_again_and_fits(terminal: Termi
     terminal.sees("Value iteration starts", "(a) > 1, 2", "(a) > cool: 7/2, ")
     drawn = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", terminal.child.before)
     assert max(map(len, drawn.split("\r\n"))) <= 70
+    terminal.presses("\x0c", "Value iteration starts", "(a) > cool: 7/2, ")  # Ctrl-L
     terminal.types("warm: 5/2", "Right")
 
 
