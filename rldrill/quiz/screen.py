@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from datetime import timedelta
 from enum import Enum
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.table import Table
 from rich.text import Text
 
@@ -21,7 +22,7 @@ from rldrill.quiz.ahead import Ahead
 from rldrill.quiz.display import Display
 from rldrill.quiz.ending import ending, weakest
 from rldrill.quiz.hints import ladder
-from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
+from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, alone, command
 from rldrill.quiz.planning import Plan
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.recording import Recorder, utc_now
@@ -82,6 +83,18 @@ class Then(Enum):
     RESTART = "restart"
     VARIANT = "variant"
     QUIT = "quit"
+
+
+@dataclass(frozen=True)
+class _Header:
+    """A line, with a name at its end where there is room for it."""
+
+    line: tuple[tuple[str, str], ...]
+    name: tuple[str, str]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        whole = (*self.line, self.name)
+        yield words(*(whole if sum(len(text) for text, _ in whole) < options.max_width else self.line))
 
 
 class Screen:
@@ -213,7 +226,7 @@ class Screen:
         self._display.turn()
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
-        line = [(f"Problem {number}", "bold")]
+        line: list[tuple[str, str]] = [(f"Problem {number}", "bold")]
         if session.total is not None:
             bar = session.total <= 40 and not self._plain
             done = "━" * number + "─" * (session.total - number) if bar else ""
@@ -221,10 +234,7 @@ class Screen:
         elif session.minutes is not None:
             line.append((f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}", ""))
         line.append((f"  {family.title}{level}", ""))
-        named = f"  {exercise.id or 'your own problem'}"
-        if sum(len(text) for text, _ in line) + len(named) < self._console.width:
-            line.append((named, "dim"))
-        self._print(words(*line))
+        self._print(_Header(tuple(line), (f"  {exercise.id or 'your own problem'}", "dim")))
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
@@ -341,7 +351,7 @@ class Screen:
         self._comes_again(record.exercise)
         self._ahead.begin()
         while True:
-            text = self._line(prompt, "npwvrqt? ").strip()
+            text = self._line(prompt, alone("npwvrqt? ", record.exercise)).strip()
             match COMMANDS.get(text.lower().removeprefix(":"), text):
                 case "" | "next" | "n":
                     return Then.NEXT
