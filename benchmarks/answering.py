@@ -32,10 +32,11 @@ _READS, _TYPES = 1.0, 2.0
 _VERDICT, _PROMPT = "[✓✗≈]|Not understood", r">(?:[\s\b]|\x1b\[[0-9;?]*[A-Za-z])+$"
 
 
-#: What the quiz cannot do without.
+#: What the quiz cannot do without; pydantic imports most of itself with the first model.
 _NEEDED = """
 import typer, rich.console, sympy, flint, fsrs, prompt_toolkit, sqlite3, platformdirs
 from pydantic import BaseModel
+class Model(BaseModel): pass
 input('>')
 """
 _ROUNDS = 7

@@ -15,6 +15,8 @@ import typer
 from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
 
 if TYPE_CHECKING:
+    from rich.console import RenderableType
+
     from rldrill.exercise import Exercise
     from rldrill.history.attempts import Attempt
     from rldrill.quiz.planning import Plan
@@ -113,7 +115,6 @@ def command(
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
-    from rldrill.quiz.topics import topic_map
     from rldrill.render.terminal import console
 
     recorder = Recorder(keeper.keep)
@@ -144,7 +145,7 @@ def command(
         line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal),
         recorder,
         None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
-        lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+        lambda: _map([*attempts, *recorder.attempts]),
         plan,
         plain=plain,
         said=said,
@@ -192,6 +193,13 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     _collect_again()
     if not screen.run(sitting):
         raise typer.Exit(130)
+
+
+def _map(attempts: Sequence["Attempt"]) -> "RenderableType":
+    from rldrill.quiz.recording import utc_now
+    from rldrill.quiz.topics import topic_map
+
+    return topic_map(attempts, utc_now())
 
 
 def _collect_again() -> None:
