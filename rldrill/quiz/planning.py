@@ -171,11 +171,12 @@ class Plan:
     def says(self) -> str:
         """One line: how much is due and new, and why the first problem is asked."""
         now = self._begin
+        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
         if not self._attempts:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""
             return (
-                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others. "
+                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others{ahead}. "
                 "What you answer is kept, and decides what comes next."
             )
         due, first = len(self.due(now)), self._peek(now)
@@ -183,7 +184,6 @@ class Plan:
         counts = f"{min(due, self._number - fresh)} due, {fresh} new" if due else f"nothing due, {fresh} new"
         if due > self._number - fresh:
             counts += f" (of {due} that are due)"
-        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
         return f"{counts}{ahead}; first {first}, {self._why(first, now)}."
 
     def _peek(self, now: datetime) -> Skill:
