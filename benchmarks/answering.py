@@ -24,6 +24,7 @@ from rldrill.exercise import Exercise
 from rldrill.history.attempts import Attempt
 from rldrill.history.log import append
 from rldrill.problems.catalogue import families
+from rldrill.problems.parts import Choice, YesNo
 from rldrill.quiz.questions import questions
 from rldrill.solutions.answers.kinds import answer_kind
 
@@ -99,7 +100,7 @@ class Person:
         for exercise in exercises:
             self._child.expect(_PROMPT)
             for part in exercise.parts:
-                if part.kind.name not in ("yes-no", "choice"):
+                if not isinstance(part.kind, YesNo | Choice):
                     wrong = exercise.diagnosing.wrong_answers(part.label, 1)
                     if wrong:
                         self._answers("verdict on a wrong answer", wrong[0].answer)
