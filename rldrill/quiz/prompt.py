@@ -127,8 +127,9 @@ class _Editor:
 
 
 def _press(event: "KeyPressEvent") -> None:
+    """End the line with the key alone; the arrow keys do not bring it back, as they do an answer."""
     event.current_buffer.insert_text(event.data)
-    event.current_buffer.validate_and_handle()
+    event.app.exit(result=event.data)
 
 
 def _next_line(event: "KeyPressEvent") -> None:
