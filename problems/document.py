@@ -4,7 +4,7 @@ Every text may hold mathematics between ``$`` signs (see ``rldrill.problems.math
 """
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from rldrill.problems.mathematics import Math, mathematics
@@ -62,6 +62,10 @@ class Equation(Block):
         object.__setattr__(self, "left", left)
         object.__setattr__(self, "rights", tuple(rights))
         object.__setattr__(self, "notation", in_use())
+
+    def without_last(self) -> "Equation":
+        """The same without its last right side, which is what comes out of it."""
+        return replace(self, rights=self.rights[:-1], signs=self.signs[:-1])
 
 
 @dataclass(frozen=True, slots=True)

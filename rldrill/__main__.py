@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import NoReturn
 
 #: Commands that have ended before there is anything worth collecting; or that turn it on again, once all is imported.
-_BRIEF = frozenset({"list", "show", "solve", "verify"})
+_BRIEF = frozenset({"list", "quiz", "show", "solve", "verify"})
 
 
 def run() -> NoReturn:

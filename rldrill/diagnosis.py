@@ -32,6 +32,8 @@ from rldrill.solutions.work import Step
 
 #: The time that there is for one answer, in seconds: at a prompt, and in a file of answers.
 AT_THE_PROMPT, IN_A_FILE = 0.15, 1.5
+#: Before anything is searched ahead the prompt is shown, for which there are so many seconds.
+_SHOWN = 0.05
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.
 _SURE = 0.6
 #: What is not written in a step: one that was left out or taken twice, a minimum, a quantity that was not asked for.
@@ -172,6 +174,8 @@ class Diagnosing:
         self._thread = in_background(self._ahead)
 
     def _ahead(self) -> None:
+        if self._stop.wait(_SHOWN):
+            return
         clock = Clock(stop=self._stop)
         every = [self.outcomes(part.label, {}) for part in self.solution.problem.parts]
         for outcomes in every:

@@ -34,7 +34,7 @@ def test_dir_shows_exactly_what_there_is() -> None:
 
 
 def test_nothing_heavy_is_imported_before_it_is_used() -> None:
-    heavy = "{'sympy', 'flint', 'numpy', 'rich', 'typst'}"
+    heavy = "{'sympy', 'flint', 'numpy', 'rich', 'typst', 'prompt_toolkit'}"
     code = f"import rldrill, sys; rldrill.families(); print({heavy} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"
 

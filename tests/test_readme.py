@@ -95,7 +95,7 @@ def test_the_picture_of_the_quiz() -> None:
     typed = iter(re.findall(r"^\([a-z]\) > (.*)$", picture, re.MULTILINE))
     screen = Console(file=StringIO(), width=98, highlight=False, markup=False)
 
-    def ask(prompt: str) -> str:
+    def ask(prompt: str, _keys: str = "") -> str:
         line = next(typed, None)
         if line is None:
             raise EOFError

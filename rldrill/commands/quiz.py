@@ -1,9 +1,13 @@
 """``rldrill quiz``."""
 
+import gc
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
+from shutil import get_terminal_size
+from textwrap import fill
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,6 +15,8 @@ import typer
 from rldrill.commands.arguments import Level, NotationOption, Seed, complete
 
 if TYPE_CHECKING:
+    from rich.console import RenderableType
+
     from rldrill.exercise import Exercise
     from rldrill.history.attempts import Attempt
     from rldrill.quiz.planning import Plan
@@ -71,7 +77,7 @@ def command(
     """
     from rldrill.problems.errors import UsageError
     from rldrill.problems.identity import names_a_problem
-    from rldrill.quiz.prompt import hold_resumes, is_interactive, line_editor, on_resume
+    from rldrill.quiz.prompt import is_interactive, line_editor
 
     if not is_interactive():
         raise UsageError(
@@ -81,31 +87,30 @@ def command(
     if exam is not None:
         _sit(exam, version, answers, seed, plain=plain)
         return
-    hold_resumes()
     from rldrill.history.keeping import Keeper
 
     keeper = Keeper(lambda sentence: typer.echo(f"rldrill: {sentence}", err=True))
     wanted = list(names or ())
-    plan, drilled = None, None
+    plan, drilled, said = None, None, ""
     if mistake is not None:
         if exam_date is not None:
             raise UsageError("--mistake says what is asked; leave --exam-date out.")
         from rldrill.quiz.drilling import drill
 
         drilled = drill(mistake, keeper.read(), wanted, level)
-        typer.echo(drilled.says())
+        said = drilled.says()
     elif exam_date is not None or not (level or seed is not None or any(map(names_a_problem, wanted))):
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        if plan is not None:
-            typer.echo(plan.says())  # before the libraries that take a while
+        said = "" if plan is None else plan.says()
+    if said:
+        typer.echo(fill(said, get_terminal_size().columns - 1))  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed
     from rldrill.quiz.questions import planned, questions, timed
     from rldrill.quiz.recording import Recorder, utc_now
     from rldrill.quiz.screen import Screen
     from rldrill.quiz.session import Session
-    from rldrill.quiz.topics import topic_map
     from rldrill.render.terminal import console
 
     recorder = Recorder(keeper.keep)
@@ -130,16 +135,21 @@ def command(
         more=None if drilled is None else lambda: drilled.exercises(fresh_seed()),
     )
     attempts = keeper.read()
+    terminal = console(plain=plain)
     screen = Screen(
-        console(plain=plain),
-        line_editor(),
+        terminal,
+        line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal),
         recorder,
         None if any(map(names_a_problem, wanted)) else {attempt.family for attempt in attempts},
-        lambda: topic_map([*attempts, *recorder.attempts], utc_now()),
+        lambda: _map([*attempts, *recorder.attempts]),
+        plan,
         plain=plain,
+        said=said,
     )
-    on_resume(screen.redraw)
-    if not screen.run(exercises, session):
+    _collect_again()
+    with closing(keeper):
+        finished = screen.run(exercises, session)
+    if not finished:
         raise typer.Exit(130)
 
 
@@ -173,8 +183,25 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():
         sitting.resume()
-    if not SittingScreen(console(plain=plain), line_editor(), utc_now, plain=plain).run(sitting):
+    terminal = console(plain=plain)
+    ask = line_editor(lambda: screen.redraw(), plain=plain or terminal.is_dumb_terminal)
+    screen = SittingScreen(terminal, ask, utc_now, plain=plain)
+    _collect_again()
+    if not screen.run(sitting):
         raise typer.Exit(130)
+
+
+def _map(attempts: Sequence["Attempt"]) -> "RenderableType":
+    from rldrill.quiz.recording import utc_now
+    from rldrill.quiz.topics import topic_map
+
+    return topic_map(attempts, utc_now())
+
+
+def _collect_again() -> None:
+    """From now on memory is tidied up, but for what is imported, which stays."""
+    gc.freeze()
+    gc.enable()
 
 
 def _expected(minutes: int | None) -> int:

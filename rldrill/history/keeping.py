@@ -2,6 +2,7 @@
 
 import sqlite3
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from rldrill.history import log
@@ -24,6 +25,7 @@ class Keeper:
         self._where = where
         self._waiting: list[Attempt] = []
         self._told = False
+        self._writer: log.Writer | None = None
 
     def read(self) -> tuple[Attempt, ...]:
         """What was answered so far; nothing where that cannot be read."""
@@ -37,11 +39,22 @@ class Keeper:
         """Write an answer, with those before that could not be written."""
         self._waiting.append(attempt)
         try:
-            log.append(self._where(), self._waiting)
+            if self._writer is None or not self._writer.is_there:
+                self.close()
+                self._writer = log.Writer(self._where())
+            self._writer.append(self._waiting)
         except _TROUBLE as error:
+            self.close()
             self._tell(error)
         else:
             self._waiting = []
+
+    def close(self) -> None:
+        """No more answers come for now."""
+        writer, self._writer = self._writer, None
+        if writer is not None:
+            with suppress(*_TROUBLE):
+                writer.close()
 
     def _tell(self, error: Exception) -> None:
         if not self._told:

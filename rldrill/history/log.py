@@ -4,7 +4,7 @@ import json
 import sqlite3
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -61,12 +61,41 @@ def append(path: Path, attempts: Iterable[Attempt]) -> int:
         HistoryError: the database is of a newer version.
         sqlite3.Error, OSError: it cannot be written.
     """
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    _refuse_newer(path)
-    with _opened(path) as database, _transaction(database):
-        before = database.total_changes
-        database.executemany(_INSERT, map(_row, attempts))
-        return database.total_changes - before
+    with closing(Writer(path)) as writer:
+        return writer.append(attempts)
+
+
+class Writer:
+    """The log, open for one answer after the other: to close it and open it again takes several times as long.
+
+    Raises:
+        HistoryError: the database is of a newer version.
+        sqlite3.Error, OSError: it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        _refuse_newer(path)
+        self._path = path
+        self._open = ExitStack()
+        self._database = self._open.enter_context(_opened(path))
+        self._file = path.stat().st_ino
+
+    @property
+    def is_there(self) -> bool:
+        """Whether the file is still the one that was opened, and not deleted or another."""
+        return self._path.exists() and self._path.stat().st_ino == self._file
+
+    def append(self, attempts: Iterable[Attempt]) -> int:
+        """Write attempts in one transaction, as ``append`` does."""
+        with _transaction(self._database):
+            before = self._database.total_changes
+            self._database.executemany(_INSERT, map(_row, attempts))
+            return self._database.total_changes - before
+
+    def close(self) -> None:
+        """Tidy up; whatever was written is kept without that, too."""
+        self._open.close()
 
 
 def forget(path: Path, families: Sequence[str] = ()) -> int:
@@ -88,6 +117,7 @@ def forget(path: Path, families: Sequence[str] = ()) -> int:
             else:
                 gone = database.execute("DELETE FROM attempt").rowcount
         database.execute("VACUUM")
+        database.execute("PRAGMA wal_checkpoint(TRUNCATE)")  # a quiz may have it open
     for copy in path.parent.glob(f"{path.name}.v*"):
         copy.unlink()
     return gone
@@ -113,7 +143,7 @@ def _refuse_version(path: Path, version: int) -> None:
 
 @contextmanager
 def _opened(path: Path) -> Iterator[sqlite3.Connection]:
-    """The database, brought to this version; opened for one piece of work, so that nothing is ever left half-done."""
+    """The database, brought to this version."""
     with closing(sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None)) as database:
         _write_ahead(database)
         database.execute("PRAGMA synchronous = FULL")

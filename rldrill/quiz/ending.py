@@ -16,8 +16,8 @@ from rldrill.render.terminal import words
 _FEW = 3
 
 
-def ending(session: Session, seconds: float) -> Iterator[RenderableType]:
-    """The lines at the end of a quiz in which something was answered."""
+def ending(session: Session, seconds: float, due: int | None = None) -> Iterator[RenderableType]:
+    """The lines at the end of a quiz in which something was answered; ``due`` is how many skills are due tomorrow."""
     parts = session.parts
     right = sum(part.state is State.DONE for part in parts)
     first = sum(part.first_time for part in parts)
@@ -41,7 +41,8 @@ def ending(session: Session, seconds: float) -> Iterator[RenderableType]:
     if made:
         alone = "This mistake:" if len(made) == 1 else "The first mistake:"
         commands.add_row(alone, f"rldrill quiz --mistake {made[0][0].name}")
-    commands.add_row("Tomorrow:", Text(session.again, style="bold"))
+    tomorrow = f"Tomorrow, {due} due:" if due else "Tomorrow:"
+    commands.add_row(tomorrow, Text(session.again, style="bold"))
     yield commands
 
 

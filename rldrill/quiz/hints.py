@@ -41,7 +41,7 @@ def ladder(exercise: Exercise, label: str) -> list[Rung]:
         rungs.append(Rung("what stands for what here", meaning))
     stated += [formula.equation(formula.right) for formula in formulas]  # as the working states them
     written = [block for block in exercise.working(label) if block not in stated]
-    lines = list(_lines(written))
+    lines = list(_first_apart(_lines(written)))
     for number, several in enumerate(_spread(lines)):
         says = "how it begins" if number == 0 else "how it goes on"
         rungs.append(Rung(says, tuple(block for line in several for block in line), is_working=True))
@@ -61,15 +61,20 @@ def _said(hints: Iterable[str]) -> Iterator[Block]:
 
 
 def _symbols(exercise: Exercise, label: str) -> Iterator[Equation]:
-    """What the symbols of each formula are in the first step that uses it: γ = 1/2, V(sₜ) = V(cool) = 7."""
-    told = set()
-    steps = {line.formula: line for line in reversed(exercise.solution.lines_of(label)) if isinstance(line, Step)}
-    for step in steps.values():
-        for expression in sympy.preorder_traversal(step.right):
-            equation = _symbol(expression, step) if expression not in told else None
-            told.add(expression)
-            if equation is not None:
-                yield equation
+    """What the symbols of each formula are in the first step that uses it: γ = 1/2, V(sₜ) = V(cool) = 7.
+
+    What an earlier step gives is not told: it is found on the way.
+    """
+    formulas, told = set[Formula](), set[sympy.Basic]()
+    for step in (line for line in exercise.solution.lines_of(label) if isinstance(line, Step)):
+        if step.formula not in formulas:
+            formulas.add(step.formula)
+            for expression in sympy.preorder_traversal(step.right):
+                equation = _symbol(expression, step) if expression not in told else None
+                told.add(expression)
+                if equation is not None:
+                    yield equation
+        told.add(step.named)
 
 
 def _symbol(expression: sympy.Basic, step: Step) -> Equation | None:
@@ -98,6 +103,17 @@ def _lines(blocks: Iterable[Block]) -> Iterator[list[Block]]:
             line = []
     if line:
         yield line
+
+
+def _first_apart(lines: Iterable[list[Block]]) -> Iterator[list[Block]]:
+    """The lines, the first of them once without what comes out of it, and then whole."""
+    for number, line in enumerate(lines):
+        equation = line[-1]
+        if number == 0 and isinstance(equation, Equation) and len(equation.rights) > 1:
+            yield [*line[:-1], equation.without_last()]
+            yield [equation]
+        else:
+            yield line
 
 
 def _spread(lines: list[list[Block]]) -> Iterator[list[list[Block]]]:

@@ -3,7 +3,7 @@
 import re
 
 from rldrill.exercise import Exercise
-from rldrill.problems.parts import Choice, Kind, Policy
+from rldrill.problems.parts import Choice, Kind, Policy, Values
 
 #: The keys that are told once, at the first question, and what reminds of them afterwards.
 KEYS = ("h hint · p problem again · m check my own working", "s skip · w working · t topics · q quit · ? all keys")
@@ -27,6 +27,18 @@ COMMANDS = {word: key for key, says in HELP[:-1] for word in (key, re.split("[^a
 }
 #: The rule for points, in words.
 COUNTS = "Each wrong answer before, and each hint, takes a quarter of the points, down to a quarter."
+
+
+def alone(keys: str, exercise: Exercise) -> str:
+    """Of these keys those that need no Enter: with the others an answer to this problem may begin that comes late."""
+    names = {*exercise.problem.parameters}
+    for part in exercise.parts:
+        if isinstance(part.kind, Values):
+            names |= {key if isinstance(key, str) else key[0] for key in part.kind.keys}
+        elif isinstance(part.kind, Policy):
+            names |= {*part.kind.actions}
+    begun = {name[:1].lower() for name in names}
+    return "".join(key for key in keys if key not in begun)
 
 
 def command(text: str, exercise: Exercise, kind: Kind) -> str:

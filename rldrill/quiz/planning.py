@@ -99,6 +99,11 @@ class Plan:
         late.sort(key=lambda skill: self.memories[skill].recall(now))
         return list(dict.fromkeys(map(self._within_reach, late)))
 
+    def again(self, skill: Skill, now: datetime) -> str:
+        """When a skill that was answered is asked again: tomorrow, in 4 days."""
+        days = math.ceil((self.due_at(skill) - now) / _DAY)
+        return f"in {days} days" if days > 1 else "tomorrow"
+
     def _within_reach(self, skill: Skill) -> Skill:
         memory, below = self.memories[skill], Skill(skill.family, skill.level - 1)
         if memory.lapses < 2 or below not in self._place:
@@ -166,11 +171,12 @@ class Plan:
     def says(self) -> str:
         """One line: how much is due and new, and why the first problem is asked."""
         now = self._begin
+        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
         if not self._attempts:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""
             return (
-                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others. "
+                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others{ahead}. "
                 "What you answer is kept, and decides what comes next."
             )
         due, first = len(self.due(now)), self._peek(now)
@@ -178,7 +184,6 @@ class Plan:
         counts = f"{min(due, self._number - fresh)} due, {fresh} new" if due else f"nothing due, {fresh} new"
         if due > self._number - fresh:
             counts += f" (of {due} that are due)"
-        ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
         return f"{counts}{ahead}; first {first}, {self._why(first, now)}."
 
     def _peek(self, now: datetime) -> Skill:

@@ -2,36 +2,41 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass
+from datetime import timedelta
 from enum import Enum
 from itertools import islice
+from typing import TYPE_CHECKING
 
-from rich.console import Console, Group, RenderableType
-from rich.padding import Padding
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.table import Table
 from rich.text import Text
 
-from rldrill.diagnosis import Diagnosis
 from rldrill.exam.selection import fresh_seed
 from rldrill.exercise import Exercise, draw
+from rldrill.history.memory import Skill
 from rldrill.problems.document import Equation
 from rldrill.problems.identity import MAX_SEED
 from rldrill.problems.parts import Choice, Kind, Matrix, Numbers, Policy, Values, YesNo
 from rldrill.quiz.ahead import Ahead
+from rldrill.quiz.display import Display
 from rldrill.quiz.ending import ending, weakest
 from rldrill.quiz.hints import ladder
-from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, command
+from rldrill.quiz.keys import COMMANDS, COUNTS, HELP, KEYS, SHORT_KEYS, alone, command
+from rldrill.quiz.planning import Plan
 from rldrill.quiz.prompt import Ask
-from rldrill.quiz.recording import Recorder
+from rldrill.quiz.recording import Recorder, utc_now
 from rldrill.quiz.session import PartRecord, Record, Session, State
 from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.render.compact import WIDEST, Compact
-from rldrill.render.encodable import Spelling
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, compared, render, renderable, turn_page, words
+from rldrill.render.terminal import asked, compared, render, renderable, words
 from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.key import answer_block
 from rldrill.solutions.answers.rule import RULE
+
+if TYPE_CHECKING:
+    from rldrill.diagnosis import Diagnosis
 
 _OR_ELSE = "Try again, or h for a hint, m to check your own working, w for the working, s to go on."
 _FIRST_LINE = "Still wrong, so h now shows the first line with the numbers in; w shows all of it."
@@ -66,6 +71,7 @@ _BESIDES = 4
 _FIVE, _LEVEL = 5, 2
 #: After so many misses the next hint is the first line with the numbers in.
 _MISSES = 3
+_DAY = timedelta(days=1)
 #: The names of places that nobody types.
 _PLACES = re.compile(r"(?:row \d+, column \d+|entry \d+): ")
 
@@ -79,6 +85,18 @@ class Then(Enum):
     QUIT = "quit"
 
 
+@dataclass(frozen=True)
+class _Header:
+    """A line, with a name at its end where there is room for it."""
+
+    line: tuple[tuple[str, str], ...]
+    name: tuple[str, str]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        whole = (*self.line, self.name)
+        yield words(*(whole if sum(len(text) for text, _ in whole) < options.max_width else self.line))
+
+
 class Screen:
     """Runs a quiz on a console, asking through ``ask``."""
 
@@ -89,27 +107,26 @@ class Screen:
         recorder: Recorder | None = None,
         seen: Iterable[str] | None = None,
         topics: Callable[[], RenderableType] = Text,
+        plan: Plan | None = None,
         *,
         plain: bool = False,
+        said: str = "",
     ) -> None:
         self._plain = plain
         self._console = console
-        spelling = Spelling(console.encoding)
-        self._ask: Ask = lambda prompt: ask(spelling.plain(prompt))
+        self._display = Display(console, ask, plain=plain, said=said)
+        self._print, self._indented, self._signed = self._display.print, self._display.indented, self._display.signed
         self._recorder = recorder or Recorder()
         self._seen = None if seen is None else set(seen)
         self._topics = topics
+        self._plan = plan
         self._pasted: list[str] = []
         self._keys: tuple[str, ...] = KEYS
         self._ahead = Ahead(iter(()))
-        self._redraw: Callable[[], object] = Text
-        self._prompt = ""
-        self._begun = False
 
-    def redraw(self) -> str:
-        """Show what is asked now once more; what is returned is its prompt."""
-        self._redraw()
-        return self._prompt
+    def redraw(self) -> None:
+        """Show the page once more, as wide as the window is now."""
+        self._display.redraw()
 
     def run(self, exercises: Iterable[Exercise], session: Session) -> bool:
         """Ask one exercise after the other; every verdict is in the session as soon as it is given.
@@ -124,7 +141,6 @@ class Screen:
                 try:
                     self._problems(more, session)
                 finally:
-                    self._redraw = Text
                     if session.parts or more is exercises:
                         self.summary(session, self._recorder.elapsed - begin)
                 more = self._five_more(session)
@@ -149,7 +165,7 @@ class Screen:
     def _five_more(self, session: Session) -> Iterator[Exercise] | None:
         """Problems of the mistake that is drilled, or of the weakest skill, if there is one and they are wanted."""
         more = (session.more or _of_the_weakest(session)) if session.parts else None
-        if more is None or self._line("f five more of these · Enter ends > ").strip().lower() != "f":
+        if more is None or self._line("f five more of these · Enter ends > ", "fq ").strip().lower() != "f":
             return None
         self._print()
         return islice(more(), _FIVE)
@@ -160,9 +176,9 @@ class Screen:
         if self._seen is None or exercise.id is None or family.name in self._seen:
             return Then.NEXT
         self._seen.add(family.name)
-        self._page()
+        self._display.turn()
         self._print(words("New: ", (family.title, "bold"), "."))
-        wanted = self._key("Enter shows one worked example · n goes to the problem > ")
+        wanted = self._key("Enter shows a worked example · n the problem · t topics > ")
         if wanted == "q":
             return Then.QUIT
         self._print()
@@ -182,7 +198,7 @@ class Screen:
     def _key(self, prompt: str) -> str:
         """The key that is meant where no answer is asked for; help and the map are shown, and it is asked again."""
         while True:
-            text = self._line(prompt).strip().lower().removeprefix(":")
+            text = self._line(prompt, "nqt? ").strip().lower().removeprefix(":")
             match COMMANDS.get(text, text):
                 case "?":
                     self._help()
@@ -206,17 +222,11 @@ class Screen:
                 session.records.remove(record)
             record = record.again() if then is Then.RESTART else Record.of(variant(record.exercise))
 
-    def _page(self) -> None:
-        """Every problem begins at the top of the screen; but before the first it is said what comes."""
-        begun, self._begun = self._begun, True
-        if begun and not self._plain:
-            turn_page(self._console)
-
     def _header(self, exercise: Exercise, number: int, session: Session) -> None:
-        self._page()
+        self._display.turn()
         family = exercise.problem.family
         level = f" · level {exercise.problem.level}" if exercise.problem.level else ""
-        line = [(f"Problem {number}", "bold")]
+        line: list[tuple[str, str]] = [(f"Problem {number}", "bold")]
         if session.total is not None:
             bar = session.total <= 40 and not self._plain
             done = "━" * number + "─" * (session.total - number) if bar else ""
@@ -224,10 +234,7 @@ class Screen:
         elif session.minutes is not None:
             line.append((f" · minute {int(self._recorder.elapsed // 60) + 1} of {session.minutes}", ""))
         line.append((f"  {family.title}{level}", ""))
-        named = f"  {exercise.id or 'your own problem'}"
-        if sum(len(text) for text, _ in line) + len(named) < self._console.width:
-            line.append((named, "dim"))
-        self._print(words(*line))
+        self._print(_Header(tuple(line), (f"  {exercise.id or 'your own problem'}", "dim")))
         self._print()
 
     def _question(self, exercise: Exercise) -> None:
@@ -276,29 +283,21 @@ class Screen:
     def _typed(self, prompt: str, kind: Kind) -> str:
         """What was typed: of what may take several lines, all that were pasted together, and up to the last bracket."""
         if not isinstance(kind, Matrix | Values | Numbers | Policy):
-            return self._line(prompt)
-        self._prompt = prompt
-        lines = [*self._pasted, *([] if self._pasted else [self._ask(prompt)])]
+            return self._line(prompt, "?")
+        lines = [*self._pasted, *([] if self._pasted else [self._display.ask(prompt, "?")])]
         self._pasted = []
         while sum(line.count("[") - line.count("]") for line in lines) > 0:
-            lines.append(self._ask("... "))
+            lines.append(self._display.ask("... "))
             if not lines[-1].strip():
                 break
         return "\n".join(lines)
 
-    def _line(self, prompt: str) -> str:
-        """One line, the next of those that were pasted together, if there are any left."""
-        self._prompt = prompt
-        self._pasted = self._pasted or self._ask(prompt).split("\n")
+    def _line(self, prompt: str, keys: str = "") -> str:
+        """One line or key, the next of those lines that were pasted together, if there are any left."""
+        self._pasted = self._pasted or self._display.ask(prompt, keys).split("\n")
         return self._pasted.pop(0)
 
     def _part(self, record: Record, part: PartRecord, prompt: str) -> Then:
-        def again() -> None:
-            self._print(Text(record.exercise.id or "your own problem", style="dim"))
-            self._question(record.exercise)
-            self._print(asked(part.part, only=len(record.parts) == 1))
-
-        self._redraw = again
         while part.state is State.OPEN:
             text = self._typed(prompt, part.part.kind).strip()
             match command(text, record.exercise, part.part.kind):
@@ -313,7 +312,9 @@ class Screen:
                 case "?":
                     self._help()
                 case "p":
-                    self._redraw()
+                    self._print(Text(record.exercise.id or "your own problem", style="dim"))
+                    self._question(record.exercise)
+                    self._print(asked(part.part, only=len(record.parts) == 1))
                 case "t":
                     self._print(self._topics())
                 case "h":
@@ -347,9 +348,10 @@ class Screen:
 
     def _after(self, record: Record) -> Then:
         prompt = "Enter next · p problem · w working · v variant · r again · q quit > "
+        self._comes_again(record.exercise)
         self._ahead.begin()
         while True:
-            text = self._line(prompt).strip()
+            text = self._line(prompt, alone("npwvrqt? ", record.exercise)).strip()
             match COMMANDS.get(text.lower().removeprefix(":"), text):
                 case "" | "next" | "n":
                     return Then.NEXT
@@ -369,6 +371,15 @@ class Screen:
                     self._help()
                 case _:
                     self._print(words(("  All parts of this problem are done, so that was not judged: ", "dim"), text))
+
+    def _comes_again(self, exercise: Exercise) -> None:
+        """Say when the like of it is asked again."""
+        if self._plan is None or exercise.problem.level is None:
+            return
+        skill = Skill(exercise.problem.family.name, exercise.problem.level)
+        self._plan.learn(self._recorder.attempts)
+        if skill in self._plan.memories:
+            self._print(Text(f"This comes again {self._plan.again(skill, utc_now())}.", style="dim"))
 
     def _verdict(self, verdict: Verdict, record: Record, part: PartRecord) -> None:
         diagnosis = record.diagnosis(part)
@@ -445,22 +456,12 @@ class Screen:
         if not parts:
             self._print("Nothing was answered. Come back soon.")
             return
-        for line in ending(session, seconds):
+        due = None
+        if self._plan is not None:
+            self._plan.learn(self._recorder.attempts)
+            due = len(self._plan.due(utc_now() + _DAY))
+        for line in ending(session, seconds, due):
             self._print(line)
-
-    def _indented(self, content: RenderableType) -> None:
-        self._print(Padding(content, (0, 0, 0, 2), expand=False))
-
-    def _signed(self, sign: tuple[str, str], content: RenderableType) -> None:
-        """A sign or word, with its style, and what it is about, whose further lines stand under the first."""
-        grid = Table.grid(padding=(0, 1, 0, 0))
-        grid.add_column(no_wrap=True)
-        grid.add_column(overflow="fold")
-        grid.add_row(words(sign), content)
-        self._indented(grid)
-
-    def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content, width=min(self._console.width, WIDEST))
 
 
 def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None:
@@ -471,14 +472,14 @@ def _of_the_weakest(session: Session) -> Callable[[], Iterator[Exercise]] | None
     return lambda: (draw(family, level, fresh_seed()) for _ in range(_FIVE))
 
 
-def _without_value(diagnosis: Diagnosis) -> Equation | None:
+def _without_value(diagnosis: "Diagnosis") -> Equation | None:
     """The line as it should be, without what comes out of it; None where nothing else stands there."""
     right = diagnosis.right
     if right is None or diagnosis.place is None or diagnosis.place.step is None:
         return right  # a formula has no value
     if len(right.rights) == 1:
         return None
-    return replace(right, rights=right.rights[:-1], signs=right.signs[:-1])
+    return right.without_last()
 
 
 def _how(part: PartRecord) -> str:
@@ -492,7 +493,10 @@ def _how(part: PartRecord) -> str:
 def _read_otherwise(verdict: Verdict, part: PartRecord) -> str:
     """How an answer was read, where that is not how it was typed."""
     read = _PLACES.sub("", verdict.read)
-    return read if _signs(read) != _signs(part.answers[-1].typed) else ""
+    kind = part.part.kind
+    # Whoever is asked for one value need not name it.
+    value = read.rpartition(": ")[2] if isinstance(kind, Values) and len(kind.keys) == 1 else read
+    return "" if _signs(part.answers[-1].typed) in (_signs(read), _signs(value)) else read
 
 
 def _signs(text: str) -> str:

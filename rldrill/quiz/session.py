@@ -6,13 +6,16 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from itertools import takewhile
+from typing import TYPE_CHECKING
 
-from rldrill.diagnosis import AT_THE_PROMPT, Diagnosis
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Part, YesNo
 from rldrill.quiz.mistakes import called
 from rldrill.solutions.answers.judging import Outcome
+
+if TYPE_CHECKING:
+    from rldrill.diagnosis import Diagnosis
 
 #: What a wrong answer before, or a hint, takes from what the right answer earns, and what it leaves at least.
 COSTS, LEAVES = Fraction(1, 4), Fraction(1, 4)
@@ -137,14 +140,16 @@ class Record:
         title = self.exercise.problem.family.title
         return (Mistake(found.kind, f"{title}: {called(found.kind)}."),)
 
-    def diagnosis(self, current: PartRecord) -> Diagnosis | None:
+    def diagnosis(self, current: PartRecord) -> "Diagnosis | None":
         """What the last answer to a part comes from, if it counts and is wrong."""
+        from rldrill import diagnosis
+
         answered = {record.part.label: record.counted[-1] for record in self.parts if record.counted}
         last = answered.get(current.part.label)
         if last is None or last.verdict is None or last.accepted or last is not current.answers[-1]:
             return None
         verdicts = {label: graded.verdict for label, graded in answered.items()}
-        return self.exercise.diagnosed(last.part, last.typed, last.verdict, verdicts, AT_THE_PROMPT)
+        return self.exercise.diagnosed(last.part, last.typed, last.verdict, verdicts, diagnosis.AT_THE_PROMPT)
 
 
 @dataclass

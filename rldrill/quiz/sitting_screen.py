@@ -5,6 +5,7 @@ import shlex
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from fractions import Fraction
+from functools import partial
 
 from rich.console import Console, RenderableType
 from rich.padding import Padding
@@ -14,12 +15,13 @@ from rich.text import Text
 from rldrill.exercise import Exercise
 from rldrill.graded import GradedPart
 from rldrill.problems.parts import Kind, Part
+from rldrill.quiz.display import Display
 from rldrill.quiz.prompt import Ask
 from rldrill.quiz.shapes import by_name, how_to_type
 from rldrill.quiz.sitting import Place, Sitting, by_topic
-from rldrill.render.compact import WIDEST, Compact
+from rldrill.render.compact import Compact
 from rldrill.render.linear import linear
-from rldrill.render.terminal import asked, render, renderable, turn_page, words
+from rldrill.render.terminal import asked, render, renderable, words
 from rldrill.solutions.answers.judging import read_answer
 from rldrill.solutions.answers.rule import RULE
 from rldrill.solutions.answers.text import Unreadable
@@ -38,6 +40,8 @@ _HELP = (
 )
 #: The title of a problem with the lines around it, and the prompt.
 _BESIDES = 5
+#: The last seconds are told one by one.
+_SECONDS = 60
 _GO = re.compile(r"go\s+(\d{1,3})\s*\(?([a-z])?\)?")
 
 
@@ -54,9 +58,14 @@ class SittingScreen:
     def __init__(self, console: Console, ask: Ask, now: Callable[[], datetime], *, plain: bool = False) -> None:
         self._plain = plain
         self._console = console
-        self._ask = ask
+        self._display = Display(console, ask, plain=plain)
+        self._ask, self._print, self._whole = self._display.ask, self._display.print, self._display.whole
         self._now = now
-        self._kept, self._told, self._begun = True, False, False
+        self._kept, self._told = True, False
+
+    def redraw(self) -> None:
+        """Show the page once more, as wide as the window is now."""
+        self._display.redraw()
 
     def run(self, sitting: Sitting) -> bool:
         """Sit the exam, from the first part without an answer on.
@@ -123,7 +132,7 @@ class SittingScreen:
                 shown = place.problem
             self._part(sitting, place)
             try:
-                text = self._ask(self._prompt(sitting, place)).strip()
+                text = self._ask(partial(self._prompt, sitting, place)).strip()
             except EOFError:
                 self._print()
                 return False
@@ -204,7 +213,8 @@ class SittingScreen:
         try:
             read_answer(sitting.exercise(place).solution, sitting.part(place), text)
         except Unreadable as error:
-            self._print(words(("  ? Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message))
+            kept = words(("Kept, but it cannot be read and would count as wrong: ", "yellow"), error.message)
+            self._display.signed(("?", "yellow"), kept)
             return False
         return True
 
@@ -212,11 +222,8 @@ class SittingScreen:
         exercise = sitting.version.exercises[number]
         points = sum(part.points for part in exercise.parts)
         title = f"Problem {number + 1} of {len(sitting.version.exercises)}  {exercise.problem.family.title}"
-        if self._begun and not self._plain:
-            turn_page(self._console)
-        else:
-            self._print()
-        self._begun = True
+        self._print()
+        self._display.turn()
         self._print(words((title, "bold"), f" · {'1 point' if points == 1 else f'{points} points'}"))
         self._print()
         if self._plain:
@@ -266,9 +273,9 @@ class SittingScreen:
                 own = next(each for each in exercise.parts if each.label == part.part)
                 self._graded(f"{number}{part.part}", part, own.kind)
                 if not part.accepted:
-                    self._indented(render(exercise.working(part.part)))
+                    self._display.indented(render(exercise.working(part.part)))
                     self._print(words(("  The answer:", "dim")))
-                    self._indented(renderable(exercise.answer(own)))
+                    self._display.indented(renderable(exercise.answer(own)))
         if not self._kept:
             self._whole(words((f"Your answers could not be written to {sitting.path}.", "yellow")))
             return
@@ -285,25 +292,18 @@ class SittingScreen:
         points = f"{_number(part.points)} of {part.of}"
         self._print(words((f"{mark} {name}", f"bold {style}"), f"  {points}  ", (typed, "bold"), says))
 
-    def _indented(self, content: RenderableType) -> None:
-        self._print(Padding(content, (0, 0, 0, 2), expand=False))
-
-    def _whole(self, content: RenderableType) -> None:
-        """A line with a path or a command, which is not broken, so that it can be copied."""
-        self._console.print(content, soft_wrap=True)
-
-    def _print(self, content: RenderableType = "") -> None:
-        self._console.print(content, width=min(self._console.width, WIDEST))
-
 
 def _asked(exercise: Exercise, part: Part) -> tuple[RenderableType, ...]:
     """What is asked in a part, and how the answer is typed."""
     shape = how_to_type(part.kind, exercise.problem.parameters)
-    return asked(part, only=len(exercise.parts) == 1), words((f"  {shape}", "dim"))
+    return asked(part, only=len(exercise.parts) == 1), Padding(words((shape, "dim")), (0, 0, 0, 2), expand=False)
 
 
 def _clock(left: timedelta) -> str:
-    minutes = -(-int(left.total_seconds()) // 60)
+    seconds = int(left.total_seconds())
+    if seconds < _SECONDS:
+        return f"{seconds} s"
+    minutes = -(-seconds // 60)
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
 
 

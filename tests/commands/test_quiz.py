@@ -1,6 +1,5 @@
 """The quiz: with somebody's typing simulated, and in a real pseudo-terminal."""
 
-import os
 import sys
 import types
 from collections.abc import Iterator
@@ -8,7 +7,6 @@ from fractions import Fraction
 from io import StringIO
 from pathlib import Path
 
-import pexpect
 import pytest
 from rich.console import Console
 
@@ -17,10 +15,11 @@ from rldrill.problems.catalogue import family
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.ahead import Ahead
 from rldrill.quiz.keys import HELP
-from rldrill.quiz.prompt import line_editor
+from rldrill.quiz.prompt import lines
 from rldrill.quiz.questions import questions
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session, State
+from terminals import Terminal
 
 RACING_CAR = Path(__file__).parent.parent.parent / "examples" / "racing-car.toml"
 
@@ -32,7 +31,7 @@ class Typist:
         self.lines: Iterator[str | type[BaseException]] = iter(lines)
         self.screen = Console(file=StringIO(), width=100, highlight=False, markup=False)
 
-    def __call__(self, prompt: str) -> str:
+    def __call__(self, prompt: str, _keys: str = "") -> str:
         line = next(self.lines, EOFError)
         if not isinstance(line, str):
             raise line
@@ -76,7 +75,10 @@ def test_a_mistake_is_named_with_its_formula_and_may_be_corrected() -> None:
     assert session.parts[0].tries == 2
 
 
-def test_the_right_line_is_shown_without_the_answer_to_whoever_may_try_again(tmp_path: Path) -> None:
+def test_the_right_line_is_shown_without_the_answer_to_whoever_may_try_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rldrill.diagnosis.AT_THE_PROMPT", None)  # however busy the machine is
     path = tmp_path / "robot.toml"
     path.write_text(
         """
@@ -107,6 +109,14 @@ def test_what_cannot_be_read_costs_nothing() -> None:
         assert meaning in typist.seen
     assert session.parts[0].tries == 1
     assert session.parts[0].state is State.DONE
+
+
+def test_how_an_answer_was_read_is_told_only_where_it_was_typed_otherwise() -> None:
+    # One value is asked for, which has a name: V(even) = 2 + 1/5·(−1 + 1/2·8 − 2) = 11/5.
+    typist, _, _ = quiz("11/5", names=("td-zero/1/3",))
+    assert "Right." in typist.seen
+    assert "read as" not in typist.seen
+    assert "read as even: 11/5" in quiz("2 1/5", names=("td-zero/1/3",))[0].seen
 
 
 def test_hint_first_the_formula_then_the_sentence() -> None:
@@ -177,33 +187,16 @@ def test_nothing_answered() -> None:
     assert session.parts == []
 
 
-@pytest.fixture
-def terminal() -> Iterator[pexpect.spawn]:
-    environment = {**os.environ, "TERM": "xterm", "NO_COLOR": "1", "COLUMNS": "100"}
-    child = pexpect.spawn(
-        sys.executable,
-        ["-m", "rldrill", "quiz", str(RACING_CAR)],
-        encoding="utf-8",
-        timeout=30,
-        env=environment,
-    )
-    yield child
-    child.close(force=True)
-
-
-def test_in_a_real_terminal(terminal: pexpect.spawn) -> None:
-    terminal.expect(r"\(a\) > ")
-    terminal.sendline("cool: 3.5, warm: 5/2")
-    terminal.expect(r"✓\S* Right")
-    terminal.expect(r"\(b\) > ")
-    terminal.send("cool: slow\x1b[D\x1b[D\x1b[D\x1b[D\x0bfast, warm: slow\r")  # left, left …, delete to the end
-    terminal.expect(r"✓\S* Right")
-    terminal.expect("Enter next")
-    terminal.sendline("")
-    terminal.expect("2 of 2 parts right")
-    terminal.expect(pexpect.EOF)
-    terminal.close()
-    assert terminal.exitstatus == 0
+def test_a_line_is_edited_and_what_was_typed_before_comes_back(tmp_path: Path) -> None:
+    terminal = Terminal(tmp_path, 100, str(RACING_CAR))
+    terminal.sees("(a) > ")
+    terminal.types("1, 2", "✗", "(a) > ")
+    terminal.presses("\x1b[A\x15cool: 3.5, warm: 5/2\r", "✓ Right", "(b) > ")  # up, and all of it deleted
+    # left, left …, delete to the end
+    terminal.presses("cool: slow\x1b[D\x1b[D\x1b[D\x1b[D\x0bfast, warm: slow\r", "✓ Right", "Enter next")
+    terminal.types("", "2 of 2 parts right", "f five more")
+    terminal.types("")
+    assert terminal.ends() == 0
 
 
 #: S = 4I, so R + BᵀSB = [23 4; 4 9], with determinant 191, and BᵀSA = [16 12; 8 0]: L = [112 108; 120 −48]/191.
@@ -243,42 +236,24 @@ def test_pasted_numbers_answer_one_part_after_the_other() -> None:
     assert [part.state for part in session.parts] == [State.DONE, State.DONE]
 
 
-def spawned(*arguments: str, **environment: str) -> pexpect.spawn:
-    return pexpect.spawn(
-        sys.executable, ["-m", "rldrill", "quiz", *arguments], encoding="utf-8", timeout=30, echo=False,
-        env={**os.environ, "TERM": "xterm", "NO_COLOR": "1", "COLUMNS": "100", **environment},
-    )  # fmt: skip
-
-
-@pytest.mark.parametrize("terminal_name", ["xterm", "dumb"])
-def test_lines_pasted_into_a_real_terminal_are_one_answer(terminal_name: str) -> None:
-    child = spawned(GAIN, TERM=terminal_name)
-    child.expect("> $")
+@pytest.mark.parametrize("terminal", ["xterm", "linux", "dumb"])
+def test_lines_pasted_into_a_real_terminal_are_one_answer(tmp_path: Path, terminal: str) -> None:
+    running = Terminal(tmp_path, 100, GAIN, TERM=terminal)
+    running.sees("> ")
     rows = "112/191, 108/191\n120/191, -48/191"
     # A terminal that can do so tells where a paste begins and ends; another one types it.
-    child.send(f"\x1b[200~{rows}\x1b[201~\r" if terminal_name == "xterm" else rows.replace("\n", "\r") + "\r")
-    child.expect(r"✓\S* Right")
-    child.close(force=True)
+    running.presses(
+        f"\x1b[200~{rows}\x1b[201~\r" if terminal == "xterm" else rows.replace("\n", "\r") + "\r", "✓ Right"
+    )
+    running.child.close(force=True)
 
 
-def test_an_open_bracket_goes_on_in_a_real_terminal() -> None:
-    child = spawned(GAIN)
-    child.expect("> $")
-    child.sendline("[[112/191, 108/191],")
-    child.expect(r"\.\.\. ")
-    child.sendline("[120/191, -48/191]]")
-    child.expect(r"✓\S* Right")
-    child.close(force=True)
-
-
-def test_history_and_a_new_size_of_the_window_do_no_harm(terminal: pexpect.spawn) -> None:
-    terminal.expect(r"\(a\) > ")
-    terminal.sendline("1, 2")
-    terminal.expect("✗")
-    terminal.setwinsize(30, 70)
-    terminal.expect(r"\(a\) > ")
-    terminal.send("\x1b[A\x15cool: 3.5, warm: 5/2\r")  # up to the answer before, and all of it deleted
-    terminal.expect(r"✓\S* Right")
+def test_an_open_bracket_goes_on_in_a_real_terminal(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 100, GAIN)
+    running.sees("> ")
+    running.types("[[112/191, 108/191],", "... ")
+    running.types("[120/191, -48/191]]", "✓ Right")
+    running.child.close(force=True)
 
 
 def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
@@ -289,7 +264,7 @@ def test_what_a_program_wrote_is_shown_as_it_was_read() -> None:
     )
     console = Console(file=StringIO(), width=80, color_system=None)
     with console.capture() as capture:
-        Screen(console, lambda _: "q").run([exercise], Session(1))
+        Screen(console, lambda *_: "q").run([exercise], Session(1))
     assert "(read 0.3333333333333333 as 1/3)" in capture.get()
 
 
@@ -301,4 +276,4 @@ def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: py
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
-    assert line_editor()("> ") == "112/191, 108/191\n120/191, -48/191"
+    assert lines("> ") == "112/191, 108/191\n120/191, -48/191"

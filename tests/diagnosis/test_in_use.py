@@ -36,7 +36,7 @@ RUN = {
 def quiz(*typed: str) -> str:
     console = Console(file=StringIO(), width=100)
     lines = iter(typed)
-    Screen(console, lambda _: next(lines)).run([rldrill.read(RUN)], Session(1))
+    Screen(console, lambda *_: next(lines)).run([rldrill.read(RUN)], Session(1))
     return " ".join(console.file.getvalue().split())
 
 

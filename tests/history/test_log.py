@@ -6,6 +6,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from contextlib import closing
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -42,9 +43,10 @@ sys.path.insert(0, {tests!r})
 from rldrill.history import log
 from rldrill.history.attempts import from_lines
 (first,) = from_lines([sys.argv[2]], "")
+kept = log.Writer(Path(sys.argv[1]))
 for number in count() if sys.argv[4] == "endless" else range(int(sys.argv[4])):
     name = f"{{sys.argv[3]}}-{{number}}"
-    log.append(Path(sys.argv[1]), [replace(first, id=name)])
+    kept.append([replace(first, id=name)])
     print(name, flush=True)
 """
 
@@ -106,6 +108,27 @@ def test_forgetting_takes_one_family_or_all_and_leaves_no_trace(tmp_path: Path) 
     assert log.read(path) == ()
     assert not any(b"private" in file.read_bytes() for file in tmp_path.iterdir())
     assert not (tmp_path / "history.db.v0").exists()
+
+
+def test_forgetting_leaves_no_trace_where_a_quiz_has_the_log_open_either(tmp_path: Path) -> None:
+    path = tmp_path / "history.db"
+    with closing(log.Writer(path)) as quiz:
+        quiz.append([replace(FIRST, typed="a very private answer")])
+        assert log.forget(path) == 1
+        assert not any(b"private" in file.read_bytes() for file in tmp_path.iterdir())
+        quiz.append([SECOND])
+    assert log.read(path) == (SECOND,)
+
+
+def test_a_log_that_is_deleted_in_the_middle_of_a_quiz_is_begun_again(tmp_path: Path) -> None:
+    path, said = tmp_path / "history.db", list[str]()
+    with closing(Keeper(said.append, lambda: path)) as keeper:
+        keeper.keep(FIRST)
+        for file in tmp_path.iterdir():
+            file.unlink()
+        keeper.keep(SECOND)
+    assert log.read(path) == (SECOND,)
+    assert said == []
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")

@@ -18,7 +18,7 @@ MOST = 4000
 _NOT = 5
 
 #: What test files import that start other programs or look at PDFs: their tests come last of their rank.
-_DEAR = {"pexpect", "printed", "subprocess"}
+_DEAR = {"pexpect", "printed", "subprocess", "terminals"}
 
 
 @dataclass(frozen=True)

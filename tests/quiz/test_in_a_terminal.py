@@ -1,54 +1,16 @@
 """The quiz in a pseudo-terminal, narrow and wide: every key, and every way to end."""
 
-import os
 import re
 import signal
-import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pexpect
 import pytest
 
-#: A blank, or a line that ends there, or a colour that does.
-_BLANK = r"(?:\s|\x1b\[[0-9;?]*[a-z])"
+from terminals import Terminal
+
 RACING_CAR = str(Path(__file__).parent.parent.parent / "examples" / "racing-car.toml")
-
-
-class Terminal:
-    """A quiz that runs, with a history of its own."""
-
-    def __init__(self, home: Path, width: int, *arguments: str, **environment: str) -> None:
-        own = {"TERM": "xterm", "NO_COLOR": "1", "RLDRILL_HOME": str(home), "PYTHONUTF8": "1", **environment}
-        inherited = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
-        self.child = pexpect.spawn(
-            sys.executable, ["-m", "rldrill", "quiz", *arguments], encoding="utf-8", timeout=15, echo=False,
-            dimensions=(30, width), env={**inherited, **own}, preexec_fn=_deaf,
-        )  # fmt: skip
-
-    def types(self, line: str, *then: str) -> None:
-        """Type a line, and wait for one text after the other."""
-        self.child.sendline(line)
-        self.sees(*then)
-
-    def sees(self, *texts: str) -> None:
-        """Wait for one text after the other."""
-        for text in texts:
-            self.child.expect(re.escape(text).replace(r"\ ", rf"{_BLANK}+") + f"{_BLANK}*")
-
-    def ends(self) -> int:
-        """Wait for the end; what is returned is the exit code."""
-        self.child.expect(pexpect.EOF)
-        self.child.close()
-        assert isinstance(self.child.exitstatus, int)
-        return self.child.exitstatus
-
-
-def _deaf() -> None:
-    """A child inherits what whoever runs the tests has blocked and ignores; the quiz must not mind."""
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @pytest.fixture(params=[60, 120])
@@ -99,38 +61,77 @@ def test_ctrl_c_sums_up(terminal: Terminal) -> None:
     assert terminal.ends() == 130
 
 
-@pytest.mark.parametrize("terminal", [60], indirect=True)
-def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(terminal: Terminal) -> None:
-    terminal.child.send("cool: 7/2, ")
-    time.sleep(0.3)  # nothing tells that it was read
-    os.kill(terminal.child.pid, signal.SIGSTOP)
-    time.sleep(0.1)  # else going on comes before having stopped
-    os.kill(terminal.child.pid, signal.SIGCONT)
-    terminal.sees("Value iteration starts", "(a) > cool: 7/2, ")
+def test_where_keys_are_offered_one_key_is_enough(terminal: Terminal) -> None:
+    terminal.presses("?", "show it again", "this help", "(a) > ")
+    terminal.types("s", "(b) > ")
+    terminal.presses("?", "this help", "(b) > ")
+    terminal.presses("\x1b[A\r", "Enter next")  # up to what was typed last: the s, and not the key
+    terminal.presses("p", "Value iteration starts", "Enter next")
+    for letter in "warm: 5/2":  # comes too late, and begins with the w of the working
+        terminal.presses(letter)
+    terminal.presses("\r", "was not judged: warm: 5/2", "Enter next")
+    terminal.types("cool: fast", "was not judged: cool: fast", "Enter next")
+    terminal.presses(" ", "0 of 2 parts right", "f five more of these")
+    terminal.presses("f", "Problem 1 of 5", "(a) > ")
+    terminal.types("s")
+    terminal.child.close(force=True)
+
+
+def test_a_letter_that_begins_an_answer_is_no_key(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "return/1/7")
+    running.sees("(a) > ")
+    for key in "hwsq":
+        running.presses(key, f"\x1b[0m{key}\x1b")  # it stands there, and is deleted
+        running.presses("\x7f", "\x1b[K")
+    running.presses("2\r", "✓ Right. At the first try")
+    running.child.close(force=True)
+
+
+def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 60, RACING_CAR, then="echo It is stopped; fg; echo and ended")
+    running.sees("(a) > ")
+    running.presses("cool: 7/2, ", "cool: 7/2, ")
+    running.presses("\x1a", "It is stopped", "Value iteration starts", "(a) > cool: 7/2, ")
+    running.types("warm: 5/2", "Right", "(b) > ")
+    running.child.sendeof()
+    running.sees("1 of 2 parts right", "and ended")
+
+
+def test_in_a_window_of_another_size_all_is_there_again_and_fits(terminal: Terminal) -> None:
+    terminal.types("1, 2", "✗", "(a) > ")
+    terminal.presses("cool: 7/2, ", "cool: 7/2, ")
+    terminal.child.setwinsize(30, 70)
+    terminal.sees("Value iteration starts", "(a) > 1, 2", "(a) > cool: 7/2, ")
+    drawn = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", terminal.child.before)
+    assert max(map(len, drawn.split("\r\n"))) <= 70
+    terminal.presses("\x0c", "Value iteration starts", "(a) > cool: 7/2, ")  # Ctrl-L
     terminal.types("warm: 5/2", "Right")
 
 
 def test_a_newcomer_is_shown_an_example_and_answers(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
-    running.sees("Your first quiz", "New: ", "n goes to the problem > ")
-    running.types("topics", "fundamentals", "0 of", "n goes to the problem > ")
-    running.types("?", "this help", "n goes to the problem > ")
+    running.sees("Your first quiz", "New: ", "n the problem · t topics > ")
+    running.types("topics", "fundamentals", "0 of", "n the problem · t topics > ")
+    running.types("?", "this help", "n the problem · t topics > ")
     running.types("", "your turn > ")
     running.types("", "Problem 1 of 10", "h hint", "> ")
-    running.types("q", "Nothing was answered")
+    running.types("s", "> ")
+    running.types("s", "This comes again tomorrow.", "Enter next")
+    running.presses("q", "0 of 2 parts right", "Tomorrow, 1 due: rldrill quiz")
+    running.presses("\r")
     assert running.ends() == 0
 
 
 def test_of_a_topic_that_is_named_the_easy_problems_come_first(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80, "bayes")
-    running.sees("Your first quiz: 10 problems, easy ones before others.", "n goes to the problem > ")
+    running.sees("Your first quiz: 10 problems, easy ones before others.", "n the problem · t topics > ")
     running.types("n", "Problem 1 of 10", "level 1", "> ")
     running.child.close(force=True)
 
 
 def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 120, "--mistake", "forgot gamma", "bellman", "-n", "1", "--seed", "5")
-    running.sees("Only “forgot gamma”, not made so far", "n goes to the problem > ")
+    running.sees("Only “forgot gamma”, not made so far", "n the problem · t topics > ")
     running.types("n", "Problem 1 of 1", "Bellman backup", "> ")
     running.types("s", "The answer:", "Enter next")
     running.types("", "“forgot gamma”: made in none of 1 problem.", "f five more of these")
@@ -140,7 +141,7 @@ def test_of_a_mistake_that_is_drilled_there_are_five_more(tmp_path: Path) -> Non
 
 def test_a_word_quits_before_the_first_problem_too(tmp_path: Path) -> None:
     running = Terminal(tmp_path, 80)
-    running.sees("n goes to the problem > ")
+    running.sees("n the problem · t topics > ")
     running.types("quit", "Nothing was answered")
     assert running.ends() == 0
 

@@ -127,6 +127,14 @@ def test_without_an_exam_intervals_are_longer() -> None:
     assert Plan(ORDER, log, 10, NOW, exam).due_at(skill).date() < exam
 
 
+def test_it_is_said_when_a_skill_comes_again() -> None:
+    skill = Skill("td-zero", 1)
+    for outcomes, said in ((["wrong"], "tomorrow"), (["right"], "in "), (["right", "wrong"], "tomorrow")):
+        log = [answered(skill, NOW + number * DAY, each) for number, each in enumerate(outcomes)]
+        plan = Plan(ORDER, log, 10, NOW + 3 * DAY)
+        assert plan.again(skill, log[-1].time).startswith(said)
+
+
 def test_an_exam_that_is_over_is_refused() -> None:
     for day in (NOW.date(), NOW.date() - DAY):
         with pytest.raises(UsageError, match="not ahead"):
@@ -140,6 +148,7 @@ def test_the_first_line_says_what_and_why() -> None:
         answered(value, NOW - 20 * DAY, "wrong", "forgot-gamma"),
     ]
     assert Plan(ORDER, [], 10, NOW).says().startswith("Your first quiz: 10 problems")
+    assert "; 9 days to the exam." in Plan(ORDER, [], 10, NOW, (NOW + 9 * DAY).date()).says()
     assert Plan(ORDER, log, 10, NOW).says() == (
         "1 due, 9 new; first policy-value, level 1, because of “forgot gamma”, twice."
     )

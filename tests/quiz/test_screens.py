@@ -76,7 +76,7 @@ def first_screen(name: str, width: int, height: int) -> list[str]:
     return captured.get().partition("\n\nNothing was answered")[0].splitlines()
 
 
-def _ends(_: str) -> str:
+def _ends(*_: str) -> str:
     raise EOFError
 
 

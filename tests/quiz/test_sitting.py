@@ -15,6 +15,7 @@ from rldrill.exam.planning import plan
 from rldrill.grading.assignment import Assignment
 from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UsageError
+from rldrill.quiz.prompt import Prompt
 from rldrill.quiz.sitting import Place, Sitting, by_topic, version_of
 from rldrill.quiz.sitting_screen import SittingScreen
 
@@ -36,8 +37,8 @@ class Hand:
         self.prompts: list[str] = []
         self.time = START
 
-    def ask(self, prompt: str) -> str:
-        self.prompts.append(prompt)
+    def ask(self, prompt: Prompt, _keys: str = "") -> str:
+        self.prompts.append(prompt() if callable(prompt) else prompt)
         self.time += timedelta(minutes=1)
         line = next(self._lines, EOFError)
         if not isinstance(line, str):

@@ -33,7 +33,7 @@ def exercises() -> list[Exercise]:
 
 #: What is typed, line by line, at whatever is asked.
 TYPED = (
-    "", "", "banana", "h", "h", "h", "h", "99", "p", "s", "?", "w", "x", "",
+    "", "", "banana", "h", "h", "h", "h", "h", "99", "p", "s", "?", "w", "x", "",
     "cool: 3, warm: 2.5", "m", "V(cool) = 4 + 1/2*2 = 5", "", "s", "cool: fast, warm: slow", "t", "s", "",
     "[1, 2; np.sqrt(4), 1/2]", "w", "w", "s", "", "a", "b", "",
 )  # fmt: skip
@@ -47,7 +47,7 @@ def transcript(kind: str) -> str:
                      emoji=False)  # fmt: skip
     lines = iter(TYPED)
 
-    def ask(prompt: str) -> str:
+    def ask(prompt: str, _keys: str = "") -> str:
         typed = next(lines, None)
         if typed is None:
             screen.print(prompt, end="\n")
@@ -57,7 +57,7 @@ def transcript(kind: str) -> str:
 
     clock = count(0, 5)
     # What is said of a wrong answer must not hang on how fast the machine is.
-    with patch("rldrill.quiz.session.AT_THE_PROMPT", None), screen.capture() as captured:
+    with patch("rldrill.diagnosis.AT_THE_PROMPT", None), screen.capture() as captured:
         Screen(
             screen, ask, Recorder(clock=lambda: float(next(clock))), seen=(), topics=lambda: "(the map)", plain=plain
         ).run(exercises(), Session(4))
