@@ -17,7 +17,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 4
+REVISION = 5
 
 Line = tuple[Fraction, ...]
 
@@ -72,6 +72,7 @@ def draw(level: int, rng: Draws) -> Given:
             len(set(rewards)) == len(rewards) > 0
             and -sum(rewards) <= _MOST[level]
             and max(map(_size, (*rewards, sum(rewards, Fraction(0))))) <= _MOST[level]
+            and (kind != "end" or _counts(given))
         ):
             break
     if level < 3:
@@ -90,6 +91,12 @@ def _gain(rng: Draws, states: int) -> Line:
 
 def _size(number: Fraction) -> int:
     return max(abs(number.numerator), number.denominator)
+
+
+def _counts(given: Given) -> bool:
+    """Whether the total would be another one if the end came a time later, so that the last time matters."""
+    later = _rewards(given.model_copy(update={"horizon": given.horizon + 1}))
+    return bool(later) and sum(later) != sum(_rewards(given))
 
 
 def _rewards(given: Given) -> list[Fraction]:

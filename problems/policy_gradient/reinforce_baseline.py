@@ -11,11 +11,19 @@ from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
+from rldrill.problems.softmax import (
+    Episode,
+    denominator,
+    draw_episode,
+    episode_blocks,
+    every_step_counts,
+    gradient_parts,
+    returns,
+)
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Episode):
@@ -38,10 +46,15 @@ def draw(level: int, rng: Draws) -> Given:
     baseline = {state: rng.nonzero(-2, 5) for state in dict.fromkeys(run.states[:-1])}
     known = Fraction(0) if isinstance(gamma, Parameter) else gamma
     differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
-    if not every_step_counts(run, differences):
+    below = denominator(episode["theta"], episode["features"])
+    if not every_step_counts(run, differences) or (level == 2 and sum(map(abs, differences)) * below > _MOST):
         return draw(level, rng)
     alpha = rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5")
     return Given(**episode, baseline=baseline, alpha=alpha)
+
+
+#: The largest sum of the differences over a common denominator: the gradient's entries then stay below 300.
+_MOST = 360
 
 
 def question(given: Given) -> Question:
