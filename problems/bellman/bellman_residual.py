@@ -71,7 +71,7 @@ def draw(level: int, rng: Draws) -> Given:
     else:
         values = draw_values(rng, setting.states[:2], gamma)
         mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})
-    verdict = rng.chance(Fraction(1, 8 if level == 1 else 4))
+    verdict = rng.chance(Fraction(1, 4))
     right = verdict and rng.chance(Fraction(1, 2))
     wrong = () if right else (rng.choice(mdp.states),) if verdict else mdp.states
     claimed = dict(values)
