@@ -13,7 +13,7 @@ from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Reversible):
@@ -88,7 +88,8 @@ def _round(rng: Draws, length: int, gamma: Fraction, unit: Fraction = Fraction(1
         worth = _from_start((*opening, last), 0, gamma)
         return worth != 0 and worth % unit == 0 and last != opening[0]
 
-    return (*opening, rng.fitting(-9, 12, fits))
+    last = rng.fitting(-9, 12, fits)
+    return (*opening, last) if fits(last) else _round(rng, length, gamma, unit)
 
 
 def _from_start(rewards: tuple[Fraction, ...], first: int, gamma: Fraction) -> Fraction:

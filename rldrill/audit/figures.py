@@ -28,7 +28,7 @@ LEAST_OPTION = 0.5
 #: Half of the problems are found in so many attempts.
 MOST_ATTEMPTS = 3
 
-#: Of fewer answers than this no balance is judged: one that is right in half of the draws may stay below 40 % by chance.
+#: Of fewer answers no balance is judged: an answer that is right in half of the draws may stay below 40 % by chance.
 _JUDGED = 200
 _WHOLE = re.compile(r"\d+")
 
