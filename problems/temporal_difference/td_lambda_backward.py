@@ -58,11 +58,13 @@ def draw(level: int, rng: Draws) -> Given:
     if kind == 0:
         run = _run(rng, rng.choice(((a, b, a, end), (a, b, c, end), (a, a, b, c))), end)
         return run.model_copy(update={"lam": Parameter("lambda")})
+    if kind == 2:  # λ decides what a state gets that comes again; the last one to be new gets the same for any λ
+        run = _run(rng, rng.choice(((a, a, b), (a, a, end))), end)
+        return run.model_copy(update={"lam": Parameter("lambda"), "known": _learned(run)[a]})
     run = _run(rng, rng.choice(((a, b, c), (a, b, end))), end)
     if kind == 1:
         return run.model_copy(update={"gamma": Parameter("gamma")})
-    letter, name = ("lam", "lambda") if kind == 2 else ("alpha", "alpha")
-    return run.model_copy(update={letter: Parameter(name), "known": _learned(run)[a]})
+    return run.model_copy(update={"alpha": Parameter("alpha"), "known": _learned(run)[a]})
 
 
 def _run(rng: Draws, states: tuple[str, ...], end: str) -> Given:

@@ -9,6 +9,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Fitted, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import np
@@ -108,9 +109,14 @@ def _border(given: Given, work: Work, better: int) -> None:
     assert given.fitted is not None
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
+    fit = {}
+    for name, model in given.fitted.items():
+        fit[name] = sympy.expand_log(_logarithm(model), factor=True)
+        likelihood = model.likelihood or Fraction(1)
+        work.say(f'$ln p(D_z|"{name}", θ) = ln({shown(likelihood)}) = {_in_logarithms(likelihood)}$.')
     work.say(f"Here $M_1$ is {rich}, and $M_2$ is {simple}. Both have the same BIC for")
     known = {
-        "log_likelihood_of": {name: _logarithm(model) for name, model in given.fitted.items()},
+        "log_likelihood_of": fit,
         "free_of": {name: exact(model.k) for name, model in given.fitted.items()},
     }
     work.step(BIC_BORDER, first_model=rich, second_model=simple, **known)
@@ -122,6 +128,17 @@ def _border(given: Given, work: Work, better: int) -> None:
     work.say(f"With {given.border} data every parameter costs {cost}, so that the BIC prefers {preferred}.")
     chosen = preferred if better < 0 else (rich if preferred == simple else simple)
     work.answer(ascii_uppercase[given.names.index(chosen)])
+
+
+def _in_logarithms(number: Fraction) -> str:
+    """The logarithm of a number by those of its prime factors, as mathematics."""
+    above, below = sympy.factorint(number.numerator), sympy.factorint(number.denominator)
+    terms = [
+        f"{sign} {'' if power == 1 else f'{power} '}ln {prime}"
+        for sign, powers in (("+", above), ("−", below))
+        for prime, power in powers.items()
+    ]
+    return " ".join(terms).removeprefix("+ ").replace("− ", "−", 1 if not above else 0) or "0"
 
 
 def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -> str:
