@@ -99,7 +99,7 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
     return (
         Part(asked, Numbers(entries), zero=True),
         Part(
-            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
+            f"What is the estimate of the gradient $∇_θ J(θ)$ of the expected return $J${in_open(given)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
         ),
         Part(

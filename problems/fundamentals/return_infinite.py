@@ -113,7 +113,10 @@ def question(given: Given) -> Question:
         told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
     limits = " Discounts satisfy $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
-    more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
+    more = unknown(
+        given,
+        f"The return from time $t$ is $R_t = r_{{t+1}} + γ r_{{t+2}} + …$. {letter}{discount(given.gamma)}{limits}",
+    )
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."
         tail = [Part(f"What is the return $R_{{{k}}}$?", Number())] if k else []

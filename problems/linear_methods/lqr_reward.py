@@ -124,11 +124,11 @@ def question(given: Given) -> Question:
     sum_ = " + ".join(f"r(s_{time}, a_{time})" for time in range(last + 1)) if last < 3 else (
         f"r(s_0, a_0) + … + r(s_{{{last}}}, a_{{{last}}})"
     )  # fmt: skip
-    told = "The actions are $a_t = −L_t s_t$ at every one of these times"
-    blocks: tuple[Block, ...] = (*situation(given), Paragraph(f"{told}, the last, $T = {last}$, included:"))
+    told = f"The actions are $a_t = −L_t s_t$ at all these times, also at the last, $T = {last}$:"
+    blocks: tuple[Block, ...] = (*situation(given), Paragraph(told))
     total = f"What is the total reward $J = {sum_}$"
     if not given.plain:
-        blocks = (*costs(given, NOTATIONS["value"]), Paragraph(f"{told} before $T$:"))
+        blocks = (*costs(given, NOTATIONS["value"]), Paragraph("Before $T$ the action is $a_t = −L_t s_t$:"))
         total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
     if given.total is not None:
         found = f"The total reward is $J = {sum_} = {shown(given.total)}$. What is the price $ρ$ of the action?"
