@@ -206,7 +206,8 @@ def _numbers_first(expression: Expr) -> Expr:
     if not numbers or not letters or len(numbers) + len(letters) < len(expression.args):
         return expression
     value = evaluated(Mul(*numbers, evaluate=False))
-    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *letters]
+    together = Mul.make_args(Mul(*letters))  # λ·λ² is λ³
+    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *together]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
 
