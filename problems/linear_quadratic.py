@@ -179,8 +179,7 @@ def situation(given: LinearQuadratic) -> tuple[Block, ...]:
     return (
         Paragraph(
             "A system with the dynamics $s_{t+1} = A_t s_t + B_t a_t$ earns the reward "
-            f"{REWARD} at every time $t = {times(0, given.horizon)}$."
-            + (" States and actions are numbers." if scalar else "")
+            f"{REWARD} at {_at(0, given.horizon)}." + (" States and actions are numbers." if scalar else "")
         ),
         Paragraph(
             (
@@ -227,17 +226,22 @@ def costs(given: LinearQuadratic, notation: Notation) -> tuple[Block, ...]:
     before = given.state_costs[:last] if len(given.Q) > 1 else given.Q
     return (
         Paragraph(
-            f"A system has the dynamics ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$. It {earns} at every time "
-            f"$t = {times(0, last - 1)}$, and at the end, at time $T = {last}$, the state alone {pays}.{discounted}"
+            f"A system has the dynamics ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$. It {earns} at "
+            f"{_at(0, last - 1)}, and at the end, at time $T = {last}$, the state alone {pays}.{discounted}"
         ),
         Paragraph(
-            f"{'A coefficient' if scalar else 'A matrix'} with index $t$ holds at all times before $T$"
+            f"{'A coefficient' if scalar else 'A matrix'} with index $t$ holds before $T$"
             + ("; the price $ρ > 0$ of the action is left open:" if left_open else ":")
         ),
         *listed("A", given.A), *listed("B", given.B), *listed("Q", before), Q_T,
         *listed("R", given.R if len(given.R) == 1 else given.R[:last]), *listed("N", given.N or ()),
         Equation(mathematics(f"{x}_0"), (tabular(tuple((entry,) for entry in given.start)),), ("=",), linear=True),
     )  # fmt: skip
+
+
+def _at(first: int, last: int) -> str:
+    """At which times, in words: one, or each of several."""
+    return f"{'time' if first == last else 'every time'} $t = {times(first, last)}$"
 
 
 def times(first: int, last: int) -> str:

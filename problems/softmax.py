@@ -99,7 +99,7 @@ def gradient_parts(given: Episode, weighted: str, entries: tuple[str, ...]) -> t
     return (
         Part(asked, Numbers(entries), zero=True),
         Part(
-            f"What is the estimate of the gradient $∇_θ J(θ)${in_open(given)}?",
+            f"What is the estimate of the gradient $∇_θ J(θ)$ of the expected return $J${in_open(given)}?",
             Numbers(tuple(f"∂J/∂{name}" for name in names)),
         ),
         Part(
@@ -122,7 +122,7 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
         theta, features = policy(rng, tuple(dict.fromkeys(states[:-1])), actions)
         if not told_apart(features):
             continue
-        if level == 1 or prod(_below(theta, rows) for rows in features.values()) <= _MOST_BELOW[level]:
+        if level == 1 or denominator(theta, features) <= _MOST_BELOW[level]:
             break
     gamma = Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1")
     run = draw_run(rng, states, taken, setting.terminal, doubled=gamma == Fraction(1, 2))
@@ -133,10 +133,13 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
 _MOST_BELOW = {2: 20, 3: 50}
 
 
-def _below(theta: tuple[Weight, ...], rows: dict[str, FeatureVector]) -> int:
-    """The sum of all e^h in a state, for weights that are logarithms of whole numbers."""
-    bases = [int(str(weight).removeprefix("ln ")) for weight in theta]
-    return sum(prod(base ** int(x) for base, x in zip(bases, row, strict=True)) for row in rows.values())
+def denominator(theta: tuple[Weight, ...], features: ActionFeatures) -> int:
+    """The product over all states of the sum of all e^h there, for weights that are logarithms of whole numbers."""
+    bases = [int(str(weight).removeprefix("ln ")) if weight else 1 for weight in theta]
+    return prod(
+        sum(prod(base ** int(x) for base, x in zip(bases, row, strict=True)) for row in rows.values())
+        for rows in features.values()
+    )
 
 
 def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:

@@ -54,6 +54,10 @@ def _rational(number: Fraction) -> fmpq:
     return fmpq(*number.as_integer_ratio())
 
 
+#: The most digits of a number that is taken apart into primes.
+_MOST_FACTORED = 20
+
+
 def simplest(value: Any) -> Any:
     """The same value, as a plain rational where no parameter is left in it; what is no number stays what it is."""
     return value if type(value) in _SIMPLE else _simplest(value)
@@ -74,11 +78,17 @@ _simplest.register(sympy.Rational, fraction)
 
 
 def tidy(value: Any) -> Any:
-    """A number of square roots (and π) as one writes it: multiplied out, no root below the line; others as they are."""
+    """A number as one writes it: square roots (and π) multiplied out, no root below the line; logarithms of primes."""
     if not isinstance(value, sympy.Expr):
         return value
     surd = surds.read(value)
-    return value if surd is None else surds.write(surd)
+    if surd is not None:
+        return surds.write(surd)
+    numbers = [each.args[0] for each in value.atoms(sympy.log)]
+    if not numbers or value.free_symbols or digits(value) > _MOST_FACTORED:
+        return value
+    prime = all(number.is_Integer and sympy.isprime(number) for number in numbers)
+    return value if prime else sympy.expand_log(value, factor=True)
 
 
 @singledispatch

@@ -15,6 +15,9 @@ Key = TypeVar("Key")
 Given = TypeVar("Given")
 Known = TypeVar("Known", dict[str, Any], list[Any])
 
+#: So many states, and motions of no probability stand in a working as zeros; among more they only fill the line.
+_FEW = 4
+
 #: The one action of a terminal state, worth nothing; no action of a problem can have this name.
 NO_ACTION = "–"
 
@@ -85,15 +88,16 @@ def model_and_policy(mdp: Model, chances: Policy, gamma: Scalar) -> dict[str, An
 
 
 def motion(given: Motion) -> dict[tuple[str, str, str], Value]:
-    """Where actions lead, as p(s′|s, a) with the next state first; what cannot be reached has 0."""
-    return Sparse(
-        {
-            (target, state, action): exact(chance)
-            for action, rows in given.items()
-            for state, chances in rows.items()
-            for target, chance in chances.items()
-        },
-    )
+    """Where actions lead, as p(s′|s, a) with the next state first; what cannot be reached has 0.
+
+    In a working these zeros keep their place, as the table of the question prints them, unless there are many states.
+    """
+    known = Sparse()
+    for action, rows in given.items():
+        for state, chances in rows.items():
+            known |= {(target, state, action): ZERO for target in (rows if len(rows) <= _FEW else ())}
+            known |= {(target, state, action): exact(chance) for target, chance in chances.items()}
+    return known
 
 
 def likelihood(given: Mapping[str, Mapping[str, Scalar]]) -> dict[tuple[str, str], Value]:

@@ -187,6 +187,8 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
         if value != 0:
             moving.append(part)
             known[dynamics.part_derivative(part, by).name] = value
+        elif by in letters(text):
+            work.say(f"With $∂{part}/∂{by} = 0$ at the operating point, ${part}$ counts as a constant in what follows.")
     return [derivative(text, index) for index, text in enumerate(given.dynamics.values(), 1)]
 
 

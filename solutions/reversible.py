@@ -7,9 +7,11 @@ from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
-from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy, value_at
+from rldrill.solutions.formula.nodes.leaves import put_in_name
+from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import at
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Result, Work
 
 Given = TypeVar("Given", bound=Reversible)
 Run = TypeVar("Run", bound=ValueRun)
@@ -62,11 +64,13 @@ def find_and_finish(
 ) -> None:
     """Answer with the letter, from the value that is known after all updates, and with the other values."""
     first, *others = given.updated
-    letter = find(given, work, updated(exact)[first])
+    after = updated(exact)
+    letter = find(given, work, after[first])
     if others:
-        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$ the updates are:")
-        after = updated(reading(letter))
-        work.answer({state: after[state] for state in others})
+        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$ in what was found above:")
+        found = {state: value_at(after[state], letter) for state in others}
+        work.lines.append(Result(tuple(V(put_in_name(state)) for state in others), tuple(found.values())))
+        work.answer(found)
 
 
 def found_and_finished(given: Run, updated: Callable[[Run], Sequence[float]]) -> Sequence[Any]:

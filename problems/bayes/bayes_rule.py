@@ -156,7 +156,11 @@ def question(given: Given) -> Question:
         *([Paragraph(given.story)] if given.story else []),
         Paragraph("The hypotheses have these prior probabilities $p(h)$:"),
         belief_shown(given.prior, "h"),
-        Paragraph("If $h$ is true, the measurement is $z$ with probability $p(z|h)$:"),
+        Paragraph(
+            "If $h$ is true, a measurement is $z$ with probability $p(z|h)$, independently of the others:"
+            if len(given.measurements) > 1
+            else "If $h$ is true, the measurement is $z$ with probability $p(z|h)$:"
+        ),
         likelihood_table(given.likelihood, hypotheses, "h"),
         *([Paragraph(f"The probability ${letter}$ is {unknown}.")] if letter else []),
     )

@@ -19,7 +19,7 @@ from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 4
+REVISION = 5
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -275,9 +275,10 @@ def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
     count = {2: "Two models", 3: "Three models"}.get(len(fitted), f"{len(fitted)} models")
-    data = "$n$ data points" if given.border else "the same data" if given.n is None else f"$n = {given.n}$ data points"
+    count_of_data = "$n$ data points" if given.border else f"$n = {given.n}$ data points"
+    data = "the same data $D_z$" if given.n is None and not given.border else f"the same {count_of_data}, $D_z$"
     return (
-        Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters:"),
+        Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters, $θ$:"),
         Table(header=("$M$", "parameters $k$", f"${head}$"), rows=rows),
     )
 

@@ -13,7 +13,7 @@ from rldrill.problems.parts import Number, Numbers, Part
 
 TITLE = "Model fitting"
 SOURCE = "Bishop 2006, sections 1.2.4, 2.3.6 and 3.3.1"
-REVISION = 3
+REVISION = 4
 
 
 class Coin(Givens):
@@ -238,7 +238,7 @@ def _sample(sample: Sample) -> Question:
 
 def _line(line: Line) -> Question:
     blocks = (
-        Paragraph("The speed $y$ of a robot was measured at some motor voltages $x$:"),
+        Paragraph("A sensor was read at some places $x$ along a track. Its readings are $y$:"),
         Table(
             header=("$x$", *(f"${shown(x)}$" for x, _ in line.points)),
             rows=(("$y$", *(f"${shown(y)}$" for _, y in line.points)),),

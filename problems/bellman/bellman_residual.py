@@ -27,7 +27,7 @@ from rldrill.problems.valued import UNITS, draw_mixed, draw_valued, draw_values,
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 4
+REVISION = 5
 
 
 class Given(ModelAndPolicy):
@@ -71,13 +71,15 @@ def draw(level: int, rng: Draws) -> Given:
     else:
         values = draw_values(rng, setting.states[:2], gamma)
         mdp = draw_worth(rng, setting, shape, gamma, values, {(s, ALONE): value for s, value in values.items()})
-    verdict = rng.chance(Fraction(1, 8 if level == 1 else 4))
+    verdict = rng.chance(Fraction(1, 4))
     right = verdict and rng.chance(Fraction(1, 2))
     wrong = () if right else (rng.choice(mdp.states),) if verdict else mdp.states
     claimed = dict(values)
     for _ in range(20):
         claimed |= {state: values[state] + UNITS[gamma] * rng.nonzero(-most, most) for state in wrong}
-        if all(_decided(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states):
+        if all(_decided(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states) and any(
+            _discounts(mdp, state, claimed, gamma, optimal=optimal) for state in mdp.states
+        ):
             break
     else:
         return draw(level, rng)
@@ -91,6 +93,13 @@ def _decided(mdp: Model, state: str, values: dict[str, Fraction], gamma: Fractio
         return False
     best = max(mdp.actions[state], key=lambda action: worth(mdp, (state, action), values, gamma))
     return not optimal or all(action == best or len(mdp.outcomes[state, action]) == 1 for action in mdp.actions[state])
+
+
+def _discounts(mdp: Model, state: str, values: dict[str, Fraction], gamma: Fraction, *, optimal: bool) -> bool:
+    """Whether γ matters: what follows the action, the best one where it is chosen, is worth something on average."""
+    found = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs if pair[0] == state}
+    counted = [max(found, key=lambda pair: found[pair])] if optimal else found
+    return any(found[pair] != worth(mdp, pair, values, Fraction(0)) for pair in counted)
 
 
 def question(given: Given) -> Question:

@@ -17,7 +17,7 @@ from rldrill.problems.valued import RewardSought, deterministic, draw_valued, op
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 3
+REVISION = 4
 
 
 class Optimal(Givens):
@@ -129,9 +129,10 @@ def _of_all(given: Optimal, blocks: tuple[Block, ...]) -> Question:
 def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
     """One optimal value is known; the other one, the reward and a best action are asked for."""
     x, state, row = shown(Parameter(given.row.reward)), given.state, given.row
+    leading = f" when it leads to {row.next}" if len(given.mdp.outcomes[row.state, row.action]) > 1 else ""
     told = (
-        f"{discount(given.gamma)} The reward ${x}$ of {row.action} in {row.state} is not known, but the optimal value "
-        f'of {state} is: $V^*("{state}") = {shown(given.optimum[state])}$.'
+        f"{discount(given.gamma)} The reward ${x}$ of {row.action} in {row.state}{leading} is not known, but the "
+        f'optimal value of {state} is: $V^*("{state}") = {shown(given.optimum[state])}$.'
     )
     return Question(
         (*blocks, Paragraph(told)),
@@ -139,6 +140,11 @@ def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
             Part(f'What is $V^*("{row.state}")$?', Number()),
             Part(f"What is ${x}$?", Number(), zero=True),
             Part(f"Which action is best in {state}?", Policy({state: given.mdp.actions[state]}, "π^*")),
-            Part(f"From which ${x}$ on is {row.action} a best action in {row.state}?", Number(), zero=True),
+            Part(
+                f'Now let ${x}$ be any number, so that $V^*("{state}")$ need not be ${shown(given.optimum[state])}$. '
+                f"What is the smallest ${x}$ with which {row.action} is a best action in {row.state}?",
+                Number(),
+                zero=True,
+            ),
         ),
     )

@@ -17,7 +17,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "State values from action values"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Givens):
@@ -87,7 +87,7 @@ def _to_find(rng: Draws, setting: Setting) -> Given:
     values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
     p: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p"))
     if kind == "missing":
-        return _without_one(rng, {s: values[s] for s in states[: 1 + rng.below(2)]})
+        return _without_one(rng, states[0], values[states[0]])
     chance = rng.fraction("1/4", "3/4", "1/3", "2/3", "2/5", "3/5")
     ways = [p, rng.choice((p, p[::-1])) if kind == "share" else p[::-1]]
     policy = {state: dict(zip(actions, way, strict=True)) for state, way in zip(states, ways, strict=True)}
@@ -100,13 +100,12 @@ def _to_find(rng: Draws, setting: Setting) -> Given:
     return Given(values=values, policy=policy, known={states[0]: mean})
 
 
-def _without_one(rng: Draws, values: dict[str, dict[str, Fraction]]) -> Given:
-    """The value of the first state is known, but not that of one of its actions."""
-    policy = {s: dict(zip(row, rng.split(len(row), (4, 5, 10)), strict=True)) for s, row in values.items()}
-    state, row = next(iter(values.items()))
-    mean = dot(policy[state].values(), row.values())
+def _without_one(rng: Draws, state: str, row: dict[str, Fraction]) -> Given:
+    """The value of a state is known, but not that of one of its actions."""
+    chances = rng.split(len(row), (4, 5, 10))
     shown_row: dict[str, Scalar] = {**row, rng.choice(tuple(row)): Parameter("x")}
-    return Given(values={**values, state: shown_row}, policy=policy, known={state: mean})
+    policy = dict(zip(row, chances, strict=True))
+    return Given(values={state: shown_row}, policy={state: policy}, known={state: dot(chances, row.values())})
 
 
 def question(given: Given) -> Question:

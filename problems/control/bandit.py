@@ -18,7 +18,7 @@ from rldrill.problems.parts import Number, Part, Policy, Values
 
 TITLE = "Bandits"
 SOURCE = "Sutton & Barto 2018, chapter 2"
-REVISION = 2
+REVISION = 3
 
 #: What the choice of the next arm is asked for.
 NEXT = "next"
@@ -179,7 +179,7 @@ class _Story:
 
 
 _STORIES = (
-    _Story("A robot tries grips on an unknown object.", ("pinch", "hook", "suction")),
+    _Story("A robot tries grips on an unknown object.", ("pinch", "hook", "palm")),
     _Story("A web shop tries banners.", ("red", "green", "blue")),
     _Story("A gambler plays slot machines.", ("left", "middle", "right")),
     _Story("A rover tries soils for drilling.", ("sand", "clay", "gravel")),
@@ -309,10 +309,14 @@ def _averages(given: Averaged) -> Part:
     return Part(f"What is the sample average $Q(a)$ of {_pulled(given)}?", Values("Q", given.tried), zero=True)
 
 
+#: The bound as it is given: another root is as common, and then another arm wins.
+_BOUND = "$U(a) = Q(a) + c √((ln t)/N(a))$, where arm $a$ was pulled $N(a)$ times,"
+
+
 def _exploration(given: Bounds) -> Block:
     return Paragraph(
-        f"The next arm is chosen at time $t = {len(given.pulls) + 1}$ by its upper confidence bound $U(a)$ (UCB), in "
-        f"which the exploration is weighted with $c = {shown(given.c)}$."
+        f"The next arm is chosen at time $t = {len(given.pulls) + 1}$ by its upper confidence bound (UCB), "
+        f"{_BOUND} with $c = {shown(given.c)}$."
     )
 
 
@@ -325,8 +329,8 @@ def _bounds(given: Bounds) -> tuple[Part, ...]:
 
 def _weighed(given: Balance) -> Block:
     return Paragraph(
-        f"The next arm is chosen at time $t = {len(given.pulls) + 1}$ by its upper confidence bound $U(a)$ (UCB), in "
-        "which the exploration is weighted with $c > 0$."
+        f"The next arm is chosen at time $t = {len(given.pulls) + 1}$ by its upper confidence bound (UCB), "
+        f"{_BOUND} with $c > 0$."
     )
 
 

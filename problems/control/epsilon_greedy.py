@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "ε-greedy policy"
 SOURCE = "Sutton & Barto 2018, sections 2.2 and 5.4"
-REVISION = 2
+REVISION = 3
 
 _MOVES = ("up", "right", "down", "left")
 
@@ -145,5 +145,6 @@ def question(given: Given) -> Question:
         every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
         asked = [Part(every, Values("π", tuple(given.values)))]
     if given.valued:
+        valued = f"With this $ε$: {valued[0].lower()}{valued[1:]}" if given.taken else valued
         asked.append(Part(f"{valued} $V^π({where})${in_open(given)}?", Number()))
     return Question(blocks, tuple(asked))

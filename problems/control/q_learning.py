@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 4
+REVISION = 5
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -57,11 +57,14 @@ def draw(level: int, rng: Draws) -> Given:
         if not _best_differ(found):
             return draw(level, rng)
         return Separate(**found if rng.chance(Fraction(3, 4)) else found | {"outcome": None})
-    if level == 2 and rng.chance(Fraction(1, 3)):
-        found = draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma")))
-    else:
-        found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
-    return AlongRun(**found) if _best_differ(found) else draw(level, rng)
+    back = level == 2 and rng.chance(Fraction(1, 4))
+    while True:
+        if back:
+            found = draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma")))
+        else:
+            found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
+        if _best_differ(found):
+            return AlongRun(**found)
 
 
 def _best_differ(found: Mapping[str, Any]) -> bool:

@@ -13,11 +13,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import in_open
-from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw_action_run, run_situation
+from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw_action_run, readable, run_situation
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 5
+REVISION = 6
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
         traces = {
             state: {action: Fraction((state, action) == traced) for action in row} for state, row in values.items()
         }
-    return Given(
+    given = Given(
         trajectory=trajectory,
         values=draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), 4 if level == 2 else 2),
         alpha=Fraction(1, 2),
@@ -91,6 +91,21 @@ def draw(level: int, rng: Draws) -> Given:
         traces=traces,
         replacing=replacing,
     )
+    return given if level != 2 or readable(_learned(given).values()) else draw(level, rng)
+
+
+def _learned(given: Given) -> dict[tuple[str, str], Fraction]:
+    """The values after a run of Sarsa(λ) in which nothing is left open, and before which no pair has a trace."""
+    run, gamma = given.trajectory, Fraction(str(given.gamma))
+    pairs = tuple(zip(run.states, run.actions, strict=False))
+    Q = {(state, action): value for state, row in given.values.items() for action, value in row.items()}
+    e = dict.fromkeys(Q, Fraction(0))
+    for here, after, reward in zip(pairs, (*pairs[1:], None), run.rewards, strict=False):
+        e = {pair: gamma * Fraction(str(given.lam)) * trace for pair, trace in e.items()}
+        e[here] = Fraction(1) if given.replacing else e[here] + 1
+        error = reward + gamma * (Q[after] if after else Fraction(0)) - Q[here]
+        Q = {pair: value + Fraction(str(given.alpha)) * e[pair] * error for pair, value in Q.items()}
+    return Q
 
 
 def _back(rng: Draws) -> Given:

@@ -18,7 +18,7 @@ from rldrill.problems.valued import UNITS, tells_apart
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -104,14 +104,16 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(values=values)
     holed = rng.sample(states, 1 if len(states) == 3 else 2)
     counts = (1,) * len(holed) if level == 3 else (2,) if len(holed) == 1 else (1, 1 + rng.below(2))
-    gaps = [(s, a) for s, count in zip(holed, counts, strict=True) for a in rng.sample(setting.actions, count)]
     places = (*setting.states, setting.terminal)[: len(states) + 1]
     places = (*states, setting.terminal) if setting.terminal in places or rng.chance(Fraction(1, 2)) else states
+    told = {s: [a for a in setting.actions if {*setting.reached(places, s, a)} - {*holed}] for s in holed}
+    if any(len(told[state]) < count for state, count in zip(holed, counts, strict=True)):
+        return draw(level, rng)
+    gaps = [(s, a) for s, count in zip(holed, counts, strict=True) for a in rng.sample(told[s], count)]
     worth = {s: max(row.values()) for s, row in values.items()}
     rows: list[Transition] = []
     for gap in gaps:
-        reached = [place for place in setting.reached(places, *gap) if place not in holed]
-        targets = tuple(reached) or tuple(place for place in places if place not in holed)[-1:]
+        targets = tuple(place for place in setting.reached(places, *gap) if place not in holed)
         shape = Shape(states=0, actions=0, branches=2, reward=8, denominators=(2, 4))
         found = draw_outcomes(rng, *gap, targets[:2], shape)
         rival = max(values[gap[0]][action] for action in setting.actions if (gap[0], action) not in gaps)

@@ -26,7 +26,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -88,17 +88,26 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _readable(given: Given, gamma: Fraction) -> bool:
-    """Whether all probabilities matter in every sweep, and whether the numbers stay small."""
+    """Whether all probabilities and the number of sweeps matter, and whether the numbers stay small."""
     values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
     for _ in range(given.sweeps):
-        old = dict(values)
-        for state, row in given.chances.items():
-            ahead = values if given.in_place else old
-            if not tells_apart([each for each in given.mdp.transitions if each.state == state], ahead, gamma):
-                return False
-            worths = [worth(given.mdp, (state, action), ahead, gamma) for action in row]
-            values[state] = dot([Fraction(chance) for chance in row.values()], worths)
-    return all(value.denominator <= 100 and abs(value.numerator) <= 300 for value in values.values())
+        values = _swept(given, values, gamma)
+        if not values:
+            return False
+    small = all(value.denominator <= 100 and abs(value.numerator) <= 300 for value in values.values())
+    return small and _swept(given, values, gamma) not in ({}, values)
+
+
+def _swept(given: Given, before: dict[str, Fraction], gamma: Fraction) -> dict[str, Fraction]:
+    """The values after one sweep more; none, if there is a probability that does not matter in it."""
+    values = dict(before)
+    for state, row in given.chances.items():
+        ahead = values if given.in_place else before
+        if not tells_apart([each for each in given.mdp.transitions if each.state == state], ahead, gamma):
+            return {}
+        worths = [worth(given.mdp, (state, action), ahead, gamma) for action in row]
+        values[state] = dot([Fraction(chance) for chance in row.values()], worths)
+    return values
 
 
 def _used(rows: list[Transition], states: tuple[str, ...], *, in_place: bool) -> bool:

@@ -25,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement theorem"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -60,7 +60,7 @@ def draw(level: int, rng: Draws) -> Given:
 
     A state in which both policies do the same has no other action.
     """
-    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    gamma = rng.choice(tuple(UNITS)[level == 3 : min(level + 1, 3)])
     states = 2 if level == 1 else 2 + rng.below(2)
     shape = Shape(states=states, actions=2, branches=min(level, 2), denominators=(2, 4) if level < 3 else (2,))
     others = (1, 4) if rng.chance(Fraction(2, 5) if level == 1 else Fraction(1, 4)) else (-4, 4)

@@ -30,7 +30,7 @@ from rldrill.problems.settings import Setting, settings
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 4
+REVISION = 5
 
 _MOST = 200
 
@@ -124,13 +124,18 @@ def draw(level: int, rng: Draws) -> Given:
     kind, sought, letters = rng.below(3), rng.split(2, (3, 4, 5)), (Parameter("p"), Parameter("1-p"))
     if kind == 0:
         return given.model_copy(update={"policy": _policy(mdp, letters)})
-    if kind == 1 or len(starts) == 1:
-        known = _expected(given.model_copy(update={"policy": _policy(mdp, sought)}))
-        return given.model_copy(update={"policy": _policy(mdp, letters), "known": known})
-    first, last = starts
-    start = {mdp.states[first]: sought[0], mdp.states[last]: sought[1]}
-    known = _expected(given.model_copy(update={"start": start}))
-    return given.model_copy(update={"start": dict(zip(start, letters, strict=True)), "known": known})
+    by_start = kind == 2 and len(starts) > 1
+    found, left_open = (_with(given, pair, by_start=by_start) for pair in (sought, letters))
+    if not _all_matters(found):
+        return draw(level, rng)
+    return left_open.model_copy(update={"known": _expected(found)})
+
+
+def _with(given: Given, chances: tuple[Scalar, ...], *, by_start: bool) -> Given:
+    """The same with these probabilities of the two starts, or of the two actions."""
+    if by_start:
+        return given.model_copy(update={"start": dict(zip(given.start, chances, strict=True))})
+    return given.model_copy(update={"policy": _policy(given.mdp, chances)})
 
 
 def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[int, ...], gamma: Fraction) -> Given:
@@ -211,7 +216,7 @@ def question(given: Given) -> Question:
         *model_blocks(given.mdp),
         *start,
         *policy_blocks(given),
-        Paragraph(f"{discount(given.gamma)}{open_chance(given)}"),
+        Paragraph(f"The return is $R_0 = r_1 + γ r_2 + …$. {discount(given.gamma)}{open_chance(given)}"),
     )
     if given.known is not None:
         told = Paragraph(f"The expected return is $𝔼_π(R_0) = {shown(given.known)}$.")

@@ -1,6 +1,7 @@
 """A table of what followed short histories: the probabilities given the history, and whether the process is Markov."""
 
 from collections import Counter
+from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple, Self
 
@@ -14,11 +15,10 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Choice, Number, Part, Values, YesNo
 from rldrill.problems.readings import distribution, note_of
-from rldrill.problems.settings import draw_setting
 
 TITLE = "Markov property"
 SOURCE = "Sutton & Barto 2018, section 3.1"
-REVISION = 2
+REVISION = 3
 
 
 class Seen(NamedTuple):
@@ -126,15 +126,32 @@ def _other_history(given: Given, hidden: Seen) -> bool:
     return any(now == hidden.now and before != hidden.before for before, now in given.histories)
 
 
+@dataclass(frozen=True, slots=True)
+class _Story:
+    told: str
+    states: tuple[str, ...]
+
+
+#: Processes in which any state may follow any other.
+_STORIES = (
+    _Story("The weather of every day is noted.", ("sunny", "cloudy", "rainy", "foggy")),
+    _Story("A cleaning robot goes from room to room.", ("kitchen", "hall", "study", "bath")),
+    _Story("A delivery van drives from town to town.", ("north", "east", "south", "west")),
+    _Story("A tutoring program sets one kind of exercise after the other.", ("words", "grammar", "sounds", "reading")),
+    _Story("A melody is played note by note.", ("do", "re", "mi", "fa")),
+    _Story("A help robot is given one job after the other.", ("fetch", "carry", "clean", "guide")),
+)
+
+
 def draw(level: int, rng: Draws) -> Given:
     """Two histories with two next states; then four or six; then joint probabilities, or a count to be found."""
-    setting = draw_setting(rng)
+    story = rng.choice(_STORIES)
     finding = level == 3 and rng.chance(Fraction(1, 2))
     shapes = {1: ((2, 1, 2),), 2: ((2, 2, 2), (3, 2, 2), (2, 2, 3)), 3: ((2, 2, 3), (3, 2, 2))}
     count = (2 + rng.below(2), 2, 2) if finding else rng.choice(shapes[level])
-    befores, nows, nexts = (rng.sample(setting.states, number) for number in count)
+    befores, nows, nexts = (rng.sample(story.states, number) for number in count)
     while set(befores) & set(nows) and not set(nows) <= set(nexts):  # or a history would have probability 0
-        befores, nows, nexts = (rng.sample(setting.states, number) for number in count)
+        befores, nows, nexts = (rng.sample(story.states, number) for number in count)
     histories = tuple(product(befores, nows))
     if level == 3 and not finding:  # probabilities over 100, every history a multiple of 5/100
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
@@ -155,7 +172,7 @@ def draw(level: int, rng: Draws) -> Given:
     if finding:
         place = rng.choice([place for place, row in enumerate(table) if row.now not in matters])
         table = (*table[:place], table[place]._replace(weight=Parameter("x")), *table[place + 1 :])
-    return Given(table=table, asked=rng.choice(nexts), story=setting.told(()))
+    return Given(table=table, asked=rng.choice(nexts), story=story.told)
 
 
 def _where_it_matters(rng: Draws, nows: tuple[str, ...]) -> tuple[str, ...]:
@@ -181,7 +198,7 @@ def question(given: Given) -> Question:
     hidden = given.missing
     lost = " One of the counts, $x$, is not known." if hidden else ""
     blocks = (
-        Paragraph(f"{given.story} Only the states are considered, not the actions and rewards.".strip()),
+        *([Paragraph(given.story)] if given.story else []),
         Paragraph(f"This table gives {told}.{rest}{lost}"),
         Table(
             header=("$s_{t-1}$", "$s_t$", *(f'$s_{{t+1}} = "{after}"$' for after in given.outcomes)),

@@ -137,6 +137,10 @@ def _equally_good(rng: Draws) -> Compared:
     return Compared(rewards=first, others=(now, later + gamma.denominator * times), gamma=Parameter("gamma"))
 
 
+#: With which reward the return from a time begins.
+_DEFINED = "The return from time $t$ is $R_t = r_{t+1} + γ r_{t+2} + …$."
+
+
 def question(given: Single | Compared) -> Question:
     """All returns as a vector, or one of them and then the return from the start; or two episodes to compare."""
     if isinstance(given, Compared):
@@ -145,7 +149,8 @@ def question(given: Single | Compared) -> Question:
     told = unknown(given, f"{_letter_told(given)}{discount(given.gamma)}")
     if given.known is not None:
         told += f" The return from the start is $R_0 = {shown(given.known)}$."
-    blocks = (Paragraph(f"An episode has the rewards ${_listed(given.rewards)}$ and ends at $T = {end}$. {told}"),)
+    run = f"An episode has the rewards ${_listed(given.rewards)}$ and ends at $T = {end}$."
+    blocks = (Paragraph(f"{run} {_DEFINED} {told}"),)
     if given.known is not None:
         return Question(blocks, (letter_asked(given),))
     if given.time is None:
@@ -172,7 +177,7 @@ def _comparison(given: Compared) -> Question:
     blocks = (
         Paragraph(
             f"An episode has the rewards ${_listed(given.rewards)}$. A second one has the rewards "
-            f"${_listed(given.others)}$. Each ends after its last reward. {told}"
+            f"${_listed(given.others)}$. Each ends after its last reward; its return is $R_0 = r_1 + γ r_2 + …$. {told}"
         ),
     )
     if given.sought:

@@ -13,7 +13,7 @@ from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Reversible):
@@ -88,7 +88,8 @@ def _round(rng: Draws, length: int, gamma: Fraction, unit: Fraction = Fraction(1
         worth = _from_start((*opening, Fraction(last)), 0, gamma)
         return worth != 0 and worth % unit == 0 and last != opening[0]
 
-    return (*opening, rng.fitting(-9, 12, fits))
+    last = rng.fitting(-9, 12, fits)
+    return (*opening, last) if fits(last) else _round(rng, length, gamma, unit)
 
 
 def _from_start(rewards: tuple[Fraction, ...], first: int, gamma: Fraction) -> Fraction:
@@ -112,7 +113,10 @@ def question(given: Given) -> Question:
         told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
     limits = " Discounts satisfy $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
-    more = unknown(given, f"{letter}{discount(given.gamma)}{limits}")
+    more = unknown(
+        given,
+        f"The return from time $t$ is $R_t = r_{{t+1}} + γ r_{{t+2}} + …$. {letter}{discount(given.gamma)}{limits}",
+    )
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."
         tail = [Part(f"What is the return $R_{{{k}}}$?", Number())] if k else []

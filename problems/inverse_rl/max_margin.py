@@ -17,7 +17,7 @@ from rldrill.problems.parts import Number, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 4
+REVISION = 5
 
 EXPERT = "expert"
 _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
@@ -144,8 +144,8 @@ def question(given: Given) -> Question:
     )
     blocks = (
         Paragraph(
-            "With the reward $w^⊤ φ(s)$ the expert's policy $π_E$ must be better than these other policies, with a "
-            "margin $m$:"
+            "With the reward $w^⊤ φ(s)$, in which $φ(s)$ are the features of a state, the expert's policy $π_E$ must "
+            "be better than these other policies, with a margin $m$. $μ(π)$ are the feature expectations of a policy:"
         ),
         Table(
             header=("$π$", *(f"$μ_{{{index}}}(π)$" for index in components), "$m(π_E, π)$"),

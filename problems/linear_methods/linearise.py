@@ -14,7 +14,7 @@ from rldrill.problems.robots import Entries, System, discretised, drawn_robot, s
 
 TITLE = "Linearisation"
 SOURCE = "Åström & Murray 2008, section 5.4"
-REVISION = 5
+REVISION = 6
 #: An operating point and a deviation have all coordinates; on which of them the derivatives depend is for the reader to
 #: find out. Entries say what is asked.
 DISTRACTORS = ("state.*", "action.*", "deviation.*", "entries.*")
@@ -53,7 +53,8 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(**system)
     count = len(system["state"]) + len(system["action"])
     moved = level == 3 or rng.chance(Fraction(1, 2))
-    deviation = tuple(rng.fraction("1/5", "-1/5", "2/5", "-2/5") for _ in range(count)) if moved else None
+    sizes = ("1/5", "-1/5", "2/5", "-2/5") if level == 3 else ("1/2", "-1/2")
+    deviation = tuple(rng.fraction(*sizes) for _ in range(count)) if moved else None
     return Given(**system, step=step, entries=Entries(**robot.varying), deviation=deviation)
 
 

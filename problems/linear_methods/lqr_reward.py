@@ -17,7 +17,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "LQR reward"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 4
+REVISION = 5
 
 Line = tuple[Fraction, ...]
 
@@ -72,6 +72,7 @@ def draw(level: int, rng: Draws) -> Given:
             len(set(rewards)) == len(rewards) > 0
             and -sum(rewards) <= _MOST[level]
             and max(map(_size, (*rewards, sum(rewards, Fraction(0))))) <= _MOST[level]
+            and (kind != "end" or _counts(given))
         ):
             break
     if level < 3:
@@ -90,6 +91,12 @@ def _gain(rng: Draws, states: int) -> Line:
 
 def _size(number: Fraction) -> int:
     return max(abs(number.numerator), number.denominator)
+
+
+def _counts(given: Given) -> bool:
+    """Whether the total would be another one if the end came a time later, so that the last time matters."""
+    later = _rewards(given.model_copy(update={"horizon": given.horizon + 1}))
+    return bool(later) and sum(later) != sum(_rewards(given))
 
 
 def _rewards(given: Given) -> list[Fraction]:
@@ -117,11 +124,11 @@ def question(given: Given) -> Question:
     sum_ = " + ".join(f"r(s_{time}, a_{time})" for time in range(last + 1)) if last < 3 else (
         f"r(s_0, a_0) + … + r(s_{{{last}}}, a_{{{last}}})"
     )  # fmt: skip
-    told = "The actions are $a_t = −L_t s_t$ at every one of these times"
-    blocks: tuple[Block, ...] = (*situation(given), Paragraph(f"{told}, the last, $T = {last}$, included:"))
+    told = f"The actions are $a_t = −L_t s_t$ at all these times, also at the last, $T = {last}$:"
+    blocks: tuple[Block, ...] = (*situation(given), Paragraph(told))
     total = f"What is the total reward $J = {sum_}$"
     if not given.plain:
-        blocks = (*costs(given, NOTATIONS["value"]), Paragraph(f"{told} before $T$:"))
+        blocks = (*costs(given, NOTATIONS["value"]), Paragraph("Before $T$ the action is $a_t = −L_t s_t$:"))
         total = f"What is the total $J$ of all rewards{'' if given.gamma == 1 else ', discounted'}"
     if given.total is not None:
         found = f"The total reward is $J = {sum_} = {shown(given.total)}$. What is the price $ρ$ of the action?"

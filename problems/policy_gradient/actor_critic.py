@@ -19,7 +19,7 @@ from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_poli
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 4
+REVISION = 5
 
 #: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
 _DEEPEST = 3
@@ -120,7 +120,7 @@ def question(given: Given) -> Question:
     pace = step_size(given.alpha).replace("The step size", "The critic's step size")
     learning = (
         "After every transition the TD error $δ_t$ is computed from the current values; then the critic and the actor "
-        "are both updated with it. The actor's score is that of its current weights."
+        "are both updated with it. The actor's score $∇_θ log π(a_t|s_t)$ is that of its current weights."
         if several
         else "After the transition the TD error $δ_0$ is computed; then critic and actor are both updated with it."
     )

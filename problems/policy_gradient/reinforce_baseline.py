@@ -11,11 +11,19 @@ from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, check_keys, values_table
 from rldrill.problems.phrases import discount, step_size
-from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, every_step_counts, gradient_parts, returns
+from rldrill.problems.softmax import (
+    Episode,
+    denominator,
+    draw_episode,
+    episode_blocks,
+    every_step_counts,
+    gradient_parts,
+    returns,
+)
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Episode):
@@ -38,16 +46,21 @@ def draw(level: int, rng: Draws) -> Given:
     baseline = {state: rng.nonzero(-2, 5) for state in dict.fromkeys(run.states[:-1])}
     known = Fraction(0) if isinstance(gamma, Parameter) else gamma
     differences = [G - baseline[state] for state, G in zip(run.states, returns(run, known), strict=False)]
-    if not every_step_counts(run, differences):
+    below = denominator(episode["theta"], episode["features"])
+    if not every_step_counts(run, differences) or (level == 2 and sum(map(abs, differences)) * below > _MOST):
         return draw(level, rng)
     alpha = rng.fraction("1/2", "1/4") if level < 3 else rng.fraction("1/2", "1/4", "1/5")
     return Given(**episode, baseline=baseline, alpha=alpha)
 
 
+#: The largest sum of the differences over a common denominator: the gradient's entries then stay below 300.
+_MOST = 360
+
+
 def question(given: Given) -> Question:
     """The episode, the policy and the baseline; the differences, the gradient and the new weights are asked for."""
     note = Paragraph(
-        "The score of each action $a_t$ is multiplied by $δ_t = G_t − b(s_t)$, where "
+        "The score $∇_θ log π(a_t|s_t)$ of each action is multiplied by $δ_t = G_t − b(s_t)$, where "
         "$G_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; the products are summed over "
         "the episode. There is no further factor $γ^t$, and all steps use the weights above. "
         f"{discount(given.gamma)} {step_size(given.alpha)} The baseline is:"

@@ -17,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Batch TD(0) and batch Monte Carlo"
 SOURCE = "Sutton & Barto 2018, section 6.3"
-REVISION = 2
+REVISION = 3
 
 
 class Observed(Givens):
@@ -85,11 +85,12 @@ def draw(level: int, rng: Draws) -> Given:
     while not _all_count(episodes):
         episodes = _episodes(rng, named, paths, level)
     twice = any(len(set(path)) < len(path) for path in paths)
-    return Given(
+    given = Given(
         episodes=episodes,
         gamma=Parameter("gamma") if level == 3 else Fraction(1) if level == 1 else rng.fraction("1/2", "1"),
         visits=rng.choice(("first", "every")) if twice else "every",
     )
+    return given if all(_moves_a_mean(given, episode) for episode in episodes) else draw(level, rng)
 
 
 def _episodes(
@@ -108,6 +109,28 @@ def _all_count(episodes: tuple[Observed, ...]) -> bool:
             earned.setdefault(state, []).extend([reward] * episode.times)
     means = {state: sum(rewards, Fraction(0)) / len(rewards) for state, rewards in earned.items()}
     return all(episode.rewards[-1] != means[episode.states[-1]] for episode in episodes)
+
+
+def _moves_a_mean(given: Given, episode: Observed) -> bool:
+    """Whether Monte Carlo's values depend on how many times an episode was seen; where γ is open, for one half."""
+    counted = [(each, _returns(each, given)) for each in given.episodes]
+    for state in dict.fromkeys(episode.states):
+        returned = [(G, each.times) for each, returns in counted for visited, G in returns if visited == state]
+        mean = sum((G * times for G, times in returned), Fraction(0)) / sum(times for _, times in returned)
+        if sum(G - mean for visited, G in _returns(episode, given) if visited == state):
+            return True
+    return False
+
+
+def _returns(episode: Observed, given: Given) -> list[tuple[str, Fraction]]:
+    """The visits of an episode that count for Monte Carlo, the last one first, and the return from each on."""
+    gamma = Fraction(1, 2) if isinstance(given.gamma, Parameter) else given.gamma
+    found, G = [], Fraction(0)
+    for place in reversed(range(len(episode.states))):
+        G = episode.rewards[place] + gamma * G
+        if given.visits == "every" or episode.states[place] not in episode.states[:place]:
+            found.append((episode.states[place], G))
+    return found
 
 
 def question(given: Given) -> Question:

@@ -27,7 +27,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Monte Carlo prediction"
 SOURCE = "Sutton & Barto 2018, sections 5.1 and 6.1"
-REVISION = 3
+REVISION = 4
 
 #: A state; or a state and an action.
 Visited: TypeAlias = str | tuple[str, str]
@@ -114,7 +114,8 @@ def draw(level: int, rng: Draws) -> Given:
     if kind == 1:
         run = _episode(rng, rng.choice(tours[-2:]), setting.terminal)
         return run.model_copy(update={"alpha": Parameter("alpha")})
-    run = _episode(rng, rng.choice(((a, b), (a, b, c), (a, b, b)) if kind == 2 else tours), setting.terminal)
+    visited = ((a, b), (a, b, c), (a, b, b)) if kind == 2 else ((a, a), (a, a, a))  # nothing else follows from V(a)
+    run = _episode(rng, rng.choice(visited), setting.terminal)
     update: dict[str, object] = {"known": _learned(run)}
     update |= {"alpha": Parameter("alpha")} if kind == 2 else {"values": run.values | {a: Parameter("x")}}
     return run.model_copy(update=update)

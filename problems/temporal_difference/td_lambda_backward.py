@@ -28,7 +28,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), backward view"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ValueRun):
@@ -52,25 +52,33 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 2:
         tours = (a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, c, end)
         run = _run(rng, rng.choice(tours), end)
-        return run.model_copy(update={"replacing": len(run.visited) == 2 and rng.chance(Fraction(1, 3))})
+        replacing = run.model_copy(update={"replacing": len(run.visited) == 2 and rng.chance(Fraction(1, 3))})
+        return replacing if _discounts(replacing) else run
     kind = rng.below(4)
     if kind == 0:
         run = _run(rng, rng.choice(((a, b, a, end), (a, b, c, end), (a, a, b, c))), end)
         return run.model_copy(update={"lam": Parameter("lambda")})
+    if kind == 2:  # λ decides what a state gets that comes again; the last one to be new gets the same for any λ
+        run = _run(rng, rng.choice(((a, a, b), (a, a, end))), end)
+        return run.model_copy(update={"lam": Parameter("lambda"), "known": _learned(run)[a]})
     run = _run(rng, rng.choice(((a, b, c), (a, b, end))), end)
     if kind == 1:
         return run.model_copy(update={"gamma": Parameter("gamma")})
-    letter, name = ("lam", "lambda") if kind == 2 else ("alpha", "alpha")
-    return run.model_copy(update={letter: Parameter(name), "known": _learned(run)[a]})
+    return run.model_copy(update={"alpha": Parameter("alpha"), "known": _learned(run)[a]})
 
 
 def _run(rng: Draws, states: tuple[str, ...], end: str) -> Given:
     """A run whose values stay readable, and depend on γ from the first state on."""
     while True:
         run = _rewarded(rng, states, end)
-        after, undiscounted = (_learned(each) for each in (run, run.model_copy(update={"gamma": Fraction(1)})))
-        if readable(after.values()) and after[states[0]] != undiscounted[states[0]]:
+        if readable(_learned(run).values()) and _discounts(run):
             return run
+
+
+def _discounts(run: Given) -> bool:
+    """Whether the value of the first state would be another one without discount."""
+    first = run.trajectory.states[0]
+    return _learned(run)[first] != _learned(run.model_copy(update={"gamma": Fraction(1)}))[first]
 
 
 def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> Given:
@@ -98,6 +106,8 @@ def _learned(run: Given) -> dict[str, Fraction]:
     gamma = Fraction(run.gamma)
     for state, after, reward in run.moves:
         e = {s: gamma * Fraction(run.lam) * trace + (s == state) for s, trace in e.items()}
+        if run.replacing:
+            e[state] = Fraction(1)
         error = reward + gamma * V[after] - V[state]
         V |= {s: V[s] + Fraction(run.alpha) * trace * error for s, trace in e.items()}
     return V

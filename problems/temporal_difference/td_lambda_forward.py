@@ -17,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), forward view"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 2
+REVISION = 3
 
 
 class Given(ValueRun):
@@ -59,7 +59,8 @@ def draw(level: int, rng: Draws) -> Given:
     kind = rng.below(3)
     if kind == 0:
         return _run(rng, longer, setting.terminal, (0, 1)).model_copy(update={"lam": Parameter("lambda")})
-    run = _run(rng, rng.choice(((*states[:2], setting.terminal), states[:3])), setting.terminal, (0, 1))
+    asked = (0,) if kind == 1 else (0, 1)  # nothing follows from λ for the last state of a run
+    run = _run(rng, rng.choice(((*states[:2], setting.terminal), states[:3])), setting.terminal, asked)
     update: dict[str, object] = {"known": _learned(run)}
     update |= {"lam": Parameter("lambda")} if kind == 1 else {"values": run.values | {states[1]: Parameter("x")}}
     return run.model_copy(update=update)

@@ -28,6 +28,8 @@ LEAST_OPTION = 0.5
 #: Half of the problems are found in so many attempts.
 MOST_ATTEMPTS = 3
 
+#: Of fewer answers no balance is judged: an answer that is right in half of the draws may stay below 40 % by chance.
+_JUDGED = 200
 _WHOLE = re.compile(r"\d+")
 
 
@@ -112,15 +114,13 @@ class Figures:
             yield f"there are only {len(self.structures)} structures"
         if level > 1 and len(self.problems) < DIFFERENT * min(self.drawn, 100) // 100:
             yield f"only {len(self.problems)} of {self.drawn} problems are different"
-        if self.drawn < 200:
-            return
         for label, (yes, asked) in self.yes.items():
-            if not BALANCED[0] <= yes / asked <= BALANCED[1]:
+            if asked >= _JUDGED and not BALANCED[0] <= yes / asked <= BALANCED[1]:
                 yield f"({label}) is yes in {yes / asked:.0%}"
         for label, counts in self.options.items():
             fair = LEAST_OPTION / len(counts)
             rare = [letter for letter, count in counts.items() if count < fair * counts.total()]
-            if rare:
+            if rare and counts.total() >= _JUDGED:
                 yield f"({label}) is seldom {' or '.join(rare)}: {dict(counts)}"
 
 

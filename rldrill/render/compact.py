@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from textwrap import wrap
 
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.segment import Segment
@@ -11,8 +10,7 @@ from rich.segment import Segment
 from rldrill.problems.document import Beside, Block, Paragraph, Table
 from rldrill.problems.pictures import Picture
 from rldrill.render.encodable import Spelling
-from rldrill.render.mathematics.unicode import GLUE
-from rldrill.render.terminal import renderable
+from rldrill.render.terminal import renderable, wrapped
 
 #: No question is wider, however wide the terminal.
 WIDEST = 100
@@ -87,12 +85,7 @@ class _Writer:
         return lines if self._ruled or not isinstance(block, Table) else _unruled(lines)
 
     def text(self, text: str, width: int) -> Lines:
-        written = self._spelling.inline(text, glued=True)
-        return [
-            [Segment(line.replace(GLUE, " "))]
-            for part in written.split("\n")
-            for line in wrap(part, width, break_long_words=False, break_on_hyphens=False) or [""]
-        ]
+        return [[Segment(line)] for line in wrapped(self._spelling.inline(text, glued=True), width)]
 
 
 class _Unit:

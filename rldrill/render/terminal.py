@@ -101,14 +101,17 @@ def renderable(block: Block) -> RenderableType:
 
 
 def _wrapped(text: str, width: int) -> Text:
-    """A paragraph whose lines end between words and never inside a formula, if there is room for it on one line."""
-    if width == _ENDLESS:
-        return Text(text.replace(GLUE, " "))
-    parts = text.split("\n")
-    lines = [
-        line for part in parts for line in wrap(part, width, break_long_words=False, break_on_hyphens=False) or [""]
+    return Text(text.replace(GLUE, " ") if width == _ENDLESS else "\n".join(wrapped(text, width)))
+
+
+def wrapped(text: str, width: int) -> list[str]:
+    """The lines of a paragraph, which end between words and never inside a formula that has room on one line."""
+    text = " ".join(word if len(word) <= width else word.replace(GLUE, " ") for word in text.split(" "))
+    return [
+        line.replace(GLUE, " ")
+        for part in text.split("\n")
+        for line in wrap(part, width, break_long_words=False, break_on_hyphens=False) or [""]
     ]
-    return Text("\n".join(lines).replace(GLUE, " "))
 
 
 def words(*spans: Span) -> RenderableType:

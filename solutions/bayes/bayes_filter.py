@@ -44,6 +44,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
     for step, event in enumerate(given.run, 1):
         before = belief = start if afresh else belief
         asked = step > 1 or given.outcome is None
+        if step == 2 and given.outcome is not None:
+            work.say("In the second step:")
         belief = _moves(event, work, moves, belief, known)
         if asked:
             work.picture(before_and_after, before, belief)

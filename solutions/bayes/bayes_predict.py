@@ -25,7 +25,10 @@ def solve(given: Given, work: Work) -> None:
         state, letter = given.outcome.state, given.left_open[0]
         moved = belief
         for action in earlier:
+            work.say(f"The action {action} gives:")
             moved = _moved(work, action, moved, motion)
+        if earlier:
+            work.say(f"The next action, {last}, gives:")
         there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states)
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability)))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
@@ -34,6 +37,7 @@ def solve(given: Given, work: Work) -> None:
         if len(actions) > given.after:
             work.say(f"With this ${letter}$ the {'first' if given.after == 1 else 'next'} action gives:")
             belief = _moved(work, last, belief, motion)
+            work.say(f"The next action, {actions[given.after]}, gives:")
         actions = actions[given.after :]
     for action in actions:
         after = _moved(work, action, belief, motion)

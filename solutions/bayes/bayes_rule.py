@@ -41,6 +41,7 @@ def solve(given: Given, work: Work) -> None:
         if len(readings) > 1:
             work.say(f"With this ${letter}$ the first measurement gives:")
             belief = _posterior(work, {**known, "p": belief, "likelihood": likelihood})
+            work.say(f"The next measurement, {readings[1]}, gives:")
         readings = readings[1:]
     for reading in readings:
         posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})

@@ -6,11 +6,11 @@ from typing import Any
 
 import sympy
 
-from rldrill.problems.bayes.bic import Data, Fitted, Given
+from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
-from rldrill.solutions.formula.formula import Formula, slip
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, simplest, tidy, to_sympy
+from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
@@ -37,10 +37,10 @@ def _compare(given: Given, work: Work, better: int) -> None:
     if given.border:
         _border(given, work, better)
         return
+    fit = {}
     if given.fitted is not None:
         n = exact(given.n or 0)
         free = {name: exact(model.k) for name, model in given.fitted.items()}
-        fit = {name: _logarithm(model) for name, model in given.fitted.items()}
     else:
         assert given.data is not None
         n = exact(sum(map(sum, given.data.tosses.values())))
@@ -49,24 +49,24 @@ def _compare(given: Given, work: Work, better: int) -> None:
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
     for name in names:
-        _tell_logarithm(given, name, work)
-        value = work.step(formula, M=name, log_likelihood=fit[name], free=free[name], n=n)
-        criteria[name] = _in_primes(work, formula, value, M=name)
+        logarithm = fit[name] if fit else _logarithm(given, name, work)
+        criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
     criteria = work.answer(criteria)
     work.answer(_winner(work, given, criteria, better))
 
 
-def _tell_logarithm(given: Given, name: str, work: Work) -> None:
-    """Say that the logarithm of one part in so many is minus that of the number."""
-    likelihood = given.fitted[name].likelihood if given.fitted else None
-    if likelihood is not None and likelihood.numerator == 1 < likelihood.denominator:
-        work.say(f'$ln p(D_z|"{name}", θ) = ln({shown(likelihood)}) = −ln {likelihood.denominator}$, so')
-
-
-def _logarithm(model: Fitted) -> Value:
-    if model.log_likelihood is not None:
-        return exact(model.log_likelihood)
-    return sympy.log(to_sympy(exact(model.likelihood or 0)))
+def _logarithm(given: Given, name: str, work: Work) -> Value:
+    """The log-likelihood of a fitted model; of one part in a power it is told how it is found."""
+    assert given.fitted is not None
+    model = given.fitted[name]
+    if model.likelihood is None:
+        return exact(model.log_likelihood or 0)
+    value = tidy(sympy.log(to_sympy(exact(model.likelihood))))
+    factor, logarithm = to_sympy(value).as_coeff_Mul()
+    if factor < 0 and isinstance(logarithm, sympy.log):
+        power = "" if factor == -1 else f"{-factor} "
+        work.say(f'$ln p(D_z|"{name}", θ) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$.')
+    return value
 
 
 def free_parameters(data: Data, model: str) -> int:
@@ -88,19 +88,7 @@ def _fit(work: Work, data: Data, model: str) -> Value:
         for coin in heads:
             work.say(f"For {coin}:")
             theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
-    value = work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
-    return _in_primes(work, LOG_LIKELIHOOD, value)
-
-
-def _in_primes(work: Work, formula: Formula, value: Value, **indices: Any) -> Value:
-    """A value with the logarithms of prime numbers only, written down where that is another form."""
-    if is_rational(value):
-        return value
-    shorter = sympy.expand_log(value, factor=True)
-    if shorter != value:
-        work.say("With the logarithms of prime numbers only:")
-        work.give(formula, shorter, **indices)
-    return shorter
+    return work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
 
 
 def _border(given: Given, work: Work, better: int) -> None:
@@ -108,9 +96,10 @@ def _border(given: Given, work: Work, better: int) -> None:
     assert given.fitted is not None
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
+    fit = {name: _logarithm(given, name, work) for name in given.fitted}
     work.say(f"Here $M_1$ is {rich}, and $M_2$ is {simple}. Both have the same BIC for")
     known = {
-        "log_likelihood_of": {name: _logarithm(model) for name, model in given.fitted.items()},
+        "log_likelihood_of": fit,
         "free_of": {name: exact(model.k) for name, model in given.fitted.items()},
     }
     work.step(BIC_BORDER, first_model=rich, second_model=simple, **known)

@@ -78,11 +78,14 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         )
     value = chosen(ends.values())
     (best, *_) = (action for action, end in ends.items() if end == value)
+    if less := [action for action in worths if action not in ends]:
+        verb = "is" if len(less) == 1 else "are"
+        work.say(f"{joined(less).capitalize()} {verb} worth less than ${to_sympy(target)}$.")
     if len(ends) > 1:
         which = "smaller" if len(ends) == 2 else "smallest"
         work.say(f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the {which} $y$ is right.')
     else:
-        work.say(f"The other actions are worth less than ${to_sympy(target)}$: so {best} is best in {state}.")
+        work.say(f"So {best} is best in {state}.")
     V[row.state] = work.answer(value)
     work.say(f"The actions in {row.state} have these values:")
     worths = {
@@ -98,9 +101,13 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     work.answer({state: (best,)})
     work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
     V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work)
+    for other in mdp.states:
+        work.step(BELLMAN_OPTIMALITY_V, s=other, V=V, **knowns.model(given.without), gamma=known["gamma"])
     work.say(f"With these values {row.action} is as good in {row.state} as the best of the others if")
     worth = work.step(Q_STAR_FROM_V, s=row.state, a=row.action, **known, V=V)
-    work.answer(work.equate(str(row.reward), worth, V[row.state]))
+    least = work.equate(str(row.reward), worth, V[row.state])
+    work.say(f"What {row.action} is worth grows with ${row.reward}$, so this is the smallest one.")
+    work.answer(least)
 
 
 def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:

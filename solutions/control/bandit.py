@@ -76,7 +76,9 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
     else:
         chosen = work.step(UCB_ARM, t=known["t"], U=bounds, choices=given.tried)
         greedy = arg_max(tuple(averages), tuple(averages.values()))
-        if not set(chosen) & set(greedy):
+        if set(chosen) & set(greedy):
+            work.say(f"The greatest bound is that of {chosen[0]}, which has the greatest average, too.")
+        else:
             work.say(
                 f"UCB takes {chosen[0]}, although {greedy[0]} has the greater average: {chosen[0]} is less certain."
             )
@@ -97,8 +99,8 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
         lambda: (
-            f"The bound of {rarer}, which was pulled less often, grows faster with $c$: it is greater for all "
-            f"$c > {decimal(weight, 3)}$."
+            f"The bound of {rarer}, which was pulled less often, grows faster with $c$: above "
+            f"$c ≈ {decimal(weight, 3)}$ it is the greater one."
         )
     )
     work.answer({NEXT: (rarer,)})

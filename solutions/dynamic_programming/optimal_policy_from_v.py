@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact, parameters
+from rldrill.solutions.exact import Value, exact, parameters, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
@@ -53,20 +53,31 @@ def solve(given: Given, work: Work) -> None:
 def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Value:
     """The value of a state from those of the others: that of its best action, taken each time.
 
-    An action that may lead back to the state gives an equation for the value.
+    An action that may lead back to the state gives an equation for the value; what it is worth where another is best,
+    is known only then.
     """
     x = generator("x")
     back = any(row.next == state for row in given.mdp.transitions if row.state == state)
     letter = f'Let $x = V^*("{state}")$. Then the' if back else "The"
     work.say(f"{letter} actions in {state} have these values:")
-    values = {}
+    fixed: dict[tuple[str, str], Value] = {}
+    again: list[str] = []
     for action in given.mdp.actions[state]:
         worth = work.step(Q_STAR_FROM_V, s=state, a=action, **{**known, "V": {**known["V"], state: x}})
         if parameters(worth):
             work.say(f"If {action} is optimal in {state}, this is $x$ itself:")
             worth = work.equate("x", worth, x)
-        values[state, action] = worth
-    (action, *_) = arg_max(given.mdp.actions[state], list(values.values()))
+            again.append(action)
+        fixed[state, action] = worth
+    largest = work.value(V_STAR_FROM_Q, s=state, Q=fixed, actions=known["actions"])
+    (action, *_) = arg_max(given.mdp.actions[state], list(fixed.values()))
+    values = dict(fixed)
+    if again:
+        work.say(f"The greatest of these is $x = {told(largest)}$, that of taking {action} each time. With this $x$:")
+        for other in again:
+            values[state, other] = work.step(
+                Q_STAR_FROM_V, s=state, a=other, **{**known, "V": {**known["V"], state: largest}}
+            )
     best = work.step(V_STAR_FROM_Q, s=state, Q=values, actions=known["actions"])
     work.say(f"The best action in {state} is {action}.")
     return best

@@ -201,12 +201,14 @@ def _numbers_first(expression: Expr) -> Expr:
         return Add(*map(_numbers_first, expression.args), evaluate=False)
     if not expression.is_Mul:
         return expression
-    numbers = [factor for factor in expression.args if factor.is_number]
-    letters = [factor for factor in expression.args if _is_letter(factor.args[0] if factor.is_Pow else factor)]
-    if not numbers or not letters or len(numbers) + len(letters) < len(expression.args):
+    all_factors = _flat(Mul, expression.args)  # α·5α is 5α²
+    numbers = [factor for factor in all_factors if factor.is_number]
+    letters = [factor for factor in all_factors if _is_letter(factor.args[0] if factor.is_Pow else factor)]
+    if not numbers or not letters or len(numbers) + len(letters) < len(all_factors):
         return expression
     value = evaluated(Mul(*numbers, evaluate=False))
-    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *letters]
+    together = Mul.make_args(Mul(*letters))  # λ·λ² is λ³
+    factors = [*([-1] if value.is_negative else []), *([abs(value)] if abs(value) != 1 else []), *together]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
 

@@ -24,6 +24,7 @@ Chances = dict[tuple[str, str, str], Value]
 
 def solve(given: Given, work: Work) -> None:
     """A count that is missing; then the probability asked for after every history, the others, and the comparison."""
+    work.say("$N(s_{t-1}, s_t, s_{t+1})$ is what the table gives for three successive states.")
     whole = _completed(given, work)
     chances = _chances(whole, work)
     work.say("A decision process has the Markov property if, with its actions and rewards,")

@@ -7,7 +7,7 @@ import sympy
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import Value, digits, exact, to_sympy
+from rldrill.solutions.exact import exact, to_sympy
 from rldrill.solutions.exponentials import rational_function
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -22,9 +22,6 @@ from rldrill.solutions.sheet.policy_gradient import (
 )
 from rldrill.solutions.softmax import action_features, by_number, chances
 from rldrill.solutions.work import Work
-
-#: The most digits of a number that is taken apart into primes.
-_MOST_FACTORED = 20
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
@@ -42,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
     found = work.answer({action: work.step(SOFTMAX_POLICY, a=action, **known) for action in actions})
     if given.entropy:
         known["pi"] = {(action, "s"): found[action] for action in actions}
-        work.answer(_in_short(work, work.step(ENTROPY, **known)))
+        work.answer(work.step(ENTROPY, **known))
 
 
 def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -> None:
@@ -57,17 +54,6 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     ]
     found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
     work.answer({action: found[action, "s"] for action in given.features})
-
-
-def _in_short(work: Work, value: Value) -> Value:
-    """An entropy by the logarithms of prime numbers, where it is a number whose factors are soon found."""
-    if not isinstance(value, sympy.Expr) or value.free_symbols or digits(value) > _MOST_FACTORED:
-        return value
-    shorter: Value = sympy.expand_log(value, factor=True)
-    if shorter != value:
-        work.say("With as few different logarithms as possible:")
-        work.give(ENTROPY, shorter)
-    return shorter
 
 
 def oracle(given: Given) -> Answers:

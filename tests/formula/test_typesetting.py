@@ -4,6 +4,7 @@ from pathlib import Path
 from unicodedata import normalize
 
 import pytest
+import sympy
 from flint import fmpq, fmpq_mat
 from sympy import evaluate, factorial, log, sqrt
 
@@ -201,3 +202,10 @@ def test_a_number_of_every_form_is_written_so_and_read_back(text: str) -> None:
     written = unicode(typeset_value(value))
     assert written == WRITTEN[text]
     assert read_number(written, ["gamma"]).value == value
+
+
+def test_the_letters_of_a_product_that_are_the_same_are_one_power() -> None:
+    # The trace of a state that comes again: ½λ · ¼λ² = ⅛λ³.
+    letter = generator("lambda")
+    trace = put_in(sympy.Symbol("x") * sympy.Symbol("y"), {"x": fmpq(1, 2) * letter, "y": fmpq(1, 4) * letter**2})
+    assert unicode(typeset(reduced(trace))) == "1/8·λ³"

@@ -4,7 +4,8 @@ import pytest
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Accent, operator, row, variable
-from rldrill.render.terminal import PIPED, console, plain
+from rldrill.render.mathematics.unicode import inline
+from rldrill.render.terminal import PIPED, console, plain, wrapped
 
 
 def test_it_writes_to_the_output_unless_it_is_told_to_complain(capsys: pytest.CaptureFixture[str]) -> None:
@@ -27,3 +28,14 @@ def test_a_hat_takes_no_place_of_its_own() -> None:
         Accent(variable("M"), "hat"), (row(*map(variable, "abcdefgh"), operator("+"), variable("i")),), ("=",)
     )
     assert plain([equation]).splitlines() == ["  M̂ = abcdefgh + i"]
+
+
+def test_a_formula_is_broken_only_where_it_has_no_room_and_a_list_behind_its_commas() -> None:
+    reward = inline("It earns $r(s_t, a_t) = −(s_t^⊤ Q_t s_t + a_t^⊤ R_t a_t)$ then.", glued=True)
+    assert wrapped(reward, 40) == ["It earns", "r(sₜ, aₜ) = −(sₜᵀQₜsₜ + aₜᵀRₜaₜ) then."]
+    assert max(map(len, wrapped(reward, 25))) <= 25
+    numbers = ", ".join(f"{letter}(1, 2) = 1" for letter in "abcde")
+    assert wrapped(inline(f"With ${numbers}$.", glued=True), 40) == [
+        "With a(1, 2) = 1, b(1, 2) = 1,",
+        "c(1, 2) = 1, d(1, 2) = 1, e(1, 2) = 1.",
+    ]

@@ -67,18 +67,29 @@ def unmarked(math: Math) -> Math:
 
 #: Stands for the spaces of a formula while its paragraph is broken into lines.
 GLUE = "\ue000"
-#: A formula that is longer than this may be broken.
-_LONG = 30
+#: A formula that is longer than this may be broken, a list of formulas between two of them.
+_LONG = 48
 
 
 def inline(text: str, *, glued: bool = False) -> str:
-    """A text with its mathematics in Unicode; ``glued`` where short formulas stay in one piece."""
+    """A text with its mathematics in Unicode; ``glued`` where formulas stay in one piece, unless they are long."""
     return "".join(piece if isinstance(piece, str) else _piece(piece, glued=glued) for piece in pieces(text))
 
 
 def _piece(math: Math, *, glued: bool) -> str:
     written = unicode(math).strip()
-    return written.replace(" ", GLUE) if glued and len(written) <= _LONG else written
+    if not glued:
+        return written
+    return written.replace(" ", GLUE) if len(written) <= _LONG else _between_formulas(written)
+
+
+def _between_formulas(written: str) -> str:
+    """Formulas one after the other, with a space to break at behind each comma only; a single one as it is."""
+    depth, text = 0, ""
+    for sign in written:
+        depth += (sign in "([{") - (sign in ")]}")
+        text += GLUE if sign == " " and (depth or not text.endswith(",")) else sign
+    return text if " " in text else written
 
 
 def _row(items: tuple[Math, ...]) -> str:
