@@ -89,7 +89,7 @@ def _round(rng: Draws, length: int, gamma: Fraction, unit: Fraction = Fraction(1
         return worth != 0 and worth % unit == 0 and last != opening[0]
 
     last = rng.fitting(-9, 12, fits)
-    return (*opening, last) if fits(last) else _round(rng, length, gamma, unit)
+    return (*opening, last) if fits(int(last)) else _round(rng, length, gamma, unit)
 
 
 def _from_start(rewards: tuple[Fraction, ...], first: int, gamma: Fraction) -> Fraction:
