@@ -164,6 +164,7 @@ def compiled(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
 
 
 #: The functions of expressions by their identity: to look for an expression itself takes as long as many a formula.
+_REMEMBERED = 4096
 _FUNCTIONS: dict[int, tuple[Expr, Callable[[Mapping[str, Any]], Any]]] = {}
 
 
@@ -177,6 +178,8 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
     try:
         found = _FUNCTIONS.get(id(expression))
         if found is None:
+            if len(_FUNCTIONS) == _REMEMBERED:  # a problem of its own dynamics brings its own expressions
+                _FUNCTIONS.clear()
             found = _FUNCTIONS[id(expression)] = expression, compiled(expression)
         return found[1](known)
     except LookupError as error:
