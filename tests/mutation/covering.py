@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 from coverage import CoverageData
-from places import Mutation, Source
+from places import ROOMS, Mutation, Source
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,12 @@ class Covering:
 
     @cached_property
     def _paths(self) -> dict[str, str]:
-        """The files by their paths below the root, where the rooms stand that are linked into the package."""
+        """The files by their paths from their room on, wherever the tree stood."""
         found = {}
         for measured in self._data.measured_files():
-            below = measured.rpartition("/rldrill/")[2]
-            found[below if below.startswith(("problems/", "solutions/")) else f"rldrill/{below}"] = measured
+            parts = Path(measured).parts
+            room = max((place for place, part in enumerate(parts[:-1]) if part in ROOMS), default=0)
+            found["/".join(parts[room:])] = measured
         return found
 
     @cached_property
