@@ -46,18 +46,37 @@ def line_editor(redraw: Callable[[], None], *, plain: bool) -> Ask:
 
         # A paste is then put into the line as a whole, and Enter ends it.
         readline.parse_and_bind("set enable-bracketed-paste on")
-    return lines
+    return Lines()
 
 
-def lines(prompt: Prompt, _keys: str = "", /) -> str:
-    """One line with its Enter, whatever the keys; what is pasted or typed ahead is taken together."""
-    typed = [input(prompt() if callable(prompt) else prompt)]
-    while _is_waiting():
-        try:
-            typed.append(input())
-        except EOFError:
-            break
-    return "\n".join(typed)
+class Lines:
+    """Lines with their Enter, whatever the keys; what is pasted or typed ahead is taken together."""
+
+    def __init__(self) -> None:
+        self._prompt = ""
+        if sys.platform != "win32":
+            signal.signal(signal.SIGCONT, self._again)
+
+    def __call__(self, prompt: Prompt, _keys: str = "", /) -> str:
+        """Ask for a line."""
+        self._prompt = prompt() if callable(prompt) else prompt
+        typed = [input(self._prompt)]
+        while _is_waiting():
+            try:
+                typed.append(input())
+            except EOFError:
+                break
+        return "\n".join(typed)
+
+    def _again(self, *_: object) -> None:
+        """After ``fg`` show what is asked, and what was typed; the shell has let the terminal echo meanwhile."""
+        import readline
+        import termios
+
+        mode = termios.tcgetattr(sys.stdin)
+        mode[3] &= ~(termios.ECHO | termios.ICANON)
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
+        print(f"\n{self._prompt}{readline.get_line_buffer()}", end="", flush=True)
 
 
 class _Editor:

@@ -15,7 +15,7 @@ from rldrill.problems.catalogue import family
 from rldrill.problems.errors import UsageError
 from rldrill.quiz.ahead import Ahead
 from rldrill.quiz.keys import HELP
-from rldrill.quiz.prompt import lines
+from rldrill.quiz.prompt import Lines
 from rldrill.quiz.questions import questions
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session, State
@@ -276,4 +276,4 @@ def test_lines_pasted_into_the_console_of_windows_are_one_answer(monkeypatch: py
     monkeypatch.setitem(sys.modules, "msvcrt", console)
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setattr("builtins.input", lambda *_: waiting.pop(0))
-    assert lines("> ") == "112/191, 108/191\n120/191, -48/191"
+    assert Lines()("> ") == "112/191, 108/191\n120/191, -48/191"

@@ -97,6 +97,16 @@ def test_after_ctrl_z_the_question_and_what_was_typed_are_there_again(tmp_path: 
     running.sees("1 of 2 parts right", "and ended")
 
 
+def test_where_it_is_read_out_the_prompt_and_what_was_typed_are_there_again_after_ctrl_z(tmp_path: Path) -> None:
+    running = Terminal(tmp_path, 80, "--plain", RACING_CAR, then="echo It is stopped; fg; echo and ended")
+    running.child.setecho(True)  # readline echoes where the terminal does
+    running.sees("(a) > ")
+    running.presses("cool: 7/2, ", "cool: 7/2, ")
+    running.presses("\x1a", "It is stopped", "(a) > cool: 7/2, ")
+    running.types("warm: 5/2", "Right", "(b) > ")
+    running.child.close(force=True)
+
+
 def test_in_a_window_of_another_size_all_is_there_again_and_fits(terminal: Terminal) -> None:
     terminal.types("1, 2", "✗", "(a) > ")
     terminal.presses("cool: 7/2, ", "cool: 7/2, ")
