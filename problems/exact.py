@@ -199,10 +199,15 @@ def dot(first: Iterable[Fraction], second: Iterable[Fraction]) -> Fraction:
     return sum(starmap(mul, zip(first, second, strict=True)), _ZERO)
 
 
+@lru_cache(maxsize=4096)  # the same numbers are shown again and again
+def _spelled(number: Fraction) -> str:
+    return str(number).replace("-", "−")
+
+
 def shown(value: Weight | int) -> str:
     """Write an exact number as mathematics, for use between ``$`` signs."""
     if type(value) is Fraction:
-        return str(value).replace("-", "−")
+        return _spelled(value)
     if isinstance(value, Logarithm):
         return f"ln {shown(value.of)}"
     if isinstance(value, Root):

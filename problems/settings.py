@@ -78,16 +78,19 @@ def _ways(
     """All that letters can stand for, so that every move is possible; and the actions that can make each."""
     letters = sorted({letter for before, after in moves for letter in before + after} - {"."})
     places = (*setting.states, setting.terminal)
+    reached = {
+        (state, action): {*setting.reached(places, state, action)} for state in setting.states for action in actions
+    }
     found = []
     for states in permutations(setting.states, len(letters)):
         named = dict(zip(letters, states, strict=True)) | {".": setting.terminal}
         fit = tuple(
-            tuple(
-                action
-                for action in actions
-                if {named[letter] for letter in after} <= {*setting.reached(places, named[before], action)}
-            )
-            for before, after in moves
+            [
+                tuple(
+                    [action for action in actions if reached[named[before], action].issuperset(map(named.get, after))]
+                )
+                for before, after in moves
+            ]
         )
         if all(fit):
             found.append((named, fit))
