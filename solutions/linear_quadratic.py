@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from flint import fmpq_mat
-
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
@@ -43,12 +41,6 @@ def gain(work: Work, lqr: Quadratic, **known: Any) -> Any:
     work.recall(lqr.gain)
     work.reading(lqr.gain)
     H, G = work.step(lqr.bracket, **known), work.step(lqr.product, **known)
-    if isinstance(H, fmpq_mat) and H.nrows() == 2 and (determinant := H.det()):
-        work.say(
-            f"The determinant of $H_{t}$ is ${determinant}$. The inverse of a 2×2 matrix has the entries of its "
-            "diagonal exchanged and the other two negated, all divided by the determinant:"
-        )
-        return work.step(lqr.by_inverse, Hinv={t: H.inv()}, Gt={t: G}, **known)
     return work.step(lqr.solved, Ht={t: H}, Gt={t: G}, **known)
 
 

@@ -58,7 +58,6 @@ Ut = _matrix("Ut", "a")
 Nt = _matrix("Nt", "N")
 Gt = _matrix("Gt", "G")
 Ht = _matrix("Ht", "H")
-inverse_of = quantity("Hinv", lambda time: Script(variable("H"), time, mathematics("−1")), matrix=True)
 rt = quantity("rt", _reward_layout)
 last_reward = quantity("lastReward", lambda time: row(variable("r"), Fence(Script(variable("s"), time))))
 J = letter("J")
@@ -174,15 +173,6 @@ with evaluate(False):
         hint="Multiply by the inverse from the left.",
         place=Place.WORKING,
     )
-    LQR_BY_INVERSE = Formula(
-        "lqr-gain-by-inverse",
-        Lt(t),
-        inverse_of(t) * Gt(t),
-        title="LQR gain by an inverse and a matrix behind it",
-        source="Bertsekas 2017, section 3.1, with P = −K",
-        hint="Work out the inverse first.",
-        place=Place.WORKING,
-    )
     NO_TERMINAL = Misconception(
         "no-terminal-value", "The state at the last time T is rewarded too: there P is −Q, not 0."
     )
@@ -252,8 +242,6 @@ class Quadratic(NamedTuple):
     bracket: Formula
     product: Formula
     solved: Formula
-    #: The same with the inverse worked out before.
-    by_inverse: Formula
 
 
 @cache
@@ -264,9 +252,7 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
         for code, head in zip(("St", "Ut", "Lt", "Pt"), notation[:4], strict=True)
     )
     if not (notation.costs or discounted or crossed):
-        return Quadratic(
-            LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, LQR_BRACKET, LQR_PRODUCT, LQR_SOLVED, LQR_BY_INVERSE
-        )
+        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, LQR_BRACKET, LQR_PRODUCT, LQR_SOLVED)
     with evaluate(False):
         A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
         ahead = (gamma,) if discounted else ()
@@ -301,7 +287,6 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
             replace(LQR_BRACKET, right=bracket),
             replace(LQR_PRODUCT, right=both),
             replace(LQR_SOLVED, left=gain(t)),
-            replace(LQR_BY_INVERSE, left=gain(t)),
         )
 
 
