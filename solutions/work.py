@@ -18,6 +18,7 @@ from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
+from rldrill.solutions.formula.inverting import inverted
 from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.putting_in import indexed, put_in, reduced
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
@@ -87,7 +88,8 @@ class Step(_Applied):
         rights = [typeset(self.right)] if self.own else []
         rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
-            rights += [alone(reduced(written)), shown_value(self.value)]
+            short = reduced(written)
+            rights += [alone(short), alone(inverted(short)), shown_value(self.value)]
         distinct = tuple(dict.fromkeys(rights))
         left = typeset(self.left)
         if label := self._label():

@@ -284,7 +284,7 @@ def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
         return Fraction(numerator, _product(below) if len(below) > 1 else typeset(below[0]))
     items: list[Math] = []
     for position, factor in enumerate(flat):
-        first = leads and position == 0 and look(factor) is Look.NUMBER and not _holds_sum(factor)
+        first = leads and position == 0 and look(factor) is Look.NUMBER and not (len(flat) > 1 and _holds_sum(factor))
         written = alone(factor) if first else _factor(factor, last=position == len(flat) - 1)
         if position and _needs_dot(flat[position - 1], factor):
             items.append(_TIMES)

@@ -15,14 +15,17 @@ from rldrill.render.mathematics.stacked import stacked
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.answers.text import read_number
+from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import Counting, IntegralOver, S, SampleMean, T, n, t
 from rldrill.solutions.formula.putting_in import put_in, reduced
 from rldrill.solutions.formula.typesetting import typeset, typeset_value
 from rldrill.solutions.knowns import Sparse
+from rldrill.solutions.matrices import matrix
 from rldrill.solutions.rational import generator
 from rldrill.solutions.sheet import formulas
-from rldrill.solutions.sheet.bayes import BIC, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
+from rldrill.solutions.sheet.bayes import BIC, KALMAN_GAIN, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V
+from rldrill.solutions.sheet.beyond_the_sheet import JOINT_RATES
 from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
@@ -209,3 +212,25 @@ def test_the_letters_of_a_product_that_are_the_same_are_one_power() -> None:
     letter = generator("lambda")
     trace = put_in(sympy.Symbol("x") * sympy.Symbol("y"), {"x": fmpq(1, 2) * letter, "y": fmpq(1, 4) * letter**2})
     assert unicode(typeset(reduced(trace))) == "1/8·λ³"
+
+
+def written(formula: Formula, **known: object) -> str:
+    work = Work()
+    work.step(formula, **known)
+    (step,) = work.lines
+    assert isinstance(step, Step)
+    return " ".join(unicode_text(step.equation()).split())
+
+
+def test_the_inverse_of_a_2_by_2_matrix_is_worked_out() -> None:
+    # −6·6 − 0·6 = −36; the diagonal is exchanged, the other two entries are negated.
+    J, v = fmpq_mat(2, 2, [-6, 0, 6, 6]), fmpq_mat(2, 1, [-18, 6])
+    assert written(JOINT_RATES, Jac=J, velocity=v) == (
+        "ω = [−6 0 ; 6 6]⁻¹[−18 ; 6] = −1/36[6 0 ; −6 −6][−18 ; 6] = [3 ; −2]"
+    )
+
+
+def test_a_sum_that_leads_a_product_keeps_its_brackets() -> None:
+    w, one = matrix([[7 + generator("w")]]), matrix([[fmpq(1)]])
+    known = {"t": 1, "covariance_bar": {1: w}, "Ct": {1: one}, "Qt": {1: matrix([[fmpq(6)]])}}
+    assert written(KALMAN_GAIN, **known) == "K₁ = (7 + w)·1·(1·(7 + w)·1 + 6)⁻¹ = (7 + w)·(13 + w)⁻¹ = (7 + w)/(13 + w)"
