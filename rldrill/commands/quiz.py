@@ -103,7 +103,7 @@ def command(
         if level or seed is not None:
             raise UsageError("--exam-date lets your history choose; leave --level and --seed out.")
         plan = _plan(wanted, keeper.read(), number or _expected(minutes), exam_date)
-        said = "" if plan is None else plan.says()
+        said = "" if plan is None else plan.says(kept=not keeper.trouble)
     if said:
         typer.echo(fill(said, get_terminal_size().columns - 1))  # before the libraries that take a while
     from rldrill.exam.selection import announced_seed, fresh_seed

@@ -27,6 +27,11 @@ class Keeper:
         self._told = False
         self._writer: log.Writer | None = None
 
+    @property
+    def trouble(self) -> bool:
+        """Whether the history could not be read or written."""
+        return self._told
+
     def read(self) -> tuple[Attempt, ...]:
         """What was answered so far; nothing where that cannot be read."""
         try:

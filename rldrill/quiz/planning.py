@@ -168,17 +168,17 @@ class Plan:
         known = [skill for skill in self._order if skill in self.memories and skill not in self._asked[-1:]]
         return min(known, key=lambda skill: self.memories[skill].recall(now), default=self._order[0])
 
-    def says(self) -> str:
-        """One line: how much is due and new, and why the first problem is asked."""
+    def says(self, *, kept: bool = True) -> str:
+        """One line: how much is due and new, and why the first problem is asked; ``kept`` is what will be answered."""
         now = self._begin
         ahead = "" if self._exam is None else f"; {(self._exam.date() - now.date()).days} days to the exam"
         if not self._attempts:
             several = len({self._topic[skill.family] for skill in self._order}) > 1
             of_topics = " of the first topics" if several else ""
-            return (
-                f"Your first quiz: {self._number} problems, easy ones{of_topics} before others{ahead}. "
-                "What you answer is kept, and decides what comes next."
-            )
+            asked = f"{self._number} problems, easy ones{of_topics} before others{ahead}."
+            if not kept:
+                return f"What you answered before is not known: {asked}"
+            return f"Your first quiz: {asked} What you answer is kept, and decides what comes next."
         due, first = len(self.due(now)), self._peek(now)
         fresh = min(len(self.new()), round(self._share * self._number))
         counts = f"{min(due, self._number - fresh)} due, {fresh} new" if due else f"nothing due, {fresh} new"
