@@ -1,6 +1,6 @@
 """Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
 
-from functools import reduce
+from functools import lru_cache, reduce
 from string import ascii_uppercase
 from typing import Any
 
@@ -9,7 +9,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Fitted, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, sign, simplest, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, is_rational, order, simplest, to_sympy
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -92,11 +92,16 @@ def _fit(work: Work, data: Data, model: str) -> Value:
     return _in_primes(work, LOG_LIKELIHOOD, value)
 
 
+@lru_cache(maxsize=512)  # most mistakes come by the same logarithms
+def _expanded(value: sympy.Expr) -> sympy.Expr:
+    return sympy.expand_log(value, factor=True)
+
+
 def _in_primes(work: Work, formula: Formula, value: Value, **indices: Any) -> Value:
     """A value with the logarithms of prime numbers only, written down where that is another form."""
     if is_rational(value):
         return value
-    shorter = sympy.expand_log(value, factor=True)
+    shorter = _expanded(value)
     if shorter != value:
         work.say("With the logarithms of prime numbers only:")
         work.give(formula, shorter, **indices)
@@ -130,8 +135,8 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     two = len(numbers) == 2
     work.say(f"In numbers, {joined(numbers)}.")
     models = list(criteria)
-    best = reduce(lambda one, other: other if sign(criteria[other] - criteria[one]) == better else one, models)
-    if any(sign(criteria[best] - criteria[other]) == 0 for other in models if other != best):
+    best = reduce(lambda one, other: other if order(criteria[other], criteria[one]) == better else one, models)
+    if any(order(criteria[best], criteria[other]) == 0 for other in models if other != best):
         raise NoSolution(f"{'both' if two else 'the best'} models have the same {name}")
     work.say(f"The {name} of {best} is the {'smaller' if two else 'smallest'} one: {best} is preferred.")
     return ascii_uppercase[models.index(best)]
