@@ -9,7 +9,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, sign, simplest, tidy, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, simplest, tidy, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -119,8 +119,8 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     two = len(numbers) == 2
     work.say(f"In numbers, {joined(numbers)}.")
     models = list(criteria)
-    best = reduce(lambda one, other: other if sign(criteria[other] - criteria[one]) == better else one, models)
-    if any(sign(criteria[best] - criteria[other]) == 0 for other in models if other != best):
+    best = reduce(lambda one, other: other if order(criteria[other], criteria[one]) == better else one, models)
+    if any(order(criteria[best], criteria[other]) == 0 for other in models if other != best):
         raise NoSolution(f"{'both' if two else 'the best'} models have the same {name}")
     work.say(f"The {name} of {best} is the {'smaller' if two else 'smallest'} one: {best} is preferred.")
     return ascii_uppercase[models.index(best)]

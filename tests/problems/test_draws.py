@@ -52,6 +52,13 @@ def test_the_golden_file_has_a_line_for_every_problem_and_no_other() -> None:
     assert len(GOLDEN.read_text(encoding="utf-8").splitlines()) == len(golden) + 2
 
 
+def test_shares_are_a_split_in_whole_numbers() -> None:
+    shares, whole = Draws("key").shares(3, (4, 5))
+    assert whole in (4, 5)
+    assert sum(shares) == whole
+    assert Draws("key").split(3, (4, 5)) == tuple(Fraction(share, whole) for share in shares)
+
+
 @given(st.integers(2, 5), st.text(max_size=5))
 def test_a_split_is_a_distribution_without_zeros(parts: int, key: str) -> None:
     chances = Draws(key).split(parts, (2, 4, 5, 10))

@@ -25,12 +25,14 @@ from rldrill.solutions.exact import (
     degree,
     digits,
     enclosure,
+    equal,
     exact,
     is_whole,
     is_zero,
     largest,
     magnitude,
     monomial,
+    order,
     parameters,
     sign,
     simplest,
@@ -339,3 +341,23 @@ def test_blocks_side_by_side() -> None:
     # A 0 fills its place with zeros, any other number stands on the diagonal.
     assert stacked(2, block, 0, 0, fmpq(5)) == fmpq_mat(3, 3, [1, 2, 0, 3, 4, 0, 0, 0, 5])
     assert stacked(1, block, fmpq(7)) == fmpq_mat(2, 3, [1, 2, 7, 3, 4, 0])
+
+
+def test_closed_forms_are_ordered_without_being_subtracted() -> None:
+    # √2 ≈ 1.41, √3 ≈ 1.73, e ≈ 2.72; ln 4 is 2 ln 2.
+    assert order(sympy.sqrt(2), sympy.sqrt(3)) == -1
+    assert order(sympy.E, fmpq(2)) == 1
+    assert order(sympy.log(4), 2 * sympy.log(2)) == 0
+
+
+def test_a_letter_may_fall_out_of_what_is_ordered() -> None:
+    x = to_sympy(generator("x"))
+    assert order(x + sympy.sqrt(2), x + 1) == 1
+    with pytest.raises(NotReal):
+        order(x + sympy.sqrt(2), fmpq(1))
+
+
+def test_values_of_other_forms_may_be_equal() -> None:
+    assert equal(sympy.log(4), 2 * sympy.log(2))
+    assert not equal(sympy.sqrt(2), fmpq(1414, 1000))
+    assert not equal(fmpq(1, 3), fmpq(1, 2))
