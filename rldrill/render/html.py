@@ -55,13 +55,17 @@ class Html:
 
     def table(self, table: Table) -> str:
         """A table, moved sideways where the screen is narrower."""
-        head = "".join(
-            f'<th scope="col" aria-label="{escape(inline(cell))}">{self.text(cell)}</th>' if cell else "<td></td>"
-            for cell in table.header
-        )
+        head = "".join(f'<th scope="col">{self._named(cell)}</th>' if cell else "<td></td>" for cell in table.header)
         lines = ("".join(f"<td>{self.text(cell)}</td>" for cell in line) for line in table.rows)
         body = "".join(f"<tr>{line}</tr>" for line in lines)
         return _wide(f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>", "Table")
+
+    def _named(self, cell: str) -> str:
+        """A heading of a table; to some readers of screens one of mathematics alone would be empty."""
+        written = self.text(cell)
+        if not written.startswith("<math>"):
+            return written
+        return written.replace("<math>", f'<math aria-label="{escape(inline(cell))}">', 1)
 
     def equation(self, equation: Equation) -> str:
         """An equation, its right sides one under the other."""

@@ -215,4 +215,4 @@ def test_an_unknown_format_is_said() -> None:
 def test_an_empty_corner_of_a_table_is_no_heading() -> None:
     written = Html().table(Table(("", "$s$"), (("$V$", "3"),)))
     assert written.count("<th ") == 1
-    assert "<td></td><th " in written
+    assert '<td></td><th scope="col"><math aria-label="s">' in written
