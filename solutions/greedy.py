@@ -21,6 +21,11 @@ def epsilon_greedy(work: Work, state: str, values: Mapping[str, Value], epsilon:
     return {action: work.step(formula, s=state, a=action, **known) for action in values}
 
 
+def taken(best: Mapping[str, Sequence[str]]) -> str:
+    """The best actions of several states, in words."""
+    return joined([f"{' or '.join(actions)} in {state}" for state, actions in best.items()])
+
+
 def greedy(best: Sequence[str]) -> str:
     """The conclusion from an arg max, in words."""
     if len(best) == 1:

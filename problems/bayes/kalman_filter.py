@@ -25,7 +25,7 @@ from rldrill.problems.parts import LETTERS, Matrix, Number, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
-REVISION = 4
+REVISION = 5
 
 _0, _1 = Fraction(0), Fraction(1)
 _ONE = ((_1,),)
@@ -154,6 +154,8 @@ def draw(level: int, rng: Draws) -> Given:
             u = rng.nonzero(-3, 6) if driven else Fraction(0)
             place += u
             z = place + rng.nonzero(-4, 4)
+            if z == mean:  # the one must not pass for the other
+                z += 5
             steps.append(Event(u=((u,),) if driven else None, z=((z,),) if measured else None))
         beliefs = _beliefs((mean, variance), process, sensor, steps)
         numbers = [number for belief in beliefs for number in belief]
@@ -211,7 +213,7 @@ def _handy() -> tuple[tuple[int, int, int], ...]:
         for process in range(1, 7)
         for sensor in range(1, 13)
         if before + process != sensor
-        and process != sensor
+        and len({before, process, sensor}) == 3
         and (before + process) * sensor % (before + process + sensor) == 0
     )
 

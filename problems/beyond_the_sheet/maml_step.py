@@ -15,7 +15,7 @@ from rldrill.problems.phrases import in_open, step_size
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 3
+REVISION = 4
 
 
 class Task(NamedTuple):
@@ -68,7 +68,8 @@ def draw(level: int, rng: Draws) -> Given:
         return rng.choice((_open, _staying, _step_sought))(rng)
     count, first_order = (1, False) if level == 1 else rng.choice(((2, False), (2, True), (1, True), (3, False)))
     theta, tasks, alpha = _drawn(rng, count)
-    return Given(theta=theta, tasks=tasks, alpha=alpha, beta=rng.fraction("1/2", "1/4"), first_order=first_order)
+    beta = Fraction(1, 4) if alpha == Fraction(1, 2) else Fraction(1, 2)
+    return Given(theta=theta, tasks=tasks, alpha=alpha, beta=beta, first_order=first_order)
 
 
 def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:

@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -85,6 +85,8 @@ def draw(level: int, rng: Draws) -> Given:
     visits = rng.choice(("aba", "abc", "abb") if level == 2 else ("ab", "abc", "abc."))
     epsilon = _drawn_epsilon(rng)
     found = draw_forward(rng, visits, 3, _greedily(epsilon))
+    while level == 2 and not all(sum(row.values()) - max(row.values()) for row in found["values"].values()):
+        found = draw_forward(rng, visits, 3, _greedily(epsilon))  # what exploring earns must not cancel
     return EpsilonGreedy(epsilon=epsilon if level == 2 else Parameter("epsilon"), **found)
 
 

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting, draw_way
 
 TITLE = "Semi-gradient TD"
 SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
@@ -101,7 +101,8 @@ def draw(level: int, rng: Draws) -> Given:
         gamma=rng.fraction("1/2", "1/2", "1"),
     )
     used = all(map(any, given.features.values())) and all(map(any, zip(*given.features.values(), strict=True)))
-    return given if used and all(_matters(given)) else draw(level, rng)
+    told_apart = len(set(given.features.values())) == len(given.features)
+    return given if used and told_apart and all(_matters(given)) else draw(level, rng)
 
 
 def _matters(given: Given) -> Iterator[Fraction]:

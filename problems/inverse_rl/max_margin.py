@@ -86,7 +86,7 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two policies and two features; two or three of each; the weight from which on all constraints hold."""
     size, count = (2, 2) if level == 1 else (rng.choice((2, 3)), rng.choice((2, 3)))
-    holding = rng.chance(Fraction(1, 4) if level == 1 else Fraction(1, 2))
+    holding = rng.chance(Fraction(1, 4))
     while True:
         w = tuple(rng.nonzero(-2, 3) for _ in range(size))
         expert = tuple(rng.whole(1, 6) for _ in range(size))

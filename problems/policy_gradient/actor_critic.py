@@ -73,7 +73,7 @@ def draw(level: int, rng: Draws) -> Given:
         theta, features = (draw_even_policy if level == 1 else draw_log_policy)(rng, (first,), actions)
         if not told_apart(features):
             return draw(level, rng)
-    return Given(
+    given = Given(
         trajectory=draw_run(rng, states, taken, setting.terminal),
         theta=theta,
         features=features,
@@ -85,6 +85,14 @@ def draw(level: int, rng: Draws) -> Given:
         beta=rng.fraction("1/2", "1/4", "1/3" if level == 3 else "1/2") if level > 1 else rng.fraction("1", "1/4"),
         gamma=rng.fraction("1/2", "1/2", "4/5") if level == 3 else rng.fraction("1/2", "1"),
     )
+    return given if _first_error(given) != 1 else draw(level, rng)  # or nobody would see it forgotten
+
+
+def _first_error(given: Given) -> Fraction:
+    """The first TD error, of a run in which nothing is left open but perhaps the step size."""
+    state, after, *_ = given.trajectory.states
+    ahead = Fraction(str(given.gamma)) * Fraction(str(given.values.get(after, 0)))
+    return Fraction(str(given.trajectory.rewards[0])) + ahead - Fraction(str(given.values[state]))
 
 
 def _in_order(setting: Setting, states: tuple[str, ...]) -> list[str]:

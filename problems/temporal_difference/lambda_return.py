@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "λ-return"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 3
+REVISION = 4
 #: The table gives the value of every state, that of the start too: which of them count is a part of the question.
 DISTRACTORS = ("values.*",)
 
@@ -61,11 +61,14 @@ class Given(Reversible):
         return len(self.trajectory.rewards) - self.time
 
 
+_DECAYS = (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4))
+
+
 def draw(level: int, rng: Draws) -> Given:
     """An episode of two steps; then three steps, to the end or cut off; then a letter left open, or to be found."""
     setting = draw_setting(rng)
     end, gamma = setting.terminal, rng.fraction("1/2", "4/5", "3/4")
-    lam = rng.fraction("1/2", "1/4", "3/4")
+    lam = rng.choice([each for each in _DECAYS if each != gamma])
     a, b, c, d = rng.shuffled(setting.states)
     if level == 1:
         return _matters(rng, (a, b, end), end, gamma, lam)

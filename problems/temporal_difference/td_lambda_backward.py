@@ -84,7 +84,8 @@ def _discounts(run: Given) -> bool:
 def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> Given:
     """A run whose first update gives whole values."""
     terminal = tuple(state for state in states if state == end)
-    alpha, (gamma, lam) = rng.fraction("1/2", "1/2", "1/4"), rng.choice(_DECAYS)
+    gamma, lam = rng.choice(_DECAYS)
+    alpha = rng.fraction("1/4") if lam == Fraction(1, 2) else rng.fraction("1/2", "1/2", "1/4")
     left = [state for state in sorted(set(states)) if state not in terminal]
     values = draw_values(rng, left, gamma)
     V, e = values | dict.fromkeys(terminal, Fraction(0)), dict.fromkeys(left, Fraction(0))
@@ -115,7 +116,8 @@ def _learned(run: Given) -> dict[str, Fraction]:
 
 #: γ and λ, by whose product traces decay.
 _DECAYS = tuple(
-    (Fraction(g), Fraction(lam)) for g, lam in (("1/2", "1/2"), ("3/4", "2/3"), ("4/5", "1/2"), ("1/2", "1"))
+    (Fraction(g), Fraction(lam))
+    for g, lam in (("1/2", "2/3"), ("3/4", "2/3"), ("4/5", "1/2"), ("1/2", "1"), ("1/2", "4/5"))
 )
 
 

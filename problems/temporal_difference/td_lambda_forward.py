@@ -76,8 +76,11 @@ def _run(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) 
 
 def _matters(run: Given) -> bool:
     value, average = _learned(run), _learned(run.model_copy(update={"alpha": Fraction(1)}))
-    return readable((value, average)) and all(
-        value != _learned(run.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+    rates = {run.alpha, run.gamma, run.lam}  # different ones, so that none can be taken for another
+    return (
+        len(rates) == 3
+        and readable((value, average))
+        and all(value != _learned(run.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam"))
     )
 
 

@@ -7,7 +7,7 @@ from rldrill.problems.bayes.bayes_filter import Event, Given
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import ONE, exact, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -32,12 +32,18 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         "likelihood": knowns.likelihood(given.likelihood),
         "states": states,
     }
+    settled: Belief = {}
     if given.outcome is not None:
         state, share = given.outcome.state, exact(given.outcome.probability)
         weighed = (state,) if moves[-1] is _weighed else states
         belief = _moves(given.run[0], work, moves, start, {**known, "weighed": weighed})
         value = work.answer(work.equate(given.left_open[0], belief[state], share))
-        work.say(f"With this ${given.left_open[0]}$ the first step is:")
+        if len(states) == 2:
+            (other,) = (name for name in states if name != state)
+            settled = {name: share if name == state else ONE - share for name in states}
+            work.say(f"After the first step $p({state}) = {told(share)}$, so that $p({other}) = {told(ONE - share)}$.")
+        else:
+            work.say(f"With this ${given.left_open[0]}$ the first step is:")
         start = knowns.settled(start, value)
         known |= {name: knowns.settled(known[name], value) for name in ("motion", "likelihood")}
     belief = start
@@ -46,7 +52,7 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         asked = step > 1 or given.outcome is None
         if step == 2 and given.outcome is not None:
             work.say("In the second step:")
-        belief = _moves(event, work, moves, belief, known)
+        belief = settled if not asked and settled else _moves(event, work, moves, belief, known)
         if asked:
             work.picture(before_and_after, before, belief)
             belief = work.answer(belief)

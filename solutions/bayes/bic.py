@@ -10,12 +10,13 @@ from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, simplest, tidy, to_sympy
+from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.notation import n as count
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
     BIC,
-    BIC_BORDER,
     BIC_LOG_10,
     BIC_SIGN,
     BIC_WITHOUT_LOG,
@@ -23,7 +24,7 @@ from rldrill.solutions.sheet.bayes import (
     LOG_LIKELIHOOD,
     akaike,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -97,15 +98,25 @@ def _border(given: Given, work: Work, better: int) -> None:
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
     fit = {name: _logarithm(given, name, work) for name in given.fitted}
-    work.say(f"Here $M_1$ is {rich}, and $M_2$ is {simple}. Both have the same BIC for")
-    known = {
-        "log_likelihood_of": fit,
-        "free_of": {name: exact(model.k) for name, model in given.fitted.items()},
-    }
-    work.step(BIC_BORDER, first_model=rich, second_model=simple, **known)
+    work.recall(BIC)
+    work.say(f"It is the same for {rich}, on the left, and {simple}, on the right, if")
+    sides = [
+        sympy.Add(
+            to_sympy(tidy(-2 * to_sympy(fit[name]))),
+            multiple(exact(given.fitted[name].k), sympy.log(count)),
+            evaluate=False,
+        )
+        for name in (rich, simple)
+    ]
+    more = models[0].k - models[1].k
+    gained = to_sympy(fit[rich]) - to_sympy(fit[simple])
     ratio = to_sympy(exact(models[0].likelihood or 1) / exact(models[1].likelihood or 1))
-    n = simplest(ratio ** sympy.Rational(2, models[0].k - models[1].k))
-    work.say(f"So $n = {n}$.")
+    n = simplest(ratio ** sympy.Rational(2, more))
+    work.lines.append(Equality(sides[0], (sides[1],)))
+    work.lines.append(Equality(multiple(exact(more), sympy.log(count)), (tidy(2 * gained),)))
+    if more != 1:
+        work.lines.append(Equality(sympy.log(count), (tidy(2 * gained / more),)))
+    work.lines.append(Equality(count, (n,)))
     work.answer(n)
     cost, preferred = ("more", simple) if given.border == "more" else ("less", rich)
     work.say(f"With {given.border} data every parameter costs {cost}, so that the BIC prefers {preferred}.")

@@ -75,9 +75,11 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
     found = matrix([[work.answer(work.equate("w", after, variance))]])
-    known["Rt" if isinstance(given.process[0][0], Parameter) else "Qt"] = {1: found}
+    moving = isinstance(given.process[0][0], Parameter)
+    known["Rt" if moving else "Qt"] = {1: found}
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
-    known["covariance_bar"] = {1: widened()}
+    if moving:  # that of the sensor says nothing of the prediction
+        known["covariance_bar"] = {1: widened()}
     known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
     work.answer(work.step(KALMAN_MEAN, **known)[0, 0])
 

@@ -16,7 +16,7 @@ from rldrill.solutions.sheet.bayes import (
     POSTERIOR_ODDS,
     few_values,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Note, Work
 
 MISCONCEPTIONS = (BEST_FIT,)
 
@@ -48,6 +48,13 @@ def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -
     if model.thetas is not None:
         thetas, priors = ({i: exact(pair[which]) for i, pair in enumerate(model.thetas, 1)} for which in (0, 1))
         return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, n=len(thetas), **tosses)
+    integral = Note(
+        "If $θ$ is unknown, the evidence is the mean of the likelihood, $∫ p(D_z|θ) p(θ) dθ$, over the prior "
+        '$"Beta"(a, b)$. $n_1$ and $n_0$ count heads and tails. From $0$ to $1$, '
+        "$∫ θ^j (1 − θ)^k dθ = j! k!/(j + k + 1)!$, in the likelihood as in the prior, so it is:"
+    )
+    if integral not in work.lines:
+        work.lines.append(integral)
     return work.step(EVIDENCE, M=name, beta_a=model.a, beta_b=model.b, **tosses)
 
 

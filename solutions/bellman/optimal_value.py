@@ -140,7 +140,7 @@ def _iterated(given: Optimal, work: Work) -> dict[str, Value]:
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
     policy = optimum(mdp, Fraction(0)).policy
-    work.say(f"Policy iteration, starting with the action that earns most at once, $π_0$: {_told(policy)}.")
+    work.say(f"Policy iteration, starting with an action that earns most at once, $π_0$: {_told(policy)}.")
     for number in count():
         evaluate, improve, _ = of_round(number)
         values = evaluated(work, evaluate, mdp, known | {"pi": policy})

@@ -1,11 +1,12 @@
 """The distance at the start, what is left of it after k sweeps, and the first k at which little enough is left."""
 
+from math import log
 from typing import Any
 
 from rldrill.problems.dynamic_programming.contraction import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import NoSolution, Value, decimal, exact, sign
+from rldrill.solutions.exact import ONE, NoSolution, Value, decimal, exact, sign
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -33,7 +34,12 @@ def solve(given: Given, work: Work) -> None:
     accuracy = exact(given.accuracy)
     enough = _sweeps(work, known, accuracy)
     if enough > WRITTEN_OUT:
-        work.say("Logarithms lead to $k$ quickly: $k ≥ ln(‖V_0 − V^*‖_∞/ε)/ln(1/γ)$, with the accuracy $ε$.")
+        distance, gamma = known["distance"][0], known["gamma"]
+        least = log(at(distance / accuracy)) / log(at(ONE / gamma))
+        work.say(
+            f"Logarithms lead to $k$ quickly: $γ^k·{text_of(distance)} ≤ {text_of(accuracy)}$ for $k ≥ "
+            f"ln({text_of(distance / accuracy)})/ln({text_of(ONE / gamma)}) ≈ {least:.2f}$."
+        )
     _explain(work, known, accuracy, enough)
     work.say(f"So the smallest number of sweeps is $k = {enough}$.")
     work.answer(enough)

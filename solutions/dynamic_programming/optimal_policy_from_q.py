@@ -8,6 +8,7 @@ from rldrill.problems.models import Dynamics
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
 from rldrill.solutions.exact import ZERO, Value, exact, largest
+from rldrill.solutions.greedy import taken
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_Q,
@@ -45,7 +46,9 @@ def solve(given: Given, work: Work) -> None:
         _tie(given, given.tied, work, known | {"Q": Q})
     others = [state for state in given.values if not given.tied or state != given.tied[0]]
     if others:
-        work.answer({state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in others})
+        best = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, actions=actions) for state in others}
+        work.say(f"So these actions are optimal: {taken(best)}.")
+        work.answer(best)
 
 
 def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any]) -> None:
@@ -54,11 +57,10 @@ def _tie(given: Given, tied: tuple[str, str], work: Work, known: dict[str, Any])
     value = work.step(BELLMAN_OPTIMALITY_Q, s=state, a=action, **known)
     rivals = tuple(name for name in given.actions[state] if name != action)
     best = largest([known["Q"][state, name] for name in rivals])
-    work.say(
-        f"The best of the other actions in {state} is worth ${text_of(best)}$. From where both are equal, {action} is "
-        "optimal:"
-    )
-    work.answer(work.equate("x", value, best))
+    work.say(f"The best of the other actions in {state} is worth ${text_of(best)}$. Both are equal for:")
+    equal = work.equate("x", value, best)
+    work.say(f"What {action} is worth grows with $x$, so this is the smallest one.")
+    work.answer(equal)
 
 
 def oracle(given: Given) -> Answers:

@@ -7,6 +7,7 @@ from rldrill.problems.dynamic_programming.optimal_policy_from_v import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, parameters, told
 from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, best_actions, optimal_values, tensors, without_loss
@@ -42,12 +43,12 @@ def solve(given: Given, work: Work) -> None:
         greedy = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, **known) for state in given.mdp.states}
     else:
         greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
-    if given.gamma != 1:
-        work.answer(greedy)
-        return
-    best = optimum(given.mdp, given.gamma)
-    best.tell(work)
-    work.answer(best.among(greedy))
+    if given.gamma == 1:
+        best = optimum(given.mdp, given.gamma)
+        best.tell(work)
+        greedy = best.among(greedy)
+    work.say(f"So these actions are optimal: {taken(greedy)}.")
+    work.answer(greedy)
 
 
 def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Value:

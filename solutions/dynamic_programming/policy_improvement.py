@@ -7,6 +7,7 @@ from rldrill.problems.dynamic_programming.policy_improvement import Given
 from rldrill.problems.mathematics import mathematics
 from rldrill.solutions import knowns
 from rldrill.solutions.formula.notation import conditioned, quantity
+from rldrill.solutions.greedy import taken
 from rldrill.solutions.optimality import ONLY_GREEDY, is_optimal
 from rldrill.solutions.oracle import (
     Answers,
@@ -46,9 +47,10 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         best = {s: work.step(IMPROVEMENT_FROM_Q, s=s, Q=Q, into=_Improved, **known) for s in mdp.states}
     else:
         best = {s: work.step(POLICY_IMPROVEMENT, s=s, V=values, into=_Improved, **known) for s in mdp.states}
+    work.say(f"So these actions are greedy: {taken(best)}.")
     greedy = work.answer(best)
-    taken = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
-    better = [state for state in mdp.states if not set(taken[state]) <= set(greedy[state])]
+    own = {state: [action for action, chance in row.items() if chance] for state, row in given.policy.items()}
+    better = [state for state in mdp.states if not set(own[state]) <= set(greedy[state])]
     stable = not better
     optimal = stable and is_optimal(mdp, given.gamma, values)
     if stable and not optimal:

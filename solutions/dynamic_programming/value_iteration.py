@@ -11,6 +11,7 @@ from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, t
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered
+from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
@@ -48,7 +49,9 @@ def solve(
         _tie(given.tie, work, known | {"V": values})
         return
     work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(greedy()[0], s=state, V=values, **known) for state in mdp.states})
+    best = {state: work.step(greedy()[0], s=state, V=values, **known) for state in mdp.states}
+    work.say(f"So these actions are greedy: {taken(best)}.")
+    work.answer(best)
 
 
 def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
@@ -80,7 +83,9 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    work.answer({state: work.step(greedy()[1], s=state, Q=Q, **known) for state in mdp.states})
+    best = {state: work.step(greedy()[1], s=state, Q=Q, **known) for state in mdp.states}
+    work.say(f"So these actions are greedy: {taken(best)}.")
+    work.answer(best)
 
 
 @slip(

@@ -33,7 +33,9 @@ def solve(given: Given, work: Work) -> None:
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
     work.say("With $ξ = 0$ the left side must be at least as great as every right side.")
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
-    work.say(f"With $ξ = 0$ {_told(violated)}.")
+    holding = len(given.policies) - len(violated)
+    count = f"{holding} of the {len(given.policies)} constraints {'holds' if holding == 1 else 'hold'}"
+    work.say(f"With $ξ = 0$ {_told(violated)}{f': {count}' if violated else ''}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
@@ -61,7 +63,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     each = ", ".join(f"{letter} ≥ {value}" for value in least.values())
     work.say(
         "The expert has more of this feature than every other policy, so each constraint is a lower "
-        f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$.".replace("-", "−")
+        f"bound on ${letter}$: ${each}$. All of them hold for ${letter} ≥ {enough}$, so the smallest one "
+        f"is ${enough}$.".replace("-", "−")
     )
     work.answer(enough)
 

@@ -68,7 +68,8 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
         )
         Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
     work.say(
-        "In second derivatives $x$ stands for state and action together: $x_j$ and $x_k$ are any two of its entries."
+        "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its entries. "
+        "Those that are zero are not written down, nor matrices that hold nothing else."
     )
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:

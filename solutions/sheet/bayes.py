@@ -536,17 +536,6 @@ with evaluate(False):
             BIC_LOG_10: (-2 * log_likelihood + k * log(n)) / log(10),
         },
     )
-    BIC_BORDER = Formula(
-        "bic-border",
-        log(n),
-        2
-        * (log_likelihood_of(first_model) - log_likelihood_of(second_model))
-        / (free_of(first_model) - free_of(second_model)),
-        title="Where two models have the same BIC",
-        source="Hastie, Tibshirani & Friedman 2009, eq. 7.35, solved for n",
-        hint="Set both criteria equal; what the better fit gains is what the parameters cost.",
-        place=Place.WORKING,
-    )
 
 
 @cache

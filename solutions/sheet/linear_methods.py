@@ -719,7 +719,7 @@ def _second(line: Math, first: Math, then: Math) -> Math:
 second = quantity("secondD", _second)
 g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
-second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("x"), k) for k in by)), _POINT))
+second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("ξ"), k) for k in by)), _POINT))
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
@@ -741,7 +741,7 @@ with evaluate(False):
         second_at(i, j, g),
         title="Second derivatives, of the reward and for DDP also of the dynamics",
         source=_DDP,
-        hint="Differentiate with respect to any two entries of x, which holds state and action, in either order.",
+        hint="Differentiate with respect to any two entries of ξ, which holds state and action, in either order.",
         place=Place.WORKING,
     )
     DDP_S = Formula(

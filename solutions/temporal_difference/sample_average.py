@@ -10,6 +10,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     CONSTANT_STEP_SIZE,
     COUNTED_TWICE,
     EQUAL_WEIGHTS,
+    MONTE_CARLO,
     NOT_COUNTED,
     OLDEST_FIRST,
     ONE_POWER_MORE,
@@ -46,6 +47,11 @@ def _averaged(given: Given, work: Work) -> None:
 
 
 def _weighted(given: Given, work: Work) -> None:
+    if given.known is not None and len(given.visits) == 1:
+        ((state, observed),) = given.visits
+        update = {"t": 1, "S": {1: state}, "G": {1: exact(observed)}, "V": knowns.values(given.values)}
+        find(given, work, work.step(MONTE_CARLO, label="", alpha=exact(given.alpha or 0), **update))
+        return
     count, alpha = len(given.visits), exact(given.alpha or 0)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
     if given.known is None:
