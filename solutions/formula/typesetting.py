@@ -284,12 +284,16 @@ def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
         return Fraction(numerator, _product(below) if len(below) > 1 else typeset(below[0]))
     items: list[Math] = []
     for position, factor in enumerate(flat):
-        first = leads and position == 0 and look(factor) is Look.NUMBER
+        first = leads and position == 0 and look(factor) is Look.NUMBER and not _holds_sum(factor)
         written = alone(factor) if first else _factor(factor, last=position == len(flat) - 1)
         if position and _needs_dot(flat[position - 1], factor):
             items.append(_TIMES)
         items.append(written)
     return row(*items)
+
+
+def _holds_sum(factor: Expr) -> bool:
+    return isinstance(factor, Node) and factor.holds_sum
 
 
 def _is_half_root(factors: Sequence[Expr]) -> bool:
