@@ -251,6 +251,27 @@ def open_reward(model: Model) -> Transition:
     return rows[0]
 
 
+class RewardSought:
+    """Givens whose model leaves one reward open, which is asked for."""
+
+    mdp: Model
+
+    def parameters(self) -> tuple[str, ...]:
+        """No answer is an expression in what is left open: it is asked for."""
+        return ()
+
+    @property
+    def row(self) -> Transition:
+        """The transition whose reward is left open."""
+        return open_reward(self.mdp)
+
+
+def opened(model: Model, row: Transition) -> Model:
+    """The model with x for the reward of one transition."""
+    rows = tuple(row._replace(reward=Parameter("x")) if each is row else each for each in model.transitions)
+    return Model(story=model.story, transitions=rows, terminal=model.terminal)
+
+
 def with_reward(model: Model, reward: Fraction) -> Model:
     """The model with a number for the reward that is left open."""
     rows = tuple(row._replace(reward=reward) if isinstance(row.reward, Parameter) else row for row in model.transitions)

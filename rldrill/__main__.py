@@ -15,15 +15,17 @@ def run() -> NoReturn:
     """Run a command, and end at once: taking down what was imported takes longer than most commands themselves."""
     if not _BRIEF.isdisjoint(sys.argv[1:2]):
         gc.disable()
-    from rldrill.cli import main
-
     code = 0
     try:
+        from rldrill.cli import main
+
         main()
     except SystemExit as end:
         if isinstance(end.code, str):
             raise
         code = end.code or 0
+    except KeyboardInterrupt:  # while the command is imported; from then on Typer ends it so
+        code = 130
     atexit._run_exitfuncs()  # of what child processes there are, say
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):  # ``main`` has told of what cannot be written

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from printed import poppler, words
 from rldrill.commands import sheet as sheet_command
 from rldrill.print.formula_sheet import latex_equation, markdown, sections, sheet_source, terminal
-from rldrill.print.paper import PAPERS, pdf
+from rldrill.print.paper import pdf
 from rldrill.problems.errors import UsageError
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.formula.formula import Place
@@ -76,7 +76,7 @@ def test_an_unknown_section_is_refused_with_the_list() -> None:
 @pytest.mark.parametrize("paper", ["a4", "letter"])
 def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, workings: bool, tmp_path: Path) -> None:
     path = tmp_path / "sheet.pdf"
-    path.write_bytes(pdf(sheet_source([], PAPERS[paper], workings=workings)))
+    path.write_bytes(pdf(sheet_source([], paper, workings=workings)))
     found = list(words(path))
     assert len({word.page for word in found}) == (4 if workings else 2)
     assert not [word for word in found if word.left <= MARGIN or word.right >= word.width - MARGIN]
@@ -86,7 +86,7 @@ def test_the_pdf_is_two_pages_with_every_word_inside_the_margins(paper: str, wor
 
 def test_a_section_alone_is_one_page_in_the_size_of_a_book(tmp_path: Path) -> None:
     path = tmp_path / "sheet.pdf"
-    path.write_bytes(pdf(sheet_source(["bayes"], PAPERS["a4"])))
+    path.write_bytes(pdf(sheet_source(["bayes"], "a4")))
     printed = poppler("pdftotext", "-layout", str(path), "-")
     assert printed.count("\f") == 1
     assert "Bayes" in printed

@@ -22,7 +22,7 @@ from rldrill.exam.exam import Exam, Head, Layout, Version
 from rldrill.exam.planning import plan
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
-from rldrill.print.paper import paper_of, pdf
+from rldrill.print.paper import pdf
 from rldrill.print.worksheet import even_columns, space_of, worksheet_source
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Matrix, Number, Part
@@ -247,11 +247,6 @@ def test_paper_sizes_tags_and_language(paper: str, size: str, tmp_path: Path) ->
     assert re.search(rb"/Lang *\(en", path.read_bytes())
 
 
-def test_there_are_two_papers() -> None:
-    with pytest.raises(UsageError, match="a4 or letter"):
-        paper_of("a5")
-
-
 def test_the_same_bytes_in_every_process() -> None:
     program = (
         "import hashlib\nfrom rldrill.exam.blueprint import Blueprint, Entry\nfrom rldrill.exam.planning import plan\n"
@@ -427,7 +422,8 @@ def test_a_blueprint_is_written_read_and_printed(tmp_path: Path, monkeypatch: py
     assert "is there already" in refused("--init", "exam.toml")
     assert run("exam.toml", "--versions", 1)[0] == ["exam.pdf", "exam-key.pdf", "exam.json"]
     assert json.loads(Path("exam.json").read_text())["points"] == 60
-    assert "leave the other names out" in refused("exam.toml", "bellman")
+    for more in (("bellman",), ("-n", 3), ("--level", 2)):
+        assert "leave the other names out" in refused("exam.toml", *more)
 
 
 def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:

@@ -9,11 +9,11 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.models import Model, Named, Transition, model_blocks
+from rldrill.problems.models import Model, Named, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import deterministic, draw_valued, open_reward, policy_values, worth
+from rldrill.problems.valued import RewardSought, deterministic, draw_valued, open_reward, opened, policy_values, worth
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
@@ -33,7 +33,7 @@ class Optimal(Givens):
         return self
 
 
-class Sought(Givens):
+class Sought(RewardSought, Givens):
     """A model of two states with one reward left open, the discount, and the optimal value of the other state."""
 
     mdp: Model = Field(description="The Markov decision process: two states, in one of which a reward is left open.")
@@ -57,15 +57,6 @@ class Sought(Givens):
         if self.gamma in (0, 1):
             raise ValueError("gamma: give a discount above 0 and below 1")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """No answer is an expression in what is left open: it is asked for."""
-        return ()
-
-    @property
-    def row(self) -> Transition:
-        """The transition whose reward is left open."""
-        return open_reward(self.mdp)
 
     @property
     def state(self) -> str:
@@ -98,9 +89,7 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
         else:
             return draw(level, rng)
         asked = rng.choice(mdp.outcomes[other, policy[other]])
-        rows = tuple(row._replace(reward=Parameter("x")) if row is asked else row for row in mdp.transitions)
-        opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
-        given = Sought(mdp=opened, gamma=gamma, optimum={known: values[known]})
+        given = Sought(mdp=opened(mdp, asked), gamma=gamma, optimum={known: values[known]})
         return given if _is_readable(given) else draw(level, rng)
     shape = Shape(states=2, actions=2, branches=level, denominators=(2,))
     mdp, _, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))

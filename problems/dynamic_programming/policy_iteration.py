@@ -9,16 +9,18 @@ from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.models import Model, Name, Named, Transition, check_policy, model_blocks
+from rldrill.problems.models import Model, Name, Named, check_policy, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values, YesNo
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
     UNITS,
+    RewardSought,
     choices_table,
     deterministic,
     draw_valued,
     open_reward,
+    opened,
     policy_values,
     with_reward,
     worth,
@@ -52,7 +54,7 @@ class Rounds(Started):
     rounds: int = Field(ge=1, le=12, description="How many rounds of evaluation and improvement.")
 
 
-class Threshold(Started):
+class Threshold(RewardSought, Started):
     """A model with one reward left open, the policy to start from, the discount, and a number for the reward."""
 
     reward: Exact = Field(
@@ -67,15 +69,6 @@ class Threshold(Started):
         if self.gamma == 1:
             raise ValueError("gamma: with a discount of 1 a policy need not have a value; choose a smaller one")
         return self
-
-    def parameters(self) -> tuple[str, ...]:
-        """No answer is an expression in what is left open: it is asked for."""
-        return ()
-
-    @property
-    def row(self) -> Transition:
-        """The transition whose reward is left open."""
-        return open_reward(self.mdp)
 
     @property
     def improved(self) -> dict[str, str]:
@@ -120,14 +113,13 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
     row = rng.choice(mdp.outcomes[pair])
+    unpaid = opened(mdp, row)
     bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)
-    rows = tuple(each._replace(reward=Parameter("x")) if each is row else each for each in mdp.transitions)
-    opened = Model(story=mdp.story, transitions=rows, terminal=mdp.terminal)
     for above in rng.shuffled(_ABOVE):
         improved = deterministic(start | {pair[0]: pair[1]})
-        better = policy_values(with_reward(opened, bound + above), improved, gamma)
+        better = policy_values(with_reward(unpaid, bound + above), improved, gamma)
         if bound and bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
-            return Threshold(mdp=opened, start=start, gamma=gamma, reward=bound + above)
+            return Threshold(mdp=unpaid, start=start, gamma=gamma, reward=bound + above)
     return _draw_threshold(gamma, rng)
 
 

@@ -152,14 +152,12 @@ def question(given: Given) -> Question:
         else f"What are the critic's values of {joined(list(given.visited))}"
     )
     which = "are the TD errors" if several else "is the TD error"
-    errors_open = in_open(given)
-    values_open = in_open(given)
-    weights_open = in_open(given)
+    ending = in_open(given)
     return Question(
         blocks,
         (
-            Part(f"What {which} ${', '.join(errors)}${errors_open}?", Numbers(errors)),
-            Part(f"{values} after the run{values_open}?", Values("V", given.visited), zero=True),
-            Part(f"What are the actor's weights $θ$ after the run{weights_open}?", Numbers(weight_names(given.theta))),
+            Part(f"What {which} ${', '.join(errors)}${ending}?", Numbers(errors)),
+            Part(f"{values} after the run{ending}?", Values("V", given.visited), zero=True),
+            Part(f"What are the actor's weights $θ$ after the run{ending}?", Numbers(weight_names(given.theta))),
         ),
     )

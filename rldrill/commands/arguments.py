@@ -42,6 +42,11 @@ def complete_ids(incomplete: str) -> list[str]:
     return [f"{name}/" for name in families() if name.startswith(incomplete)]
 
 
+def complete(incomplete: str) -> list[str]:
+    """Topics, families and IDs that begin so."""
+    return [*complete_names(incomplete), *complete_ids(incomplete)]
+
+
 Names = Annotated[
     list[str] | None,
     typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Topics or families; all, if none."),

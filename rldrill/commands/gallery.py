@@ -5,16 +5,13 @@ from typing import Annotated
 
 import typer
 
-from rldrill.commands.arguments import NotationOption, complete_names
+from rldrill.commands.arguments import Names, NotationOption
 
 NAME = "gallery"
 
 
 def command(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Only these."),
-    ] = None,
+    names: Names = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="FOLDER", help="Write the pages into this folder.")
     ] = Path("site"),

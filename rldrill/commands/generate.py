@@ -3,9 +3,8 @@
 import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -17,20 +16,6 @@ if TYPE_CHECKING:
 
 NAME = "generate"
 _SHARD = re.compile(r"([0-9]{1,6})/([0-9]{1,6})")
-
-
-class Form(Enum):
-    """How a folder holds problems."""
-
-    JSONL = "jsonl"
-    PARQUET = "parquet"
-
-
-class Seeds(Enum):
-    """Which seeds are drawn; no problem of one is in the other, and quizzes and worksheets draw none of them."""
-
-    TRAIN = "train"
-    HELD_OUT = "held-out"
 
 
 def command(
@@ -45,13 +30,17 @@ def command(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="A file for each family and level there.")
     ] = None,
-    form: Annotated[Form, typer.Option("--format", help="Of the files in the folder.")] = Form.JSONL,
+    form: Annotated[
+        Literal["jsonl", "parquet"], typer.Option("--format", help="Of the files in the folder.")
+    ] = "jsonl",
     jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, max=256, help="Draw in so many processes.")] = 1,
     shard: Annotated[str, typer.Option("--shard", metavar="i/k", help="Only the i-th of k shares of the files.")] = "",
     dask: Annotated[
         str | None, typer.Option("--dask", metavar="ADDRESS", help="Draw on a cluster: tcp://… of its scheduler.")
     ] = None,
-    split: Annotated[Seeds, typer.Option("--split", help="Problems of one split are in no other.")] = Seeds.TRAIN,
+    split: Annotated[
+        Literal["train", "held-out"], typer.Option("--split", help="Problems of one split are in no other.")
+    ] = "train",
 ) -> None:
     """Print problems as JSON Lines, or fill a folder with millions of them.
 
@@ -74,13 +63,13 @@ def command(
 
     extras = _extras(more, answers=answers)
     index, shards = _shares(shard)
-    if output is None and form is Form.PARQUET:
+    if output is None and form == "parquet":
         raise UsageError("Parquet is written to a folder; name one with --output.")
     chosen = announced_seed(seed)
-    every = lots(names or (), level, number, chosen, Split(split.value))[index - 1 :: shards]
-    about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form.value}
-    about |= {"with": [extra.value for extra in extras], "split": split.value}
-    folder = None if output is None else Folder(output, form.value, about)
+    every = lots(names or (), level, number, chosen, Split(split))[index - 1 :: shards]
+    about = {"names": list(names or ()), "number": number, "level": level, "seed": chosen, "format": form}
+    about |= {"with": [extra.value for extra in extras], "split": split}
+    folder = None if output is None else Folder(output, form, about)
     with workers(jobs, dask) as executor, _progress(every) as advance:
         missing = [lot for lot in every if folder is None or not folder.has(lot)]
         advance(sum(lot.count for lot in every) - sum(lot.count for lot in missing))

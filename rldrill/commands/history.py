@@ -1,25 +1,18 @@
 """``rldrill history``."""
 
 import sys
-from enum import Enum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 NAME = "history"
 
 
-class What(Enum):
-    """What to do with the history."""
-
-    EXPORT = "export"
-    IMPORT = "import"
-    FORGET = "forget"
-
-
 def command(
-    what: Annotated[What, typer.Argument(help="Write it out, read it in, or delete it.")],
+    what: Annotated[
+        Literal["export", "import", "forget"], typer.Argument(help="Write it out, read it in, or delete it.")
+    ],
     names: Annotated[
         list[str] | None,
         typer.Argument(metavar="FILE|FAMILY", help="The file (else stdin or stdout); with forget, topics or families."),
@@ -34,12 +27,12 @@ def command(
     from rldrill.problems.errors import UsageError
 
     path = history_file()
-    if what is not What.FORGET and len(names or ()) > 1:
-        raise UsageError(f"'rldrill history {what.value}' takes one file.")
+    if what != "forget" and len(names or ()) > 1:
+        raise UsageError(f"'rldrill history {what}' takes one file.")
     with told(path):
-        if what is What.EXPORT:
+        if what == "export":
             _export(path, Path(names[0]) if names else None)
-        elif what is What.IMPORT:
+        elif what == "import":
             _import(path, Path(names[0]) if names else None)
         else:
             _forget(path, names or [], yes=yes)

@@ -1,19 +1,12 @@
 """``rldrill list``."""
 
-from typing import Annotated
-
-import typer
-
-from rldrill.commands.arguments import Json, complete_names
+from rldrill.commands.arguments import Json, Names
 
 NAME = "list"
 
 
 def command(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="TOPIC|FAMILY", autocompletion=complete_names, help="Only these."),
-    ] = None,
+    names: Names = None,
     json: Json = False,
 ) -> None:
     """List the topics and their families of problems, with the minutes that each level takes by hand.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rldrill.commands.arguments import Level, NotationOption, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Level, NotationOption, Seed, complete
 
 if TYPE_CHECKING:
     from rldrill.exercise import Exercise
@@ -21,16 +21,12 @@ _NUMBER, _MOST = 10, 1000
 _MINUTES_EACH = 3
 
 
-def _complete(incomplete: str) -> list[str]:
-    return [*complete_names(incomplete), *complete_ids(incomplete)]
-
-
 def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
-            autocompletion=_complete,
+            autocompletion=complete,
             help="Topics, families, problem IDs or problem files; all families, if none.",
         ),
     ] = None,

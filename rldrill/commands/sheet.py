@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from rldrill.commands.arguments import NotationOption, Output
+from rldrill.exam.choices import Paper
 
 NAME = "sheet"
 
@@ -23,7 +24,7 @@ def command(
         typer.Argument(metavar="SECTION", autocompletion=complete_sections, help="Sections; all, if none."),
     ] = None,
     output: Output = None,
-    paper: Annotated[str, typer.Option("--paper", metavar="a4|letter", help="The paper of a PDF.")] = "a4",
+    paper: Annotated[Paper, typer.Option("--paper", case_sensitive=False, help="The paper of a PDF.")] = "a4",
     latex: Annotated[bool, typer.Option("--latex", help="Print the formulas as LaTeX.")] = False,
     workings: Annotated[
         bool, typer.Option("--all", help="Also the formulas that only workings need; in a PDF, with sources.")
@@ -42,9 +43,6 @@ def command(
 
         rldrill sheet -o sheet.md --all
     """
-    from rldrill.print.paper import paper_of
-
-    size = paper_of(paper)
     if output is None:
         _print(names or [], as_latex=latex, workings=workings)
         return
@@ -63,7 +61,7 @@ def command(
     if suffix not in (".pdf", ".md"):
         raise UsageError(f"{output} must end in .pdf or .md: the formula sheet is written as PDF or Markdown.")
     if suffix == ".pdf":
-        data = pdf(sheet_source(names or [], size, workings=workings))
+        data = pdf(sheet_source(names or [], paper, workings=workings))
     else:
         data = markdown(names or [], workings=workings).encode()
     write_bytes_atomically(output, data)

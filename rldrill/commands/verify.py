@@ -4,10 +4,9 @@ import gc
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import Enum
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -25,23 +24,6 @@ _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "mis
 _TOLD = 50
 #: Of more students than this the terminal shows the totals only.
 _TABLES = 30
-
-
-class Feedback(Enum):
-    """How much of the judgement is told."""
-
-    NONE = "none"
-    VERDICT = "verdict"
-    REASON = "reason"
-    KEY = "key"
-
-
-class HandIns(Enum):
-    """Which of several hand-ins of one student counts."""
-
-    LAST = "last"
-    FIRST = "first"
-    BEST = "best"
 
 
 def command(
@@ -66,10 +48,13 @@ def command(
     enough: Annotated[
         str | None, typer.Option("--pass", metavar="60%", help="What every student needs; all right, if not given.")
     ] = None,
-    feedback: Annotated[Feedback, typer.Option("--feedback", help="How much is told.")] = Feedback.REASON,
+    feedback: Annotated[
+        Literal["none", "verdict", "reason", "key"], typer.Option("--feedback", help="How much is told.")
+    ] = "reason",
     show_key: Annotated[bool, typer.Option("--show-key", help="Print the right answers too: --feedback key.")] = False,
     hand_ins: Annotated[
-        HandIns | None, typer.Option("--hand-ins", help="Which counts of one student's; with an exam the last.")
+        Literal["last", "first", "best"] | None,
+        typer.Option("--hand-ins", help="Which counts of one student's; with an exam the last."),
     ] = None,
     absent: Annotated[
         bool, typer.Option("--absent/--no-absent", help="Count people on the roster who handed in nothing.")
@@ -124,12 +109,12 @@ def command(
         raise UsageError("Which answers? Name a file, as in 'rldrill verify answers.toml'.")
     if exam is None and (version or roster):
         raise UsageError("A version is one of an exam; name its manifest, --for exam.json.")
-    told = "key" if show_key else feedback.value
+    told = "key" if show_key else feedback
     wanted = [_wanted(each) for each in reports or ()]
     settings = Settings(
         assignment=None if exam is None else Assignment(exam, version, roster),
         allow_files=allow_files,
-        hand_ins=None if hand_ins is None else hand_ins.value,
+        hand_ins=hand_ins,
         strict=strict,
         isolated=True,
         needed=None if enough is None else _share(enough),

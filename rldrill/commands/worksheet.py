@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete_ids, complete_names
+from rldrill.commands.arguments import Json, Level, NotationOption, Seed, complete
+from rldrill.exam.choices import Paper, Solutions, Space
 
 if TYPE_CHECKING:
     from rldrill.exam.blueprint import Blueprint
@@ -21,33 +21,12 @@ NAME = "worksheet"
 _PROBLEMS, _MOST = 8, 100
 
 
-class Space(Enum):
-    """How much room there is for working."""
-
-    NONE = "none"
-    TIGHT = "tight"
-    NORMAL = "normal"
-    WIDE = "wide"
-
-
-class Solutions(Enum):
-    """Where the solutions are printed."""
-
-    NONE = "none"
-    INLINE = "inline"
-    SEPARATE = "separate"
-
-
-def _complete(incomplete: str) -> list[str]:
-    return [*complete_names(incomplete), *complete_ids(incomplete)]
-
-
 def command(
     names: Annotated[
         list[str] | None,
         typer.Argument(
             metavar="TOPIC|FAMILY|ID|FILE",
-            autocompletion=_complete,
+            autocompletion=complete,
             help="Topics, families, problem IDs, problem files; or one blueprint (.toml). All topics, if none.",
         ),
     ] = None,
@@ -61,7 +40,7 @@ def command(
     level: Level = None,
     exclude: Annotated[
         list[str] | None,
-        typer.Option("--exclude", "-x", metavar="TOPIC|FAMILY", help="Draw nothing of this.", autocompletion=_complete),
+        typer.Option("--exclude", "-x", metavar="TOPIC|FAMILY", help="Draw nothing of this.", autocompletion=complete),
     ] = None,
     seed: Seed = None,
     versions: Annotated[int | None, typer.Option("--versions", min=1, max=999, help="How many versions.")] = None,
@@ -72,7 +51,7 @@ def command(
         Path | None,
         typer.Option("--secret-file", metavar="FILE", help="Seal the exam: without this file nobody can redraw it."),
     ] = None,
-    paper: Annotated[str | None, typer.Option("--paper", metavar="a4|letter", help="The paper.")] = None,
+    paper: Annotated[Paper | None, typer.Option("--paper", case_sensitive=False, help="The paper.")] = None,
     space: Annotated[Space | None, typer.Option("--space", help="How much room for working.")] = None,
     solutions: Annotated[Solutions | None, typer.Option("--solutions", help="Where the solutions are.")] = None,
     ids: Annotated[
@@ -121,9 +100,9 @@ def command(
 
     other = format_of(output, format_)
     changes: dict[str, Any] = {
-        "paper": None if paper is None else _paper(paper),
-        "space": space and space.value,
-        "solutions": solutions and solutions.value,
+        "paper": paper,
+        "space": space,
+        "solutions": solutions,
         "ids": ids,
         "duplex": duplex,
         "notation": notation,
@@ -219,12 +198,6 @@ def _exported(exam: "Exam", output: Path, format_: "Format", *, practice: bool =
     practice = practice or exam.layout.solutions == "inline"
     with _progress("Writing", len(exam.versions)) as advance:
         return list(map(str, export(exam, target, format_, practice=practice, advance=advance)))
-
-
-def _paper(name: str) -> str:
-    from rldrill.print.paper import paper_of
-
-    return paper_of(name).name
 
 
 def _write_template(path: Path, *, force: bool) -> None:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
 from pydantic_core import PydanticCustomError
 
+from rldrill.exam.choices import DecimalMark, Language, Paper, Partial, Solutions, Space
 from rldrill.exam.exam import DEFAULT_TITLE, Head, Layout
 from rldrill.files import parse, read_text, shown
 from rldrill.problems.complaints import nearest
@@ -48,7 +49,6 @@ def _known_notation(name: str) -> str:
 #: The name of a notation.
 Notation = Annotated[str, AfterValidator(_known_notation)]
 _Points = Annotated[int, Field(ge=1, le=1000)]
-_Partial = Literal["all", "entries"]
 _Names = Annotated[tuple[str, ...], BeforeValidator(_listed), Field(strict=False)]
 
 
@@ -66,7 +66,7 @@ class Entry(_Table):
     level: Annotated[int, Field(ge=1, le=3)] | None = None
     count: Annotated[int, Field(ge=1, le=MOST_PROBLEMS)] | None = None
     points: _Points | Annotated[tuple[_Points, ...], Field(strict=False, min_length=1)] | None = None
-    partial: _Partial | Annotated[tuple[_Partial, ...], Field(strict=False, min_length=1)] | None = None
+    partial: Partial | Annotated[tuple[Partial, ...], Field(strict=False, min_length=1)] | None = None
 
     @property
     def is_fixed(self) -> bool:
@@ -82,19 +82,19 @@ class Blueprint(_Table):
     date: Annotated[str, BeforeValidator(_written_date), Field(max_length=60)] = ""
     duration: Annotated[int, Field(ge=1, le=1440)] | None = None
     instructions: Annotated[str, Field(max_length=2000)] = ""
-    language: Literal["en", "de"] = "en"
-    decimal_mark: Literal[".", ","] = "."
+    language: Language = "en"
+    decimal_mark: DecimalMark = "."
     seed: Annotated[int, Field(ge=0)] | None = None
     versions: Annotated[int, Field(ge=1, le=MOST_VERSIONS)] = 1
     order: Literal["fixed", "shuffled"] = "fixed"
     minutes: Annotated[int, Field(ge=1, le=600)] | None = None
     points: Annotated[int, Field(ge=1, le=10_000)] | None = None
     scale: Annotated[int, Field(ge=1, le=10_000)] | None = None
-    partial: _Partial = "all"
+    partial: Partial = "all"
     exclude: _Names = ()
-    paper: Literal["a4", "letter"] = "a4"
-    space: Literal["none", "tight", "normal", "wide"] = "normal"
-    solutions: Literal["none", "inline", "separate"] = "separate"
+    paper: Paper = "a4"
+    space: Space = "normal"
+    solutions: Solutions = "separate"
     ids: bool = False
     duplex: bool = False
     notation: Notation = LECTURE

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
 
+from rldrill.exam.choices import DecimalMark, Language, Paper, Partial, Solutions, Space
 from rldrill.exercise import Exercise
 from rldrill.problems.notations import LECTURE
 from rldrill.solutions.effort import minutes, whole
@@ -39,8 +39,8 @@ class Head:
     date: str = ""
     duration: int | None = None
     instructions: str = ""
-    language: Literal["en", "de"] = "en"
-    decimal_mark: Literal[".", ","] = "."
+    language: Language = "en"
+    decimal_mark: DecimalMark = "."
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +56,9 @@ class Layout:
         notation: how quantities are written.
     """
 
-    paper: Literal["a4", "letter"] = "a4"
-    space: Literal["none", "tight", "normal", "wide"] = "normal"
-    solutions: Literal["none", "inline", "separate"] = "separate"
+    paper: Paper = "a4"
+    space: Space = "normal"
+    solutions: Solutions = "separate"
     ids: bool = False
     duplex: bool = False
     notation: str = LECTURE
@@ -117,7 +117,7 @@ class Exam:
     head: Head
     seed: int
     versions: tuple[Version, ...]
-    partial: Literal["all", "entries"] = "all"
+    partial: Partial = "all"
     layout: Layout = Layout()
     sealed: bool = False
     scale: int | None = None

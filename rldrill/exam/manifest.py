@@ -5,12 +5,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from rldrill import __version__
 from rldrill.exam.blueprint import Notation
+from rldrill.exam.choices import DecimalMark, Language, Paper, Partial, Solutions, Space
 from rldrill.exam.exam import Exam, Head, Layout, Person, Version, minutes_of, points_of
 from rldrill.exam.fairness import fairness
 from rldrill.exercise import Exercise, read
@@ -101,7 +102,7 @@ class _Table(BaseModel):
 class _Part(_Table):
     part: str
     points: Annotated[int, Field(ge=0)]
-    partial: Literal["all", "entries"] | None = None
+    partial: Partial | None = None
 
 
 class _Problem(_Table):
@@ -123,9 +124,9 @@ class _Version(_Table):
 
 
 class _Layout(_Table):
-    paper: Literal["a4", "letter"] = "a4"
-    space: Literal["none", "tight", "normal", "wide"] = "normal"
-    solutions: Literal["none", "inline", "separate"] = "separate"
+    paper: Paper = "a4"
+    space: Space = "normal"
+    solutions: Solutions = "separate"
     ids: bool = False
     duplex: bool = False
     notation: Notation = LECTURE
@@ -138,13 +139,13 @@ class _Manifest(_Table):
     date: str = ""
     duration: int | None = None
     instructions: str = ""
-    language: Literal["en", "de"] = "en"
-    decimal_mark: Literal[".", ","] = "."
+    language: Language = "en"
+    decimal_mark: DecimalMark = "."
     seed: int
     sealed: bool = False
     scale: Annotated[int, Field(ge=1)] | None = None
-    partial: Literal["all", "entries"] = "all"
-    paper: Literal["a4", "letter"] = "a4"  # where format 1 has it
+    partial: Partial = "all"
+    paper: Paper = "a4"  # where format 1 has it
     layout: _Layout | None = None
     versions: Annotated[tuple[_Version, ...], Field(min_length=1)]
 

@@ -1,7 +1,8 @@
 """The fixed words of a page on the web, in each language; problems themselves are in English."""
 
 from dataclasses import dataclass
-from typing import Literal
+
+from rldrill.exam.choices import Language
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +23,6 @@ _WORDS = {
 }
 
 
-def page_words(language: Literal["en", "de"]) -> PageWords:
+def page_words(language: Language) -> PageWords:
     """The words of a language."""
     return _WORDS[language]

@@ -4,7 +4,7 @@ import re
 
 from rldrill.exam.exam import Exam, Person, Version, minutes_of, points_of
 from rldrill.exercise import Exercise
-from rldrill.print.paper import PAPERS
+from rldrill.print.paper import TYPST_PAPERS
 from rldrill.print.words import Words, words, written_points
 from rldrill.render.mathematics.typst import plain, quoted, text
 from rldrill.render.typst import PREAMBLE
@@ -31,7 +31,7 @@ def setup(exam: Exam, version: Version, what: str, *, to_fill_in: bool) -> str:
     seed = f" · seed {exam.seed}" if exam.layout.ids else ""
     return (
         f"{typst_file('rldrill.print', 'exam.typ')}{PREAMBLE}"
-        f"#show: exam-page.with(paper: {quoted(PAPERS[exam.layout.paper].typst)}, lang: {quoted(exam.head.language)}, "
+        f"#show: exam-page.with(paper: {quoted(TYPST_PAPERS[exam.layout.paper])}, lang: {quoted(exam.head.language)}, "
         f"title: {quoted(f'{exam.head.title} – {what}')}, what: [{plain(what + seed)}], "
         f"{who}comma: {'true' if exam.head.decimal_mark == ',' else 'false'})\n"
     )

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from rldrill.print.paper import Paper, page_setup
+from rldrill.exam.choices import Paper
+from rldrill.print.paper import page_setup
 from rldrill.problems.document import Equation
 from rldrill.problems.errors import UsageError
 from rldrill.render.encodable import UNICODE, Spelling
@@ -64,7 +65,7 @@ def sheet_source(names: Sequence[str], paper: Paper, *, workings: bool = False) 
         UsageError: there is no section of that name.
     """
     # A few sections are a handout, in the size of a book.
-    size, columns, title_size = ("10pt", 1, "1.5em") if names else (_SIZES[paper.name], 2, "1.9em")
+    size, columns, title_size = ("10pt", 1, "1.5em") if names else (_SIZES[paper], 2, "1.9em")
     margin = "(x: 1cm, top: 0.9cm, bottom: 1cm)"
     setup = page_setup(paper, title=TITLE, left="", right="", margin=margin, size=size, columns=columns)
     head = f"text({title_size}, strong[{text(TITLE)}]); h(1fr); remark[{text(_LEGEND)}]"

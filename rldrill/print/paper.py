@@ -1,11 +1,11 @@
 """Paper: the page set-up that all PDFs share, and their compilation."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from rldrill.problems.errors import UsageError
+from rldrill.exam.choices import Paper
 from rldrill.render.mathematics.typst import quoted, text
 from rldrill.render.typst import PREAMBLE
 from rldrill.render.typst_files import typst_file
@@ -20,27 +20,8 @@ _REMEMBERED = 11
 _TIMESTAMP = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Paper:
-    """A paper size by its name on the command line, with Typst's name for it."""
-
-    name: str
-    typst: str
-
-
-PAPERS = {"a4": Paper("a4", "a4"), "letter": Paper("letter", "us-letter")}
-
-
-def paper_of(name: str) -> Paper:
-    """The paper of that name.
-
-    Raises:
-        UsageError: there is none.
-    """
-    paper = PAPERS.get(name.strip().lower())
-    if paper is None:
-        raise UsageError(f"There is no paper {name[:20]!r}; choose {' or '.join(PAPERS)}.")
-    return paper
+#: Typst's own names of the papers.
+TYPST_PAPERS: Mapping[Paper, str] = {"a4": "a4", "letter": "us-letter"}
 
 
 def page_setup(
@@ -65,7 +46,7 @@ def page_setup(
         columns: how many columns a page has.
     """
     arguments = (
-        f"paper: {quoted(paper.typst)}, margin: {margin}, size: {size}, columns: {columns}, "
+        f"paper: {quoted(TYPST_PAPERS[paper])}, margin: {margin}, size: {size}, columns: {columns}, "
         f"title: [{text(title)}], left: [{text(left)}], right: [{text(right)}]"
     )
     return f"{typst_file('rldrill.print', 'page.typ')}#show: page-setup.with({arguments})\n{PREAMBLE}"

@@ -1,8 +1,8 @@
 """The fixed words of a printed exam, in each language; problems themselves are in English."""
 
 from dataclasses import dataclass
-from typing import Literal
 
+from rldrill.exam.choices import Language
 from rldrill.solutions.answers.rule import RULE
 
 
@@ -86,7 +86,7 @@ WORDS = {
 }
 
 
-def words(language: Literal["en", "de"]) -> Words:
+def words(language: Language) -> Words:
     """The words of a language."""
     return WORDS[language]
 

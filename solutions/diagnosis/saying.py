@@ -141,7 +141,8 @@ def _what(cause: Cause) -> Words:
     if cause.probe is not None:
         template = _INSIDE.get(cause.kind, _INSIDE[""])
         part = typeset(named) if (named := _in_its_term(cause)) is not None else _short(cause.probe.part)
-        return _filled(template, part=part, was=_number(cause.was), became=_number(cause.other))
+        became = _number(cause.other) if "{became}" in template else None
+        return _filled(template, part=part, was=_number(cause.was), became=became)
     if cause.application is not None and cause.kind != "another-quantity":
         template = _VALUES.get(cause.kind, _VALUES[""])
         was, became = _changed(cause.was, cause.became)

@@ -5,15 +5,13 @@ from dataclasses import replace
 from rldrill.problems.dynamic_programming.policy_evaluation import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ZERO, exact
-from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, tensors
 from rldrill.solutions.policy_values import ONE_ACTION
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAX_FOR_MEAN
-from rldrill.solutions.sheet.dynamic_programming import (
-    POLICY_EVALUATION,
-)
+from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION
+from rldrill.solutions.sweeps import order_slips
 from rldrill.solutions.work import Work
 
 
@@ -34,31 +32,11 @@ def solve(given: Given, work: Work) -> None:
     work.answer({state: values[state] for state in mdp.states})
 
 
-@slip(
-    "in-place",
-    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
-    when=lambda given: not given.in_place,
-)
-def in_place(given: Given, work: Work) -> None:
-    """Sweeps in place instead."""
-    solve(given.model_copy(update={"in_place": True}), work)
-
-
-@slip(
-    "synchronous",
-    "In place, a value found in this sweep is used at once for the states that follow.",
-    when=lambda given: given.in_place,
-)
-def synchronous(given: Given, work: Work) -> None:
-    """Synchronous sweeps instead."""
-    solve(given.model_copy(update={"in_place": False}), work)
-
-
 def _comparable(given: Given) -> bool:
     return not given.parameters() and any(len(actions) > 1 for actions in given.mdp.actions.values())
 
 
-MISCONCEPTIONS = (in_place, synchronous, replace(MAX_FOR_MEAN, when=_comparable), FORGOT_GAMMA)
+MISCONCEPTIONS = (*order_slips(solve), replace(MAX_FOR_MEAN, when=_comparable), FORGOT_GAMMA)
 
 
 def oracle(given: Given) -> Answers:

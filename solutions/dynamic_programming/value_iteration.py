@@ -14,10 +14,7 @@ from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.greedy import taken
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tensors
-from rldrill.solutions.sheet.bellman import (
-    FORGOT_GAMMA,
-    OPTIMAL_Q_BY_REWARD,
-)
+from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
     MEAN_FOR_MAX,
     Q_OF_VALUES,
@@ -25,6 +22,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     VALUE_ITERATION,
     greedy,
 )
+from rldrill.solutions.sweeps import order_slips
 from rldrill.solutions.work import Work
 
 
@@ -91,26 +89,6 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
 
 
 @slip(
-    "in-place",
-    "A synchronous sweep uses the values of the sweep before; values found in this sweep wait for the next.",
-    when=lambda given: not given.in_place and not given.action_values and given.tie is None,
-)
-def newest(given: Given, work: Work) -> None:
-    """Every value is used as soon as it is there."""
-    solve(given.model_copy(update={"in_place": True}), work)
-
-
-@slip(
-    "synchronous",
-    "In place, a value found in this sweep is used at once for the states that follow.",
-    when=lambda given: given.in_place,
-)
-def old_values(given: Given, work: Work) -> None:
-    """Every value waits for the next sweep."""
-    solve(given.model_copy(update={"in_place": False}), work)
-
-
-@slip(
     "terminal-reward-twice",
     "A terminal state is worth 0: the reward for reaching it is earned once, on the way there.",
     when=lambda given: given.tie is None and knowns.pays_at_the_end(given.mdp),
@@ -121,7 +99,8 @@ def paid_twice(given: Given, work: Work) -> None:
 
 
 MISCONCEPTIONS = (
-    newest, old_values, paid_twice, MEAN_FOR_MAX,
+    *order_slips(solve, lambda given: not given.in_place and not given.action_values and given.tie is None),
+    paid_twice, MEAN_FOR_MAX,
     replace(FORGOT_GAMMA, when=lambda given: given.gamma != 1 and given.tie is None), OPTIMAL_Q_BY_REWARD
 )  # fmt: skip
 

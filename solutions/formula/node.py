@@ -50,6 +50,11 @@ class Node(Expr):
         return Look.OTHER
 
     @property
+    def holds_sum(self) -> bool:
+        """Whether what it is written as is a sum, which needs brackets even where it begins a product."""
+        return False
+
+    @property
     def operations(self) -> int:
         """How many operations of arithmetic it costs, besides those of its arguments."""
         return 0

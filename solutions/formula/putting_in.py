@@ -277,7 +277,7 @@ def _inner(term: Expr) -> Expr:
         if sign == -1 and len(rest) == 1 and rest[0].is_Add and any(map(_of_matrices, rest[0].args)):
             terms = [_term(part) if _of_matrices(part) else _worked_out(part) for part in rest[0].args]
             return Mul(-1, Add(*terms, evaluate=False), evaluate=False)
-        factors = _without_ones([_inner(factor) for factor in term.args])
+        factors = _without_ones([_in_a_product(_inner(factor)) for factor in term.args])
         if len(factors) == 2 and factors[0] == -1 and evaluated(factors[1]) == 0:  # there is no −0
             return factors[1]
         return Mul._from_args(factors)
@@ -286,6 +286,11 @@ def _inner(term: Expr) -> Expr:
     if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
+
+
+def _in_a_product(factor: Expr) -> Expr:
+    """A factor that is minus something, in brackets."""
+    return Negative(factor) if factor.is_Mul and factor.args[0] == -1 else factor
 
 
 def _worked_out(expression: Expr) -> Expr:

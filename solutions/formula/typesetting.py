@@ -284,7 +284,7 @@ def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
         return Fraction(numerator, _product(below) if len(below) > 1 else typeset(below[0]))
     items: list[Math] = []
     for position, factor in enumerate(flat):
-        first = leads and position == 0 and look(factor) is Look.NUMBER and not (len(flat) > 1 and _is_sum(factor))
+        first = leads and position == 0 and look(factor) is Look.NUMBER and not _holds_sum(factor)
         written = alone(factor) if first else _factor(factor, last=position == len(flat) - 1)
         if position and _needs_dot(flat[position - 1], factor):
             items.append(_TIMES)
@@ -292,9 +292,8 @@ def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
     return row(*items)
 
 
-def _is_sum(factor: Expr) -> bool:
-    """Whether a sum in a letter was put in, which keeps its brackets also where it leads: (7 + w)·1."""
-    return isinstance(factor, Node) and any(isinstance(entry, Expr) and entry.is_Add for entry in factor.numbers)
+def _holds_sum(factor: Expr) -> bool:
+    return isinstance(factor, Node) and factor.holds_sum
 
 
 def _is_half_root(factors: Sequence[Expr]) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
+import rldrill
 from rldrill.audit import checking as audit
 from rldrill.audit.checking import Finding, agrees, examine
 from rldrill.problems.catalogue import family
@@ -53,6 +54,18 @@ def test_a_wrong_oracle_is_a_disagreement(monkeypatch: pytest.MonkeyPatch) -> No
     finding = _found(monkeypatch, solver=lambda _: replace(real, oracle=lambda g: [np.add(real.oracle(g), 1e-5)]))
     assert len(finding.disagreements) == 1
     assert not finding.clean
+
+
+def test_one_state_with_two_best_actions_is_a_tie() -> None:
+    # γ = 1/2: stay pays 1 for ever, V*(b) = 2; go pays 1 and leads there, V*(a) = 1 + 1/2·2 = 2; walk pays 2 and ends.
+    mdp = {
+        "transitions": [["a", "go", "b", 1, 1], ["a", "walk", "end", 1, 2], ["b", "stay", "b", 1, 1]],
+        "terminal": ["end"],
+    }
+    exercise = rldrill.read({"family": "optimal-value", "given": {"mdp": mdp, "gamma": "1/2"}})
+    finding = Finding(family("optimal-value"), 1)
+    examine(exercise.solution, finding)
+    assert (finding.ties, finding.disagreements) == (1, [])
 
 
 def test_an_answer_that_is_not_judged_right_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -169,6 +169,20 @@ def test_a_command_that_ends_at_once_has_written_all_and_run_its_exit_handlers(a
     assert ("td-zero" in process.stdout) == (code == 0)
 
 
+def test_ctrl_c_while_the_program_is_imported_ends_it_without_a_traceback() -> None:
+    program = (
+        "import sys\n"
+        "class Interrupted:\n"
+        "    def find_spec(self, name, *rest):\n"
+        "        if name == 'rldrill.cli': raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Interrupted())\n"
+        "from rldrill.__main__ import run\n"
+        "run()"
+    )
+    process = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=120, cwd=ROOT, check=False)
+    assert (process.returncode, process.stdout, process.stderr) == (130, b"", b"")
+
+
 def test_without_a_home_and_with_an_ascii_terminal() -> None:
     process = run("show", "td-zero/1/1", HOME="/nonexistent", LC_ALL="C", PYTHONIOENCODING="ascii")
     assert "Traceback" not in process.stderr

@@ -44,7 +44,7 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     },
     verify: {
         "exam": (None, None, None), "version": (None, None, None), "roster": (None, None, None),
-        "reports": (None, None, None), "enough": (None, None, None), "feedback": (verify.Feedback.REASON, None, None),
+        "reports": (None, None, None), "enough": (None, None, None), "feedback": ("reason", None, None),
         "show_key": (False, None, None), "hand_ins": (None, None, None), "absent": (True, None, None),
         "allow_files": (False, None, None),
         "strict": (False, None, None), "seconds": (30, 0.1, 3600), "schema": (False, None, None),
@@ -60,9 +60,9 @@ OPTIONS: dict[ModuleType, dict[str, tuple[Any, int | None, int | None]]] = {
     fields: {"json": (False, None, None)},
     generate: {
         "number": (10, 1, 10**8), "level": (None, 1, 3), "seed": (None, 0, None), "answers": (False, None, None),
-        "more": ("", None, None), "output": (None, None, None), "form": (generate.Form.JSONL, None, None),
+        "more": ("", None, None), "output": (None, None, None), "form": ("jsonl", None, None),
         "jobs": (1, 1, 256), "shard": ("", None, None), "dask": (None, None, None),
-        "split": (generate.Seeds.TRAIN, None, None),
+        "split": ("train", None, None),
     },
     stats: {"json": (False, None, None), "output": (None, None, None)},
     gallery: {"output": (Path("site"), None, None), "notation": (None, None, None)},

@@ -41,6 +41,10 @@ def test_an_update_is_edited_as_a_student_errs(kind: str, line: str) -> None:
     assert line in written(TD_ZERO)[kind]
 
 
+def test_a_quotient_is_turned_upside_down() -> None:
+    assert "1/((p(z|h) p(h))/(Σₕ′ p(z|h′) p(h′)))" in written(BAYES)["upside-down"]
+
+
 def test_the_mean_stands_for_the_maximum() -> None:
     kinds = written(BELLMAN_OPTIMALITY_V)
     assert {"mean-for-max", "min-for-max", "sum-for-max"} <= set(kinds)

@@ -1,4 +1,4 @@
-"""Pin problems with their answers, pages, and limits of fields; minutes and variety of the levels; and screens.
+"""Pin problems with their answers, pages, limits of fields, what is said of wrong answers; minutes, variety; screens.
 
 Of the families named, or of all:
 
@@ -16,6 +16,9 @@ from statistics import median
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "diagnosis"))
+import pinned as diagnoses
+
 from limits import limits
 from printing import page
 from rldrill.audit.checking import agrees
@@ -32,6 +35,7 @@ PAGES = Path(__file__).with_name("pages")
 SCREENS = Path(__file__).with_name("screens")
 PROBLEMS = Path(__file__).with_name("problems.json")
 FIELDS = Path(__file__).with_name("fields.json")
+DIAGNOSES = Path(__file__).with_name("diagnoses.json")
 PINNED = range(2)
 MEASURED = range(15)
 
@@ -69,6 +73,7 @@ varieties = {known.name: [variety(known.name, level, COUNTED) for level in known
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
 rewrite(VARIETY, wanted, varieties)
+rewrite(DIAGNOSES, wanted, {key: line for known in chosen for key, line in diagnoses.pinned(known).items()})
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for kind in WIDTHS:
     (SCREENS / f"{kind}.txt").write_text(transcript(kind), encoding="utf-8")

@@ -8,10 +8,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from covering import Covering
 from places import ROOMS, Mutation, Source
 
 #: So many tests for one change at most: to load the files of more takes longer than they are likely to be worth.
-MOST = 1000
+MOST = 4000
+
+#: The rank of tests that have nothing to do with a change, as far as names tell.
+_NOT = 5
 
 #: What test files import that start other programs or look at PDFs: their tests come last of their rank.
 _DEAR = {"pexpect", "printed", "subprocess"}
@@ -31,6 +35,7 @@ class Choice:
 
     root: Path
     ids: tuple[str, ...]
+    covering: Covering | None = None
     _uses: dict[str, dict[str, Uses]] = field(default_factory=dict)
     _dear: dict[str, bool] = field(default_factory=dict)
 
@@ -47,16 +52,26 @@ class Choice:
     def tests(self, source: Source, mutation: Mutation) -> tuple[str, ...]:
         """The IDs of what can notice it, the likeliest first: by their ranks, then the first cases of all functions.
 
-        For what writes pages, the pages of all families come first: most of it shows in none of their names.
+        For what writes pages, the pages of all families come first: most of it shows in none of their names. Where it
+        is known which tests run the changed statement, there are no others but those that start other programs.
         """
         order: Counter[tuple[int, str]] = Counter()
         keyed = []
-        for rank, test in self.ranked(source, mutation):
+        running = self.covering.tests(source, mutation) if self.covering else frozenset()
+        ranks = zip(self._ranks(source, mutation), self.ids, strict=True)
+        for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running]:
+            if running and self._is_far(test, running):
+                continue
             function = test.partition("[")[0]
             keyed.append((rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
             order[rank, function] += 1
         keyed.sort(key=lambda each: each[:3])
         return tuple(test for *_, test in keyed[:MOST])
+
+    def _is_far(self, test: str, running: frozenset[str]) -> bool:
+        """Whether a test was seen not to run a statement; what other programs run for it was not seen."""
+        assert self.covering
+        return test in self.covering.known - running and not self._is_dear(test.partition("::")[0])
 
     def _is_dear(self, file: str) -> bool:
         if file not in self._dear:
@@ -66,7 +81,7 @@ class Choice:
 
     def ranked(self, source: Source, mutation: Mutation) -> list[tuple[int, str]]:
         """The IDs with their ranks, 0 where what is tested is made of the changed statement."""
-        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < 5]
+        return [(rank, test) for test, rank in zip(self.ids, self._ranks(source, mutation), strict=True) if rank < _NOT]
 
     def _ranks(self, source: Source, mutation: Mutation) -> Iterable[int]:
         path = Path(source.path)
@@ -97,7 +112,7 @@ class Choice:
             elif farther & uses.modules:
                 yield 4
             else:
-                yield 5
+                yield _NOT
 
     def _importing(self, modules: set[str]) -> set[Path]:
         return {Path(name) for name, imported in self._imports.items() if modules & imported}

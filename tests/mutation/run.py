@@ -3,7 +3,8 @@
 Our own code because of the two known tools mutmut changes only what stands in functions, and formulas do not, while
 cosmic-ray runs one and the same command for every change, which here would be the whole suite.
 
-    python tests/mutation/run.py --seed 1 -n 100 [--only PATH] [--workers 2] [--timeout 120] [--budget 40] [--json]
+    python tests/mutation/run.py --seed 1 -n 100 [--only PATH] [--workers 2] [--timeout 120] [--budget 40]
+        [--coverage FILE] [--json]
 """
 
 import argparse
@@ -19,6 +20,7 @@ from pathlib import Path
 
 import trial
 from choice import Choice
+from covering import Covering
 from places import Mutation, Source, mutations, sources
 
 ROOT = Path(__file__).parent.parent.parent
@@ -92,6 +94,7 @@ def main() -> None:
         "--timeout", type=float, default=120, help="seconds of the processor after which a change counts as noticed"
     )
     parser.add_argument("--budget", type=float, default=40, help="seconds of the processor for the tests of one change")
+    parser.add_argument("--coverage", type=Path, metavar="FILE", help="what coverage.py noted of the whole suite")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     options = parser.parse_args()
 
@@ -120,7 +123,7 @@ def tried(
     for copy in copies[1:]:
         shutil.copytree(copies[0], copy, symlinks=True)
     seen = (test for test in collected.seen if not test.startswith(_TOO_DEAR))
-    choice = Choice(copies[0], tuple(seen))
+    choice = Choice(copies[0], tuple(seen), options.coverage and Covering(options.coverage))
     runs = [
         trial.Run(choice.tests(source, mutation), source.path, source.changed(mutation), budget=options.budget)
         for source, mutation in places

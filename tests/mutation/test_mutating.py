@@ -6,6 +6,8 @@ from typing import cast
 
 import pytest
 from choice import Choice
+from coverage import CoverageData
+from covering import Covering
 from places import Mutation, Source, mutations
 from run import drawn
 from trial import Chosen, Result, Run
@@ -106,6 +108,29 @@ def test_the_likeliest_tests_come_first_and_others_not_at_all(tmp_path: Path) ->
     both = callers | {"[n-step-formula]": 0, "[n-step: late]": 0}
     assert ranks("solutions/sheet/td.py", 2) == both  # x, which both mention
     assert ranks("solutions/sheet/td.py", 1) == callers | {"[n-step-formula]": 1, "[n-step: late]": 0}
+
+
+def test_only_tests_that_run_the_statement_come_into_question_where_they_are_known(tmp_path: Path) -> None:
+    (tmp_path / "rldrill").mkdir()
+    (tmp_path / "rldrill" / "tax.py").write_text("RATE = 3\ndef tax(x):\n    return (\n        x * RATE\n    )\n")
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_tax.py").write_text("def test_it(): ...\ndef test_name(): ...")
+    (tmp_path / "tests" / "test_far.py").write_text("def test_all(): ...")
+    ids = ("tests/test_tax.py::test_it", "tests/test_tax.py::test_name", "tests/test_far.py::test_all")
+    data = CoverageData(str(tmp_path / "noted"))
+    data.set_context("")
+    data.add_lines({"/elsewhere/rldrill/tax.py": [1, 2]})
+    for test, line in ((ids[0], 3), (ids[1], 2), (ids[2], 3)):
+        data.set_context(f"{test}|run")
+        data.add_lines({"/elsewhere/rldrill/tax.py": [line]})
+    data.write()
+    choice = Choice(tmp_path, ids, Covering(tmp_path / "noted"))
+    source = Source.read(tmp_path, "rldrill/tax.py")
+    constant, product = mutations(source)
+    assert choice.tests(source, product) == (ids[0], ids[2])
+    assert choice.tests(source, constant) == (ids[0], ids[2])  # the constant is used in the statement
+    (tmp_path / "rldrill" / "tax.py").write_text("RATE = 3\n")
+    assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 
 
 def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from rldrill.exercise import draw
 from rldrill.problems.draws import Draws
-from rldrill.problems.settings import Setting, draw_moves, draw_way, possible, settings
+from rldrill.problems.settings import Setting, Shape, draw_model, draw_moves, draw_way, possible, settings
 
 #: Families whose transitions have a world's action between two of its states.
 WITH_ACTIONS = (
@@ -55,6 +55,14 @@ def test_a_run_takes_actions_that_lead_on_as_it_goes() -> None:
         states, actions = draw_way(Draws(key), world, "aba.", ("run", "repair"), same=True)
         assert states[0] == states[2]
         assert actions == ("run", "repair", "run")  # nothing is mended by running it, and nothing breaks by repair
+
+
+@pytest.mark.parametrize("world", settings(), ids=lambda world: world.terminal)
+def test_no_action_keeps_the_last_state_of_an_endless_model_for_ever(world: Setting) -> None:
+    for key in map(str, range(20)):
+        model = draw_model(Draws(key), world, Shape(states=2, actions=2, branches=1, ends=False))
+        first, last = model.states
+        assert {row.next for row in model.transitions if row.state == last} == {first}
 
 
 def test_what_no_action_can_do_is_not_possible() -> None:

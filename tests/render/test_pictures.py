@@ -12,7 +12,7 @@ from rich.console import Console
 
 from printed import Word, words
 from rldrill.exercise import draw
-from rldrill.print.paper import PAPERS, page_setup, pdf
+from rldrill.print.paper import page_setup, pdf
 from rldrill.problems.backup_diagrams.backup_diagram_value import diagram
 from rldrill.problems.backups import BACKUPS, backup_diagram
 from rldrill.problems.document import Beside, Table
@@ -39,7 +39,7 @@ from rldrill.render.typst import block
 from rldrill.render.unicode import unicode_text
 
 ROOT = Path(__file__).parents[2]
-SETUP = page_setup(PAPERS["a4"], title="t", left="", right="", margin="2cm")
+SETUP = page_setup("a4", title="t", left="", right="", margin="2cm")
 SHAPES = [(1, 2, 2), (2, 1, 2), (2, 2, 2), (2, 3, 2), (3, 2, 2), (4, 2, 1)]
 
 

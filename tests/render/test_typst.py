@@ -8,7 +8,7 @@ import pytest
 
 from printed import Word, words
 from rldrill.exercise import Exercise, draw
-from rldrill.print.paper import PAPERS, page_setup, pdf
+from rldrill.print.paper import page_setup, pdf
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.document import Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import (
@@ -50,7 +50,7 @@ HOSTILE = [
     "~",
     "=h",
 ]
-SETUP = page_setup(PAPERS["a4"], title="t", left="", right="", margin="2cm")
+SETUP = page_setup("a4", title="t", left="", right="", margin="2cm")
 NARROW = SETUP + "#set page(width: 9cm, height: 25cm, margin: 1cm)\n#set text(size: 9pt)\n"
 CENTIMETRE = 72 / 2.54
 

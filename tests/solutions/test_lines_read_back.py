@@ -52,13 +52,23 @@ def sides(line: Equality) -> list[Expr]:
 
 
 def lines(solution: Solution) -> list[tuple[str, Any]]:
-    """The right sides of steps that give a number, each with the number."""
+    """The right sides of steps that give a number, or a matrix of one, each with the number."""
     found = []
     for line in solution.lines:
-        if isinstance(line, Step) and isinstance(line.value, fmpq | RationalFunction | Expr):
+        if not isinstance(line, Step):
+            continue
+        single = is_matrix(line.value) and line.value.nrows() == line.value.ncols() == 1
+        value = line.value[0, 0] if single else line.value
+        if isinstance(value, fmpq | RationalFunction | Expr):
             written = line.equation().rights[line.own :]  # a derivative is written in letters first
-            found += [(unicode(right), line.value) for right in written]
+            found += [(unicode(right), value) for right in written]
     return found
+
+
+def in_small(value: Any) -> Expr:
+    """A value with all its letters small, as they are read."""
+    expression = to_sympy(value)
+    return expression.xreplace({letter: sympy.Symbol(letter.name.lower()) for letter in expression.free_symbols})
 
 
 @pytest.mark.parametrize("name", families())
@@ -71,7 +81,7 @@ def test_every_line_has_the_value_of_its_step(name: str) -> None:
                 read = read_number(text, LETTERS).value
             except Unreadable:
                 continue  # names, maxima over a set, vectors
-            same = read == value or sympy.simplify(to_sympy(read) - to_sympy(value)) == 0
+            same = read == value or sympy.simplify(in_small(read) - in_small(value)) == 0
             assert same, f"{solution.problem.identity}: {text} is {read}, not {value}"
 
 

@@ -85,6 +85,11 @@ class MatrixLeaf(Leaf):
         return Look.NUMBER if self.scalar else Look.GRID
 
     @property
+    def holds_sum(self) -> bool:
+        """Whether it is 1×1, and its entry a sum."""
+        return self.scalar and bool(self.args[0][0].is_Add)
+
+    @property
     def operations(self) -> int:
         """One for every entry."""
         return len(self.args[0])
@@ -96,7 +101,7 @@ class MatrixLeaf(Leaf):
 
     def _typeset(self, typeset: Typeset) -> Math:
         entry, written = self.args[0][0], self._alone(typeset)
-        return Fence(written) if self.scalar and (entry.is_negative or entry.is_Add) else written
+        return Fence(written) if self.holds_sum or (self.scalar and entry.is_negative) else written
 
     def _alone(self, _: object) -> Math:
         return typeset_value(self.args[0][0]) if self.scalar else tabular(self.args[0].tolist())

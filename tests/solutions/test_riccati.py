@@ -1,0 +1,42 @@
+"""The Riccati equation by doubling, held against equations of one number that are solved by hand."""
+
+import pytest
+from flint import fmpq
+
+from rldrill.solutions.exact import NoSolution
+from rldrill.solutions.matrices import matrix
+from rldrill.solutions.riccati import Regulator, stationary
+
+ONE = fmpq(1)
+
+
+def of_one(a: int, q: int | fmpq, r: int, gamma: fmpq = ONE) -> Regulator:
+    """A system of one state and one action, B = 1."""
+    A, B, Q, R, N = (matrix([[fmpq(entry)]]) for entry in (a, 1, q, r, 0))
+    return Regulator(A, B, Q, R, N, gamma)
+
+
+def test_a_discounted_system_that_is_stable_for_the_discount_alone() -> None:
+    # γ = 1/4, S = 2: L = (2/4)/(1 + 2/4) = 1/3, so A − BL = 2/3; q = S − S/4 + (S/4)²/(1 + S/4) = 2 − 1/2 + 1/6 = 5/3.
+    # γ(2/3)² = 1/9 is below 1, as it must be; (2/3)²/γ = 16/9 would not be.
+    regulator = of_one(1, fmpq(5, 3), 1, fmpq(1, 4))
+    S = stationary(regulator)
+    assert abs(S[0, 0] - 2) < fmpq(1, 10**40)
+    assert abs(regulator.gain(S)[0, 0] - fmpq(1, 3)) < fmpq(1, 10**40)
+    assert abs(regulator.before(S)[0, 0] - 2) < fmpq(1, 10**40)
+
+
+def test_a_state_that_costs_nothing_and_runs_away_has_no_answer() -> None:
+    with pytest.raises(NoSolution, match="left to itself and does not come to rest"):
+        stationary(of_one(2, 0, 1))
+    # discounted by 1/5 it may run away: γ·2² = 4/5 is below 1, and nothing is ever paid
+    assert stationary(of_one(2, 0, 1, fmpq(1, 5)))[0, 0] == 0
+    with pytest.raises(NoSolution, match="left to itself"):
+        stationary(of_one(2, 0, 1, fmpq(1, 4)))  # γ·2² = 1
+
+
+def test_an_action_without_a_price_is_charged_what_it_leads_to() -> None:
+    # R = 0: the best action brings the state to 0 at once, so S = q, and L = a.
+    regulator = of_one(3, 2, 0)
+    S = stationary(regulator)
+    assert (S[0, 0], regulator.gain(S)[0, 0]) == (2, 3)
