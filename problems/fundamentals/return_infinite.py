@@ -53,7 +53,7 @@ def draw(level: int, rng: Draws) -> Given:
     gamma = rng.fraction("1/2", "1/3", "2/3", "3/4", "4/5")
     if level == 2:
         length = rng.choice((2, 2, 3)) if gamma == Fraction(1, 2) else 2
-        first = _first(rng, rng.below(3))
+        first = _first(rng, rng.choice((0, 1, 1, 2, 2, 2)))
         unit = Fraction(1, gamma.denominator if len(first) < 2 else 1)
         repeated = _round(rng, length, gamma, unit)
         rewards = (*first, *repeated)

@@ -18,7 +18,7 @@ from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 4
+REVISION = 5
 
 Mu = tuple[Fraction, ...]
 
@@ -72,12 +72,18 @@ def draw(level: int, rng: Draws) -> Given:
     far = dot(rest, rest)
     if not 0 < far <= share * (whole - share) * dot(way, way):  # the policy would be worse than the expert
         return draw(level, rng)
+    if max(share, whole - share) ** 2 * dot(way, way) + far > _FARTHEST:
+        return draw(level, rng)
     points = [(Fraction(0),) * size, _scaled(whole, way), _sum(_scaled(share, way), rest)]
     first, policy, expert = _placed(rng, points)
     given = Given(expert=expert, first=first, policies=(policy,))
     if level == 2 and rng.chance(Fraction(2, 3)):
         return given.model_copy(update={"tolerance": _limit(rng, far)})
     return given
+
+
+#: The largest square of a distance from the expert.
+_FARTHEST = 100
 
 
 def _limit(rng: Draws, far: Fraction) -> Fraction:

@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 5
+REVISION = 6
 _LARGEST = 6
 
 
@@ -100,7 +100,7 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 1:
         return _scalar(*rng.choice(_scalars()))
     if level == 2:
-        kind = rng.choice(("discount", "cross", "cross", "two"))
+        kind = rng.choice(("discount", "cross", "two"))
         if kind == "two":
             gamma = rng.fraction("1", "1/2", "3/4")
             systems = _scalars() if gamma == 1 else [each[:4] for each in _discounted() if each[4] == gamma]
@@ -111,7 +111,7 @@ def draw(level: int, rng: Draws) -> Given:
         if kind == "discount":
             return _scalar(a, b, q, r, gamma=added)
         return _scalar(a, b, q, r, N=((added,),))
-    if rng.chance(Fraction(2, 5)):
+    if rng.chance(Fraction(1, 3)):
         (total, b, together, r), (difference, _, apart, _) = (map(Fraction, mode) for mode in rng.choice(_pairs()))
         return Given(A=_circulant(total, difference), B=diagonal(b, b), Q=_circulant(together, apart), R=diagonal(r, r))
     return _price(rng)
@@ -185,7 +185,7 @@ def _pairs() -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
     """A, B, Q and R of the sum and of the difference of two coupled states: systems in which the root comes out."""
     modes = [
         (a, b, q, r)
-        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 25), range(1, 13))
+        for a, b, q, r in product((-3, -2, -1, 1, 2, 3), (1, 2), range(1, 31), range(1, 16))
         if _is_square(Fraction((b**2 * q + (a**2 - 1) * r) ** 2 + 4 * b**2 * q * r))
     ]
     return tuple(

@@ -43,7 +43,7 @@ class Figures:
         largest: the largest whole number in the answers of each problem.
         attempts: how many draws each problem took.
         rates: the minutes a point of each problem.
-        problems: the different problems.
+        problems: the different ones of the first hundred problems.
         structures: the different structures: shape of the givens, and what is asked.
         yes: for each part answered by yes or no how often the answer is yes, and how often it is asked.
         options: for each choice how often each option is right.
@@ -68,7 +68,8 @@ class Figures:
         self.largest.append(largest(solution))
         self.attempts.append(solution.attempts)
         self.rates.append(float(minutes(solution) / sum(points(solution).values())))
-        self.problems.add(json.dumps(problem.data(), sort_keys=True))
+        if self.drawn <= 100:
+            self.problems.add(json.dumps(problem.data(), sort_keys=True))
         self.structures.add(structure(solution))
         for part in problem.parts:
             self._count(part, solution.answers[part.label])
@@ -113,7 +114,7 @@ class Figures:
         if level > 1 and len(self.structures) < STRUCTURES:
             yield f"there are only {len(self.structures)} structures"
         if level > 1 and len(self.problems) < DIFFERENT * min(self.drawn, 100) // 100:
-            yield f"only {len(self.problems)} of {self.drawn} problems are different"
+            yield f"only {len(self.problems)} of {min(self.drawn, 100)} problems are different"
         for label, (yes, asked) in self.yes.items():
             if asked >= _JUDGED and not BALANCED[0] <= yes / asked <= BALANCED[1]:
                 yield f"({label}) is yes in {yes / asked:.0%}"

@@ -35,6 +35,9 @@ def solve(given: Given, work: Work) -> None:
         "Rt": given_matrix(given.process), "Qt": given_matrix(given.sensor),
     }  # fmt: skip
     one = identity(len(given.mean))
+    if given.on_a_line:
+        ones = "A_t = B_t = C_t" if given.driven else "A_t = C_t"
+        work.say(f"The position itself is moved and measured, so in the formulas ${ones} = 1$.")
     if given.variance is not None:
         _noise(given, work, models, exact(given.variance))
         return

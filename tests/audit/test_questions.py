@@ -1,5 +1,6 @@
 """What the audit says of questions: givens that do not matter, what guessing earns, minutes a point, variety."""
 
+from collections import Counter
 from fractions import Fraction
 from typing import Any
 
@@ -115,3 +116,22 @@ def test_points_follow_minutes() -> None:
     long = td(["a", "b"] * 4, {"a": 2, "b": 3})
     assert points(long)["a"] > 4
     assert Fraction(points(long)["a"]).denominator == 1
+
+
+def test_a_balance_is_judged_of_enough_answers() -> None:
+    few, many = (sound(Figures(yes={"b": [3 * n, 4 * n]}, options={"c": Counter(A=n, B=19 * n)})) for n in (9, 100))
+    assert few == []
+    assert many == ["(b) is yes in 75%", "(c) is seldom A: {'A': 100, 'B': 1900}"]
+
+
+def test_different_problems_are_counted_in_the_first_hundred() -> None:
+    figures = Figures()
+    for number in range(150):
+        figures.add(td(["a", "b"], {"a": 2, "b": 3 + number % 120}))
+    assert figures.data()["different"] == 100
+
+
+def sound(figures: Figures) -> list[str]:
+    """What is said of these figures at level 1 where all else is as it should be."""
+    figures.rates, figures.attempts = [1.5] * 40, [1] * 40
+    return list(figures.complaints(1))

@@ -11,6 +11,7 @@ from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
 from rldrill.solutions.answers.kinds import answer_kind
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.exact import NoSolution
 from rldrill.solutions.reversible import with_letter
 from rldrill.solutions.solution import solve
 
@@ -92,3 +93,21 @@ def test_what_is_found_gives_what_is_known(family: str) -> None:
 def test_what_is_known_needs_a_letter_to_be_found(family: str, given: dict[str, Any]) -> None:
     with pytest.raises(FileError, match="known: leave exactly one parameter open"):
         solved(family, **given)
+
+
+@pytest.mark.parametrize(
+    "name", ["n-step-return", "monte-carlo", "td-zero", "td-lambda-forward", "td-lambda-backward", "return"]
+)
+def test_what_is_asked_after_the_letter_depends_on_it(name: str) -> None:
+    drawn = [draw(name, 3, seed).problem for seed in range(8)]
+    for problem in drawn:
+        known = getattr(problem.given, "known", None)
+        if known is None or len(problem.parts) == 1:
+            continue
+        right = solve(problem).answers
+        other = problem.given.model_copy(update={"known": known + Fraction(1, 7)})
+        try:
+            changed = solve(Problem(problem.family, other)).answers
+        except NoSolution:
+            continue
+        assert [label for label in right if changed[label] == right[label]] == [], problem.identity
