@@ -47,9 +47,18 @@ class Covering:
             return frozenset()
         line = source.line(mutation)
         contexts = self._data.contexts_by_lineno(measured)
-        places = list(_using(source.tree, line)) or [(_innermost(source.tree, line), line)]
+        inside = _in_a_function(source.tree, line)
+        places = [(_innermost(source.tree, line), line)] if inside else list(_using(source.tree, line))
         noted = (each for first, last in places for at in range(first, last + 1) for each in contexts.get(at, ()))
         return frozenset(context.rpartition("|")[0] for context in noted) - {""}
+
+
+def _in_a_function(tree: ast.Module, line: int) -> bool:
+    """Whether a line is run when a function is called; else whichever test imports the module first seems to run it."""
+    return any(
+        isinstance(node, ast.FunctionDef) and node.body[0].lineno <= line <= (node.end_lineno or 0)
+        for node in ast.walk(tree)
+    )
 
 
 def _innermost(tree: ast.Module, line: int) -> int:
