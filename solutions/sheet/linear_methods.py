@@ -174,15 +174,6 @@ with evaluate(False):
         hint="Multiply by the inverse from the left.",
         place=Place.WORKING,
     )
-    LQR_BY_INVERSE = Formula(
-        "lqr-gain-by-inverse",
-        Lt(t),
-        inverse_of(t) * Gt(t),
-        title="LQR gain by an inverse and a matrix behind it",
-        source="Bertsekas 2017, section 3.1, with P = −K",
-        hint="Work out the inverse first.",
-        place=Place.WORKING,
-    )
     NO_TERMINAL = Misconception(
         "no-terminal-value", "The state at the last time T is rewarded too: there P is −Q, not 0."
     )
@@ -264,9 +255,8 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
         for code, head in zip(("St", "Ut", "Lt", "Pt"), notation[:4], strict=True)
     )
     if not (notation.costs or discounted or crossed):
-        return Quadratic(
-            LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, LQR_BRACKET, LQR_PRODUCT, LQR_SOLVED, LQR_BY_INVERSE
-        )
+        solved = LQR_SOLVED, _by_inverse(LQR_SOLVED)
+        return Quadratic(LQR_TERMINAL, LQR_GAIN, LQR_RICCATI, LQR_ACTION, LQR_BRACKET, LQR_PRODUCT, *solved)
     with evaluate(False):
         A, B, Q, R, N, after = At(t), Bt(t), Qt(t), Rt(t), Nt(t), value(t + 1)
         ahead = (gamma,) if discounted else ()
@@ -301,8 +291,14 @@ def quadratic(notation: Notation, *, discounted: bool, crossed: bool) -> Quadrat
             replace(LQR_BRACKET, right=bracket),
             replace(LQR_PRODUCT, right=both),
             replace(LQR_SOLVED, left=gain(t)),
-            replace(LQR_BY_INVERSE, left=gain(t)),
+            _by_inverse(replace(LQR_SOLVED, left=gain(t))),
         )
+
+
+def _by_inverse(solved: Formula) -> Formula:
+    """The gain by an inverse that is known already."""
+    with evaluate(False):
+        return replace(solved, right=inverse_of(t) * Gt(t))
 
 
 def _unit(size: int) -> tuple[tuple[int, ...], ...]:
