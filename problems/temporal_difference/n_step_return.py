@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "n-step return"
 SOURCE = "Sutton & Barto 2018, section 7.1"
-REVISION = 3
+REVISION = 2
 #: The run and the table of values are given whole: how far the return reaches into them is the question. Beyond the end
 #: of an episode it does not matter how many steps are asked for, which is a question, too.
 DISTRACTORS = ("values.*", "trajectory.rewards.*", "asked.*")
@@ -85,8 +85,7 @@ def draw(level: int, rng: Draws) -> Given:
         given = _given(rng, states, end, gamma, ((0, 1), (0, 3)))
         known = given.trajectory.rewards[0] + gamma * Fraction(given.values[b])
         return given.model_copy(update={"gamma": Parameter("gamma"), "known": known})
-    states, other = rng.choice((((a, b, c, d), (1, 1)), ((a, b, c, c), (1, 2)), ((a, b, c, c), (0, 3))))
-    given = _given(rng, states, end, gamma, ((0, 2), other))  # both returns end with the value of c
+    given = _given(rng, (a, b, c, d), end, gamma, ((0, 2), rng.choice(((1, 1), (1, 2)))))
     first, second, _ = given.trajectory.rewards
     known = first + gamma * second + gamma**2 * Fraction(given.values[c])
     return given.model_copy(update={"values": given.values | {c: Parameter("x")}, "known": known})

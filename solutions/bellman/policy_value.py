@@ -28,7 +28,7 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
         _in_the_long_run(given, work, known)
         return
     if not given.mdp.chooses:
-        work.say("There is nothing to choose, so there is only one policy, and $V$ is its $V^π$.")
+        work.say("There is nothing to choose: $π(a|s) = 1$ in every state, and $V$ is the $V^π$ of this one policy.")
     work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
 
 

@@ -7,6 +7,7 @@ from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -26,6 +27,7 @@ from rldrill.solutions.sheet.linear_methods import (
     ilqr,
     partial,
     partial_part,
+    reward_second,
     second,
 )
 from rldrill.solutions.work import Work
@@ -107,9 +109,15 @@ def _second(
                 indices = {"i": of, "j": first, "g": then}
                 found[frozenset((first, then))] = ZERO
                 if right != 0:
-                    value = work.step(SECOND_DERIVATIVE, into=second, right=right, **{**values, **indices})
+                    formula, into = (reward_second(), _of_reward) if of == "r" else (SECOND_DERIVATIVE, second)
+                    value = work.step(formula, into=into, right=right, **{**values, **indices})
                     found[frozenset((first, then))] = value
     return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
+
+
+def _of_reward(first: Any, then: Any) -> Any:
+    """The name of a second derivative of the reward."""
+    return second(put_in_name("r"), first, then)
 
 
 def _is_negative(matrix: AnyMatrix) -> bool:

@@ -152,7 +152,11 @@ def _root(work: Work, given: Given, formulas: Stationary, a: fmpq, b: fmpq, q: f
     if r and cost == 0 and gamma * left * left == 1:
         raise NoSolution("to bring the state to 0 can be made as cheap as one likes, so no action is the best")
     known = {"Ak": a, "Bk": b, "Qk": q, "Rk": r, "Nk": n, "gamma": gamma}
-    return work.step(formulas.root, betak=work.step(formulas.beta, **known), **known)
+    found: Value = work.step(formulas.root, betak=work.step(formulas.beta, **known), **known)
+    if is_rational(found) and found != 0 and (other := (n * n - q * r) / (gamma * b * b * found)) != 0:
+        side = "negative" if given.notation.costs else "positive"
+        work.say(f"The other root, ${told(other)}$, is {side}, so it is not the one.")
+    return found
 
 
 def _unmoved(given: Given) -> str:

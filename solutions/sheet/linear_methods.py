@@ -23,6 +23,7 @@ from rldrill.problems.mathematics import (
     variable,
 )
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
+from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import (
     Blocks,
     Counting,
@@ -719,6 +720,7 @@ def _second(line: Math, first: Math, then: Math) -> Math:
 second = quantity("secondD", _second)
 g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
+r_jk = quantity("rjk", lambda first, then: Script(variable("r"), row(first, then)))
 second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("ξ"), k) for k in by)), _POINT))
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
@@ -813,6 +815,13 @@ with evaluate(False):
         hint="The same inverse as for k, times the mixed Hessian.",
         place=Place.BEYOND,
     )
+
+
+@cache
+def reward_second() -> Formula:
+    """Second derivatives of the reward."""
+    with evaluate(False):
+        return replace(SECOND_DERIVATIVE, left=r_jk(j, g), right=second_at(put_in_name("r"), j, g))
 
 
 def ilqr(formula: Formula) -> Expr:
