@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "diagnosis"))
 import pinned as diagnoses
 
+from identities import digests
 from limits import limits
 from printing import page
 from rldrill.audit.checking import agrees
@@ -35,6 +36,7 @@ PAGES = Path(__file__).with_name("pages")
 SCREENS = Path(__file__).with_name("screens")
 PROBLEMS = Path(__file__).with_name("problems.json")
 FIELDS = Path(__file__).with_name("fields.json")
+IDENTITIES = Path(__file__).with_name("identities.json")
 DIAGNOSES = Path(__file__).with_name("diagnoses.json")
 PINNED = range(2)
 MEASURED = range(15)
@@ -73,6 +75,7 @@ varieties = {known.name: [variety(known.name, level, COUNTED) for level in known
 rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
 rewrite(MINUTES, wanted, times)
 rewrite(VARIETY, wanted, varieties)
+rewrite(IDENTITIES, wanted, {key: line for known in chosen for key, line in digests(known).items()})
 rewrite(DIAGNOSES, wanted, {key: line for known in chosen for key, line in diagnoses.pinned(known).items()})
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for kind in WIDTHS:
