@@ -34,6 +34,11 @@ def test_the_terminal_shows_every_formula_that_is_asked_for() -> None:
     assert all(title in printed for title in SECTIONS.values())
 
 
+def test_pictures_in_the_terminal_are_explained_where_they_need_it() -> None:
+    assert terminal(["backup-diagrams"])[-1].plain.startswith("    Open circles are states, filled dots are actions")
+    assert terminal(["fundamentals"])[-1].plain.strip()  # the last line is one of a picture
+
+
 def test_markdown_has_every_formula_in_latex() -> None:
     written = markdown([], workings=True)
     assert all(f"$${latex_equation(formula.equation())}$$" in written for formula in formulas().values())

@@ -516,6 +516,14 @@ def test_the_table_says_what_is_wrong_in_words(folder: Path) -> None:
     assert "25/8" in run(path, "--show-key")[1]
 
 
+@pytest.mark.parametrize(
+    ("enough", "code"), [("33%", 0), ("34%", 1), ("0.33", 0), ("0.34", 1), ("1/3", 0), ("100 %", 1), ("0", 0)]
+)
+def test_a_share_of_the_points_is_enough(folder: Path, enough: str, code: int) -> None:
+    path = write(folder, "third.toml", '["return.toml"]\na = "1/4"\nb = "1"\n["td.toml"]\na = 1\n')  # one of three
+    assert run(path, "--pass", enough)[0] == code
+
+
 @pytest.mark.parametrize("columns", ["40", "60", "80"])
 def test_narrow_terminals_fold_and_do_not_cut(folder: Path, columns: str) -> None:
     path = write(folder, "a.toml", '"td.toml" = 6.9')  # γ forgotten

@@ -16,6 +16,7 @@ from rldrill.problems.models import Model
 from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions.answers.judging import Outcome, judge
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.work import Note, Step
 
 Values = dict[str, fmpq]
 GAMMAS = st.sampled_from(["1/4", "1/2", "9/10"])
@@ -59,6 +60,17 @@ def best(mdp: dict[str, Any], gamma: str, values: Mapping[str, fmpq], state: str
 
 def rounds(mdp: dict[str, Any], start: Mapping[str, str], gamma: str, count: int) -> list[Any]:
     return list(solved("policy-iteration", mdp=mdp, start=start, gamma=gamma, rounds=count).values())
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_a_tie_is_told_only_where_several_actions_are_best(level: int) -> None:
+    for seed in range(10):
+        lines = draw("policy-iteration", level, seed).lines
+        several = sum(
+            isinstance(line, Step) and isinstance(line.value, tuple) and len(line.value) > 1 for line in lines
+        )
+        told = sum(isinstance(line, Note) and "there is a tie" in line.text for line in lines)
+        assert told <= several
 
 
 @given(models(), policies, GAMMAS)
