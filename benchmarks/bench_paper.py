@@ -5,7 +5,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.planning import plan
 from rldrill.print.formula_sheet import sheet_source
-from rldrill.print.paper import PAPERS, pdf
+from rldrill.print.paper import pdf
 from rldrill.print.worksheet import worksheet_source
 
 
@@ -16,4 +16,4 @@ def bench_worksheet_of_eight(benchmark: BenchmarkFixture) -> None:
 
 
 def bench_formula_sheet(benchmark: BenchmarkFixture) -> None:
-    benchmark(pdf, sheet_source([], PAPERS["a4"]))
+    benchmark(pdf, sheet_source([], "a4"))

@@ -7,10 +7,8 @@ import typst
 from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.planning import plan
 from rldrill.print.formula_sheet import sheet_source
-from rldrill.print.paper import PAPERS
 from rldrill.print.worksheet import worksheet_source
 
-A4 = PAPERS["a4"]
 FAMILIES = ("return", "policy-evaluation", "forward-kinematics")
 
 
@@ -23,4 +21,4 @@ def write(name: str, source: str, page: int = 0) -> None:
 
 exam = plan(Blueprint(problems=(Entry(topic=FAMILIES, count=3, level=1),), seed=4, title="Robot Learning"))
 write("worksheet.png", worksheet_source(exam, exam.versions[0]))
-write("sheet.png", sheet_source([], A4))
+write("sheet.png", sheet_source([], "a4"))

@@ -167,7 +167,7 @@ def test_twelve_problems_for_an_hour_take_seven_pages_at_most(tmp_path: Path) ->
 
 
 def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
-    long, short = draw("expected-return", 3, 1), draw("markov-property", 1, 1)
+    long, short = draw("expected-return", 3, 6), draw("markov-property", 1, 1)
     rooms = {
         (item.problem.family.name, part.label): space_of(item, part, "normal")
         for item in (long, short)
