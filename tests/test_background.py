@@ -1,27 +1,12 @@
 """Work in a process of its own: its steps, its result and its errors arrive here, and so does its end."""
 
 import os
-import signal
-from collections.abc import Callable
 
 import pytest
 
+from beside import is_ended, refuses, three_steps
 from rldrill.background import apart
 from rldrill.problems.errors import UsageError
-
-
-def three_steps(advance: Callable[[], None]) -> tuple[int, ...]:
-    for _ in range(3):
-        advance()
-    return (os.getpid(),)
-
-
-def refuses(_: Callable[[], None]) -> None:
-    raise UsageError("There are too few problems.")
-
-
-def is_ended(_: Callable[[], None]) -> None:
-    os.kill(os.getpid(), signal.SIGTERM)
 
 
 def test_steps_and_the_result_arrive_from_another_process() -> None:
