@@ -1,12 +1,13 @@
 """The distance at the start, what is left of it after k sweeps, and the first k at which little enough is left."""
 
-from math import log
 from typing import Any
+
+import sympy
 
 from rldrill.problems.dynamic_programming.contraction import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import ONE, NoSolution, Value, decimal, exact, sign
+from rldrill.solutions.exact import ONE, NoSolution, Value, decimal, exact, sign, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.dynamic_programming import (
@@ -35,7 +36,7 @@ def solve(given: Given, work: Work) -> None:
     enough = _sweeps(work, known, accuracy)
     if enough > WRITTEN_OUT:
         distance, gamma = known["distance"][0], known["gamma"]
-        least = log(at(distance / accuracy)) / log(at(ONE / gamma))
+        least = float(sympy.log(to_sympy(distance / accuracy)) / sympy.log(to_sympy(ONE / gamma)))
         work.say(
             f"Logarithms lead to $k$ quickly: $γ^k·{text_of(distance)} ≤ {text_of(accuracy)}$ for $k ≥ "
             f"ln({text_of(distance / accuracy)})/ln({text_of(ONE / gamma)}) ≈ {least:.2f}$."
