@@ -112,17 +112,22 @@ parameters.register(RationalFunction, lambda value: frozenset((value.parameter,)
 
 
 @singledispatch
-def value_at(value: Value, point: fmpq) -> Value:
+def value_at(value: Value, point: Value) -> Value:
     """The value with a number in place of the open parameter.
 
     Raises:
         NotReal: there is none.
     """
     expression = to_sympy(value)
-    return simplest(expression.subs(dict.fromkeys(expression.free_symbols, rational(point))))
+    put_in = simplest(expression.subs(dict.fromkeys(expression.free_symbols, to_sympy(point))))
+    if isinstance(put_in, sympy.Expr) and put_in.has(sympy.zoo, sympy.nan):
+        raise NotReal(f"there is a pole at {to_sympy(point)}")
+    return put_in
 
 
-value_at.register(RationalFunction, RationalFunction.__call__)
+@value_at.register
+def _(value: RationalFunction, point: Value) -> Value:
+    return value(point) if type(point) is fmpq else value_at(to_sympy(value), point)
 
 
 @singledispatch

@@ -34,8 +34,8 @@ def solve(given: Given, work: Work) -> None:
         return
     accuracy = exact(given.accuracy)
     enough = _sweeps(work, known, accuracy)
-    if enough > WRITTEN_OUT:
-        distance, gamma = known["distance"][0], known["gamma"]
+    distance, gamma = known["distance"][0], known["gamma"]
+    if enough > WRITTEN_OUT and sign(distance - accuracy) > 0:  # somebody's own distance may be below
         least = float(sympy.log(to_sympy(distance / accuracy)) / sympy.log(to_sympy(ONE / gamma)))
         work.say(
             f"Logarithms lead to $k$ quickly: $γ^k·{text_of(distance)} ≤ {text_of(accuracy)}$ for $k ≥ "

@@ -157,6 +157,14 @@ def test_letters_are_open_until_a_number_is_put_in(pair: Pair) -> None:
     assert (decimal(value) is None) == bool(parameters(value))
 
 
+def test_what_is_put_in_for_a_letter_may_be_a_root() -> None:
+    assert equivalent(value_at(gamma**2 + 1 / (1 + gamma), sqrt(2)), 1 + sqrt(2))  # 2 + (√2 − 1)
+    with pytest.raises(NotReal, match="pole"):
+        value_at(1 / (1 - 2 * gamma**2), sqrt(2) / 2)
+    with pytest.raises(NotReal, match="pole"):
+        value_at(1 / (1 - gamma), fmpq(1))
+
+
 @pytest.mark.parametrize(
     ("value", "count"),
     [
