@@ -177,10 +177,6 @@ def question(given: Given) -> Question:
     pairs = f"pairs that it draws at random: first {drawn}" if count > 1 else f"a pair that it draws at random: {drawn}"
     blocks = (
         *run_situation(given, action_values_table(given.values)),
-        Paragraph(
-            "The agent learns with Dyna-Q. For every pair of state and action that it has tried, its model holds the "
-            "reward $r̂(s, a)$ and the next state $ŝ(s, a)$ that followed when it tried the pair last."
-        ),
         *_model_blocks(given),
         Paragraph(
             "After every transition the agent updates $Q$ by Q-learning, with the values that are current then, and "
@@ -203,9 +199,14 @@ def _asked(pairs: tuple[tuple[str, str], ...], by: str) -> str:
 
 
 def _model_blocks(given: Given) -> tuple[Block, ...]:
-    """The model before the run, and what has changed since without being noticed."""
+    """What a model holds, what it holds before the run, and what has changed since without being noticed."""
+    told = (
+        "The agent learns with Dyna-Q. Its model holds, for every pair of state and action that it has tried, the "
+        "reward $r̂(s, a)$ and the next state $ŝ(s, a)$ that followed when it tried the pair last. Before the run the "
+        "model is "
+    )
     if not given.model:
-        return (Paragraph("Before the run the model is empty."),)
+        return (Paragraph(f"{told}empty."),)
     table = Table(
         header=("$s$", "$a$", "$r̂(s, a)$", "$ŝ(s, a)$"),
         rows=tuple((entry.state, entry.action, f"${shown(entry.reward)}$", entry.next) for entry in given.model),
@@ -214,5 +215,5 @@ def _model_blocks(given: Given) -> tuple[Block, ...]:
         f"{entry.action} in {entry.state} now leads to {entry.next} with the reward ${shown(entry.reward)}$"
         for entry in given.changed
     )
-    told = f"The environment has changed since: {changes}. The agent has not tried this yet."
-    return (Paragraph("Before the run the model is this:"), table, *([Paragraph(told)] if changes else []))
+    since = f"The environment has changed since: {changes}. The agent has not tried this yet."
+    return (Paragraph(f"{told}this:"), table, *([Paragraph(since)] if changes else []))

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from rldrill.problems.document import Block, Paragraph
+from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Parameter, shown
 from rldrill.problems.family import Givens, Question
@@ -87,6 +87,9 @@ _PAIRS = (
     ("1/2", "3/4"),
 )
 
+
+#: Episodes of so many steps fit on a line.
+_IN_A_LINE = 3
 
 #: What happens in an episode of one step, and in one of two.
 _MOVES = {1: (("a", "."),), 2: (("a", "b"), ("b", "."))}
@@ -170,10 +173,6 @@ def question(given: Given) -> Question:
     """Both policies and the episodes; the ratios, then the estimates."""
     several = len(given.episodes) > 1
     left_open = [name for name in given.parameters() if name != "gamma"]
-    runs: list[Block] = []
-    for number, episode in enumerate(given.episodes, 1):
-        runs += [Paragraph(f"Episode {number}:")] if several else []
-        runs.append(timeline(episode))
     blocks = (
         Paragraph(
             "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. They take "
@@ -185,10 +184,10 @@ def question(given: Given) -> Question:
             for p in left_open
         ),
         Paragraph(
-            f"The agent has followed $b$ for {f'{len(given.episodes)} episodes' if several else 'one episode'}. "
-            f"{discount(given.gamma)}"
+            f"{discount(given.gamma)} The agent has followed $b$ for "
+            f"{f'these {len(given.episodes)} episodes' if several else 'this episode'}:"
         ),
-        *runs,
+        *_runs(given.episodes),
         *terminal_note(tuple(dict.fromkeys(state for episode in given.episodes for state in episode.terminal))),
     )
     entries = tuple(f"ρ_{number}" for number in range(1, len(given.episodes) + 1))
@@ -213,6 +212,27 @@ def question(given: Given) -> Question:
             Part(f"What is the estimate of {value} by weighted importance sampling{in_open(given)}?", Number()),
         ),
     )
+
+
+def _runs(episodes: tuple[Trajectory, ...]) -> tuple[Block, ...]:
+    """Short episodes as the lines of a table, in which a dash stands for what comes after the end; others drawn."""
+    steps = max(len(episode.rewards) for episode in episodes)
+    if len(episodes) == 1:
+        return (timeline(episodes[0]),)
+    if steps > _IN_A_LINE:
+        return tuple(
+            block
+            for number, episode in enumerate(episodes, 1)
+            for block in (Paragraph(f"Episode {number}:"), timeline(episode))
+        )
+    header = [f"${letter}$" for time in range(steps) for letter in (f"s_{time}", f"a_{time}", f"r_{time + 1}")]
+    rows = []
+    for number, episode in enumerate(episodes, 1):
+        left = zip(episode.states, episode.actions, episode.rewards, strict=False)
+        cells = [cell for state, action, reward in left for cell in (state, action, f"${shown(reward)}$")]
+        cells.append(episode.states[-1])
+        rows.append((f"${number}$", *cells, *["–"] * (len(header) + 1 - len(cells))))
+    return (Table(header=("episode", *header, f"$s_{steps}$"), rows=tuple(rows)),)
 
 
 def _listed(entries: tuple[str, ...]) -> str:

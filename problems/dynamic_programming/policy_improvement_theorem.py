@@ -1,12 +1,13 @@
 """The worth of one step of another policy, and whether the policy improvement theorem applies to it."""
 
+from collections.abc import Sequence
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
+from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Probability
+from rldrill.problems.exact import Exact, Probability, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Name, Named, Transition, check_policy, check_state_values, model_blocks
@@ -16,11 +17,9 @@ from rldrill.problems.settings import Shape, draw_setting
 from rldrill.problems.valued import (
     UNITS,
     check_policy_values,
-    choices_table,
     deterministic,
     draw_valued,
     known_or_asked,
-    policy_blocks,
 )
 
 TITLE = "Policy improvement theorem"
@@ -90,16 +89,17 @@ def _reached(rows: tuple[Transition, ...], state: str) -> bool:
 
 
 def question(given: Given) -> Question:
-    """The model and both policies, with the values of the first or asking for them."""
-    states = given.mdp.states
-    known, asked = known_or_asked(given.values, states)
+    """The model and both policies in one table, with the values of the first or asking for them."""
+    _, asked = known_or_asked(given.values, given.mdp.states)
+    rows: list[tuple[str, Sequence[str]]] = [("π(s)", list(given.policy.values()))]
+    if given.values is not None:
+        rows.append(("V^π(s)", [f"${shown(given.values[state])}$" for state in given.policy]))
+    rows.append(("π'(s)", [given.other[state] for state in given.policy]))
+    known = "" if given.values is None else ", its values $V^π$"
     blocks = (
         *model_blocks(given.mdp),
-        *policy_blocks(deterministic(given.policy), given.mdp),
-        Paragraph("Another policy $π'$ is:"),
-        choices_table(given.other, "π'"),
-        Paragraph(discount(given.gamma)),
-        *known,
+        Paragraph(f"{discount(given.gamma)} A policy $π${known} and another policy $π'$ are:"),
+        Table(header=("$s$", *given.policy), rows=tuple((f"${left}$", *cells) for left, cells in rows)),
     )
     parts = (
         *asked,
