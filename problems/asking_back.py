@@ -80,9 +80,14 @@ class Rates(NamedTuple):
 
 
 def draw_rates(rng: Draws) -> Rates:
-    """Rates whose products with the values have small denominators, also after two updates."""
-    gamma, unit = rng.choice((("1/2", 2), ("1/2", 4), ("1/4", 4), ("3/4", 4), ("4/5", 5), ("2/5", 5)))
-    return Rates(Fraction(1, 2), Fraction(gamma), unit)
+    """Rates whose products with the values have small denominators, also after two updates.
+
+    They differ: where they are equal, a person who exchanges them is not found out.
+    """
+    alpha, gamma, unit = rng.choice(
+        (("1/4", "1/2", 4), ("1/2", "1/4", 4), ("1/2", "3/4", 4), ("1/2", "4/5", 5), ("1/2", "2/5", 5))
+    )
+    return Rates(Fraction(alpha), Fraction(gamma), unit)
 
 
 def readable(
@@ -142,7 +147,7 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
     named, (action,) = draw_moves(rng, setting, (("a", "bc"[:steps]),), actions)
     state, *others = (named[letter] for letter in "abc"[: steps + 1])
     alpha = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "3/5")
-    gamma = rng.fraction("1/2", "1/4", "3/4", "1/5", "2/5", "4/5")
+    gamma = rng.fraction(*(each for each in ("1/2", "1/4", "3/4", "1/5", "2/5", "4/5") if Fraction(each) != alpha))
     rows = draw_rows(rng, [name for name in setting.states if name in (state, *others)], actions, gamma.denominator)
     following = [rng.choice([name for name in actions if rows[other][name] < max(rows[other].values())])
                  for other in others]  # fmt: skip

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 5
+REVISION = 6
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",
@@ -61,8 +61,6 @@ def draw(level: int, rng: Draws) -> Given:
         return _back(rng)
     visits = {1: ("ab",), 2: ("aba", "abc", "abb", "ab."), 3: ("abac.", "abcb", "abab")}[level]
     alpha, gamma, unit = draw_rates(rng)
-    while alpha == gamma:  # or the one could be taken for the other
-        alpha, gamma, unit = draw_rates(rng)
     trajectory, values = draw_action_run(rng, rng.choice(visits), 2 if level == 1 else 3, last=False, same=level == 3)
     rows = draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), unit)
     first = rng.choice((1, 2))

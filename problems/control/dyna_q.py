@@ -20,7 +20,7 @@ from rldrill.problems.settings import draw_moves, draw_setting, possible
 
 TITLE = "Dyna-Q"
 SOURCE = "Sutton & Barto 2018, sections 8.2 and 8.3"
-REVISION = 3
+REVISION = 4
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "model.0.2",  # what the model held is replaced by what was tried last
@@ -117,7 +117,7 @@ def draw(level: int, rng: Draws) -> Given:
     """One transition and a remembered pair; then one or two, the model often empty; then a changed environment."""
     setting = draw_setting(rng)
     choices = rng.sample(setting.actions, 2)
-    alpha, gamma, unit = draw_rates(rng) if level > 1 else Rates(Fraction(1, 2), Fraction(1, 2), 4)
+    alpha, gamma, unit = draw_rates(rng) if level > 1 else Rates(Fraction(1, 2), Fraction(1, 4), 4)
     after = "" if level == 1 or rng.chance(Fraction(1, 2)) else rng.choice("ac.")
     known = "b" if level == 1 else "c"
     if level == 3:  # what was tried before led elsewhere, and what is remembered now does

@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 4
+REVISION = 5
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -94,11 +94,13 @@ def _back(rng: Draws) -> Given:
     """A value from which ε, α or γ of an ε-greedy policy's update follows."""
     sought, epsilon = rng.choice(("epsilon", "epsilon", "alpha", "gamma")), _drawn_epsilon(rng)
     found = draw_back(rng, draw_setting(rng), 3, _greedily(epsilon), sought)
+    if epsilon in (found["alpha"], found["gamma"]):
+        return _back(rng)
     return EpsilonGreedy(**{"epsilon": epsilon} | found)
 
 
 def _drawn_epsilon(rng: Draws) -> Fraction:
-    return rng.fraction("3/4", "3/5", "3/8", "3/10")
+    return rng.fraction("3/5", "3/8", "3/10")
 
 
 def _greedily(epsilon: Fraction) -> Worth:

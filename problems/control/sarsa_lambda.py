@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 6
+REVISION = 7
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (
@@ -62,8 +62,8 @@ class Given(BackRun):
         return tuple(dict.fromkeys((*self.updated, *before)))
 
 
-#: γ and λ, whose product is a simple number.
-_DECAYS = (("1", "1/2"), ("1/2", "1/2"), ("3/4", "2/3"))
+#: α, γ and λ whose product is a simple number; different ones, or an exchange of two would go unnoticed.
+_RATES = (("1/4", "1", "1/2"), ("1/2", "3/4", "2/3"))
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -75,7 +75,8 @@ def draw(level: int, rng: Draws) -> Given:
     visits = {1: ("ab",), 2: ("ab.", "aba", "aab", "aa.", "abb", "abc"), 3: (*again, "aab")}[level]
     shape = rng.choice(again[::2] if replacing else visits)
     trajectory, values = draw_action_run(rng, shape, 2 if level == 1 else 3, same=level > 1)
-    gamma, lam = map(Fraction, rng.choice(_DECAYS[: 1 if level == 2 and len(set(shape)) < len(shape) else level]))
+    comes_back = len(set(shape)) < len(shape)
+    alpha, gamma, lam = map(Fraction, rng.choice(_RATES[: 2 if level == 2 and not comes_back else 1]))
     traces = None
     if level == 1:
         traced = trajectory.states[1], rng.choice(tuple(values[trajectory.states[1]]))
@@ -85,8 +86,8 @@ def draw(level: int, rng: Draws) -> Given:
     given = Given(
         trajectory=trajectory,
         values=draw_rows(rng, tuple(values), tuple(next(iter(values.values()))), 4 if level == 2 else 2),
-        alpha=Fraction(1, 2),
-        gamma=Fraction(1) if level == 3 else gamma,
+        alpha=Fraction(1, 2) if level == 3 else alpha,
+        gamma=gamma,
         lam=Parameter("lambda") if level == 3 else lam,
         traces=traces,
         replacing=replacing,
@@ -115,7 +116,7 @@ def _back(rng: Draws) -> Given:
     first, second = zip(run.states[:2], run.actions[:2], strict=True)
     old, middle = rows[first[0]][first[1]], rows[second[0]][second[1]]
     alpha, lam = rng.fraction("1/2", "1/4"), rng.fraction("1/2", "1/4", "3/4", "2/5", "4/5")
-    gamma = rng.fraction("1", "1/2")
+    gamma = rng.fraction("1", *(["1/2"] if alpha != Fraction(1, 2) else []))
     moved = old + alpha * (run.rewards[0] + gamma * middle - old)
     last = run.states[2]
     ahead = Fraction(0) if last in run.terminal else rows[last][run.actions[2]]

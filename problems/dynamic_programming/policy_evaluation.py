@@ -26,7 +26,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 5
+REVISION = 6
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -84,17 +84,17 @@ def draw(level: int, rng: Draws) -> Given:
         start=start if started else None,
         in_place=in_place,
     )
-    return given if level == 3 or _readable(given, gamma) else draw(level, rng)
+    return given if level == 3 or _readable(given, gamma, 2 if level == 1 else 100) else draw(level, rng)
 
 
-def _readable(given: Given, gamma: Fraction) -> bool:
-    """Whether all probabilities and the number of sweeps matter, and whether the numbers stay small."""
+def _readable(given: Given, gamma: Fraction, below: int) -> bool:
+    """Whether all probabilities and the number of sweeps matter, and the numbers are small, also below the line."""
     values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
     for _ in range(given.sweeps):
         values = _swept(given, values, gamma)
         if not values:
             return False
-    small = all(value.denominator <= 100 and abs(value.numerator) <= 300 for value in values.values())
+    small = all(value.denominator <= below and abs(value.numerator) <= 300 for value in values.values())
     return small and _swept(given, values, gamma) not in ({}, values)
 
 

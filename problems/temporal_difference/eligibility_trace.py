@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Eligibility traces"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Reversible):
@@ -66,7 +66,7 @@ def draw(level: int, rng: Draws) -> Given:
     """Two visits and a return; then four or five visits; then mostly with a letter left open, sometimes to be found."""
     setting = draw_setting(rng)
     a, b, c = rng.shuffled(setting.states)[:3]
-    gamma, lam = (rng.fraction("1/2", "2/3"), Fraction(1, 2)) if level == 1 else rng.choice(_DECAYS)
+    gamma, lam = rng.choice(_DECAYS)
     if level == 1:
         return Given(states=(a, b, a), gamma=gamma, lam=lam, asked=(2,))
     tours = (a, b, a, c, a), (a, b, a, c, b), (a, a, b, c, a), (a, b, c, b, a), (a, b, b, a), (a, b, a, b), (a, a, b, a)

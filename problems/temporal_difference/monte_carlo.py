@@ -27,7 +27,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Monte Carlo prediction"
 SOURCE = "Sutton & Barto 2018, sections 5.1 and 6.1"
-REVISION = 4
+REVISION = 5
 
 #: A state; or a state and an action.
 Visited: TypeAlias = str | tuple[str, str]
@@ -129,7 +129,7 @@ def _episode(rng: Draws, states: tuple[str, ...], terminal: str) -> OfStates:
     return OfStates(
         trajectory=Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,)),
         values=values,
-        alpha=rng.fraction("1/2", "1/4", "1/5"),
+        alpha=rng.fraction(*(each for each in ("1/2", "1/4", "1/5") if Fraction(each) != gamma)),
         gamma=gamma,
         visits=rng.choice(("first", "every")),
     )

@@ -28,7 +28,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "TD(λ), backward view"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(ValueRun):
@@ -85,7 +85,7 @@ def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> Given:
     """A run whose first update gives whole values."""
     terminal = tuple(state for state in states if state == end)
     gamma, lam = rng.choice(_DECAYS)
-    alpha = rng.fraction("1/4") if lam == Fraction(1, 2) else rng.fraction("1/2", "1/2", "1/4")
+    alpha = rng.fraction("1/4") if Fraction(1, 2) in (gamma, lam) else rng.fraction("1/2", "1/2", "1/4")
     left = [state for state in sorted(set(states)) if state not in terminal]
     values = draw_values(rng, left, gamma)
     V, e = values | dict.fromkeys(terminal, Fraction(0)), dict.fromkeys(left, Fraction(0))
