@@ -7,7 +7,7 @@ or in quotes is set upright,
 """
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, TypeAlias
@@ -161,6 +161,40 @@ def number(value: object) -> Math:
     if denominator:
         magnitude = Fraction(magnitude, Glyph(denominator, "number"))
     return row(operator("−"), magnitude) if minus else magnitude
+
+
+def signs(math: Math) -> Iterator[str]:
+    """All that is written in mathematics, sign by sign, with marks for fractions, roots and brackets."""
+    match math:
+        case Glyph(text, _):
+            yield text
+        case Row(items):
+            for item in items:
+                yield from signs(item)
+        case Fraction(numerator, denominator):
+            yield "/"
+            yield from signs(numerator)
+            yield from signs(denominator)
+        case Script(body, below, above) | Big(body, below, above):
+            yield from signs(body) if not isinstance(body, str) else (body,)
+            yield from () if below is None else ("_", *signs(below))
+            yield from () if above is None else ("^", *signs(above))
+        case Fence(body, left, right):
+            yield left
+            yield from signs(body)
+            yield right
+        case Tabular(rows, left, right):
+            yield left
+            for line in rows:
+                for cell in line:
+                    yield from signs(cell)
+            yield right
+        case Root(body) | Marked(body):
+            yield "√" if isinstance(math, Root) else "mark"
+            yield from signs(body)
+        case Accent(body, mark):
+            yield mark
+            yield from signs(body)
 
 
 _TOKEN = re.compile(

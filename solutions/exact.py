@@ -78,14 +78,18 @@ _simplest.register(sympy.Rational, fraction)
 
 
 def tidy(value: Any) -> Any:
-    """A number as one writes it: square roots (and π) multiplied out, no root below the line; logarithms of primes."""
+    """A number as one writes it: square roots (and π) multiplied out, no root below the line; logarithms of primes.
+
+    A logarithm under a root stays as it is: √(ln 8) does not get simpler.
+    """
     if not isinstance(value, sympy.Expr):
         return value
     surd = surds.read(value)
     if surd is not None:
         return surds.write(surd)
     numbers = [each.args[0] for each in value.atoms(sympy.log)]
-    if not numbers or value.free_symbols or digits(value) > _MOST_FACTORED:
+    rooted = any(each.exp.is_Rational and each.base.has(sympy.log) for each in value.atoms(sympy.Pow))
+    if not numbers or rooted or value.free_symbols or digits(value) > _MOST_FACTORED:
         return value
     prime = all(number.is_Integer and sympy.isprime(number) for number in numbers)
     return value if prime else sympy.expand_log(value, factor=True)

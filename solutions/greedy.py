@@ -9,16 +9,35 @@ from rldrill.solutions.sheet.control import EPSILON_GREEDY, EPSILON_GREEDY_TIED
 from rldrill.solutions.work import Work
 
 
-def epsilon_greedy(work: Work, state: str, values: Mapping[str, Value], epsilon: Value) -> dict[str, Value]:
+def best_actions(values: Mapping[str, Value]) -> tuple[str, ...]:
+    """The actions of greatest value.
+
+    Raises:
+        NoSolution: which they are depends on what is left open.
+    """
+    best: tuple[str, ...] = arg_max(tuple(values), tuple(values.values()))
+    return best
+
+
+def epsilon_greedy(
+    work: Work, state: str, values: Mapping[str, Value], epsilon: Value, label: str | None = None
+) -> dict[str, Value]:
     """The probability of every action of a state; tied best actions share that of the greedy choice.
+
+    Args:
+        work: where the steps are written.
+        state: the state.
+        values: the value of each of its actions.
+        epsilon: the exploration rate.
+        label: when it is, where the policy changes with the values.
 
     Raises:
         NoSolution: which action is best depends on what is left open.
     """
-    best = arg_max(tuple(values), tuple(values.values()))
+    best = best_actions(values)
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
-    return {action: work.step(formula, s=state, a=action, **known) for action in values}
+    return {action: work.step(formula, s=state, a=action, label=label, **known) for action in values}
 
 
 def taken(best: Mapping[str, Sequence[str]]) -> str:

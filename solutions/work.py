@@ -9,7 +9,7 @@ from flint import fmpq
 from sympy import Expr
 
 from rldrill.problems.document import Equation
-from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row
+from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row, signs
 from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
@@ -90,7 +90,7 @@ class Step(_Applied):
         if self.value is not None:  # an equation of a system has no value of its own
             short = reduced(written)
             rights += [alone(short), alone(inverted(short)), shown_value(self.value)]
-        distinct = tuple(dict.fromkeys(rights))
+        distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():
             left = row(mathematics(label), punctuation(":"), left)
@@ -102,6 +102,19 @@ class Step(_Applied):
         if self.label is not None:
             return self.label
         return f"t = {self.known['t']}" if self.sign == "←" and "t" in self.known else ""
+
+
+def _without_detours(rights: Iterable[Math]) -> tuple[Math, ...]:
+    """The right sides without those that lead back to one before, which has the same signs in another order."""
+    kept: dict[tuple[str, ...], Math] = {}
+    for right in rights:
+        spelled = tuple(sorted(sign for sign in signs(right) if sign != "+"))
+        if spelled in kept:
+            while next(reversed(kept)) != spelled:
+                kept.popitem()
+        else:
+            kept[spelled] = right
+    return tuple(kept.values())
 
 
 @dataclass(frozen=True)

@@ -79,8 +79,9 @@ def _explore(given: Bounds, work: Work, averages: dict[str, Value]) -> None:
         if set(chosen) & set(greedy):
             work.say(f"The greatest bound is that of {chosen[0]}, which has the greatest average, too.")
         else:
+            better = "greater" if len(averages) == 2 else "greatest"
             work.say(
-                f"UCB takes {chosen[0]}, although {greedy[0]} has the greater average: {chosen[0]} is less certain."
+                f"UCB takes {chosen[0]}, although {greedy[0]} has the {better} average: {chosen[0]} is less certain."
             )
         work.answer({NEXT: chosen})
 

@@ -4,7 +4,7 @@ from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, 
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along, oracle_along
 from rldrill.solutions.exact import ONE, Value, exact
-from rldrill.solutions.greedy import epsilon_greedy
+from rldrill.solutions.greedy import best_actions, epsilon_greedy
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
@@ -23,23 +23,37 @@ def solve(given: Given, work: Work) -> None:
     """One update for every transition."""
     run = given.trajectory
     known = knowns.action_run(given)
+    written: dict[tuple[str, tuple[str, ...]], dict[str, Value]] = {}
     for time, pair in enumerate(zip(run.states[:-1], run.actions, strict=False)):
         after = run.states[time + 1]
         values = {action: known["Q"][after, action] for action in known["actions"][after]}
-        known["pi"] = {(action, after): chance for action, chance in _policy(given, work, after, values).items()}
+        chances = _policy(given, work, time, values, written)
+        known["pi"] = {(action, after): chance for action, chance in chances.items()}
         known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
     answer_along(given, work, known["Q"], given.updated)
 
 
-def _policy(given: Given, work: Work, state: str, values: dict[str, Value]) -> dict[str, Value]:
-    """The probabilities of the actions of a state that is entered."""
-    if state in given.trajectory.terminal:
+def _policy(
+    given: Given,
+    work: Work,
+    time: int,
+    values: dict[str, Value],
+    written: dict[tuple[str, tuple[str, ...]], dict[str, Value]],
+) -> dict[str, Value]:
+    """The probabilities of the actions of the state that is entered; where the same are written, not once more."""
+    run = given.trajectory
+    state = run.states[time + 1]
+    if state in run.terminal:
         return dict.fromkeys(values, ONE)
     match given:
         case FixedPolicy():
             return {action: exact(given.policy[state].get(action, 0)) for action in values}
         case EpsilonGreedy():
-            return epsilon_greedy(work, state, values, exact(given.epsilon))
+            here = (state, best_actions(values))
+            if here not in written:
+                label = f"t = {time}" if len(run.rewards) > 1 else None
+                written[here] = epsilon_greedy(work, state, values, exact(given.epsilon), label)
+            return written[here]
 
 
 def oracle(given: Given) -> Answers:

@@ -167,7 +167,7 @@ def without_slots(expression: Expr) -> Expr:
     if isinstance(expression, Leaf) or not expression.has(Slot):
         return expression
     if expression.is_Mul:
-        return product_of(map(_bracket, expression.args))
+        return _without_minus_one(product_of(map(_bracket, expression.args)))
     arguments = map(without_slots, expression.args)
     if expression.is_Add and not isinstance(expression, Node):
         return sum_of(arguments)
@@ -175,6 +175,17 @@ def without_slots(expression: Expr) -> Expr:
         return power_of(*arguments)
     plain = expression.is_Function and not isinstance(expression, Node)
     return expression.func(*arguments, evaluate=False) if plain else expression.func(*arguments)
+
+
+def _without_minus_one(product: Expr) -> Expr:
+    """The product with a minus before it for the factors −1 that were put in: they fill the line as factors 1 do."""
+    factors = Mul.make_args(product)
+    kept = [factor for factor in factors if not (isinstance(factor, Negative) and factor.args[0] == -1)]
+    others = [factor for factor in kept if factor != -1]
+    if len(kept) == len(factors) or not others or any(factor.is_commutative is False for factor in others):
+        return product
+    odd = (len(factors) - len(others)) % 2
+    return Mul._from_args([sympy.S.NegativeOne, *others]) if odd else product_of(others)
 
 
 def _bracket(factor: Expr) -> Expr:
@@ -283,6 +294,8 @@ def _inner(term: Expr) -> Expr:
         return Mul._from_args(factors)
     if term.is_Pow and term.args[1] == -1 and term.args[0].is_Mul and term.args[0].has(sympy.factorial):
         return Pow(_inner(term.args[0]), -1, evaluate=False)
+    if term.is_Pow and term.args[1] == sympy.S.Half and term.args[0].has(sympy.log):  # nothing gets simpler under it
+        return term
     if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):
         return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
@@ -296,7 +309,7 @@ def _in_a_product(factor: Expr) -> Expr:
 def _worked_out(expression: Expr) -> Expr:
     value = evaluated(expression)
     if isinstance(value, Expr) and value.is_polynomial(*value.free_symbols):
-        value = sympy.expand(value)
+        value = sympy.expand(value, log=False)
     # What holds exponentials or roots does not get simpler, only reordered.
     if expression.has(VectorLeaf):
         return VectorLeaf(value.applyfunc(sympy.cancel))

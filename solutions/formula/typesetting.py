@@ -273,6 +273,8 @@ def _product(factors: Sequence[Expr], *, leads: bool = False) -> Math:
         return row(_product(scalars), *dot, _product(rest))
     if flat[0].is_Number and flat[0].is_negative and len(flat) > 1:
         return row(_MINUS, _product([-flat[0], *flat[1:]]))
+    if (together := _under_one_root(flat)) is not None:
+        return typeset(together)
     if _is_half_root(flat):  # 3√2/2, not 3/2·√2
         head, *roots = flat
         above = roots if head.p == 1 else [sympy.Integer(head.p), *roots]
@@ -307,6 +309,24 @@ def _is_half_root(factors: Sequence[Expr]) -> bool:
     )
 
 
+def _under_one_root(factors: Sequence[Expr]) -> Expr | None:
+    """The roots of a whole number and of a logarithm as one: √((ln 7)/2) for 1/2·√2·√(ln 7)."""
+    match factors:
+        case [*heads, sympy.Pow(args=(under, sympy.S.Half)), sympy.Pow(args=(sympy.log() as log, sympy.S.Half))]:
+            pass
+        case _:
+            return None
+    if not under.is_Integer or len(heads) > 1 or not all(head.is_Rational for head in heads):
+        return None
+    head = sympy.Mul(*heads)
+    if head.q % under == 0:
+        head, radicand = head * under, sympy.Mul(log, sympy.Pow(under, -1, evaluate=False), evaluate=False)
+    else:
+        radicand = sympy.Mul(under, log, evaluate=False)
+    root = sympy.Pow(radicand, sympy.S.Half, evaluate=False)
+    return root if head == 1 else sympy.Mul(head, root, evaluate=False)
+
+
 def _reciprocal(factor: Expr) -> bool:
     return bool(factor.is_Pow and factor.args[1] is sympy.S.NegativeOne and factor.is_commutative is not False)
 
@@ -332,7 +352,7 @@ def _needs_dot(before: Expr, factor: Expr) -> bool:
     if second is Look.NUMBER or (before == factor and first is Look.LETTER):
         return True
     if first is Look.NUMBER:
-        return second is not Look.LETTER
+        return second is not Look.LETTER or (isinstance(before, Node) and bool(before.is_commutative))
     return bool(factor.is_Add and before.is_Add)
 
 

@@ -26,8 +26,9 @@ from rldrill.solutions.sheet import formulas
 from rldrill.solutions.sheet.bayes import BIC, KALMAN_GAIN, KALMAN_MOVE_COVARIANCE, Thetas, heads, theta
 from rldrill.solutions.sheet.bellman import BELLMAN_OPTIMALITY_Q, BELLMAN_V
 from rldrill.solutions.sheet.beyond_the_sheet import JOINT_RATES
-from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO
+from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO, UCB
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
+from rldrill.solutions.sheet.fundamentals import RELATIVE_FREQUENCY, RETURN
 from rldrill.solutions.sheet.temporal_difference import TD_ZERO
 from rldrill.solutions.work import Step, Work
 
@@ -190,6 +191,7 @@ WRITTEN = {
     "2 - 3sqrt(2)/4": "(8 − 3√2)/4", "sqrt(1 + sqrt(2))": "√(1 + √2)", "2^(1/3)": "2^(1/3)",
     "e": "e", "e^2": "e²", "-e^2": "−e²", "e^(-2)": "e⁻²", "2e": "2·e", "2 - e": "2 − e", "exp(-3/4)": "exp(−3/4)",
     "2exp(-1/8)": "2·exp(−1/8)", "1/(1 + e)": "1/(1 + e)", "e/(1 + e)": "e/(1 + e)", "ln 3": "ln 3", "-ln 3": "−ln 3",
+    "sqrt(ln(8)/2)": "√((ln 8)/2)", "3sqrt(ln(7)/12)": "√(3·ln 7)/2", "2sqrt(ln(8)/2)": "√(2·ln 8)",
     "2 ln 3": "2·ln 3", "ln(3)/2": "1/2·ln 3", "pi": "π", "2pi": "2π", "pi/2": "π/2", "-pi/6": "−π/6",
     "cos(2)/2": "1/2·cos(2)", "γ": "γ", "-γ": "−γ", "2γ": "2γ", "γ/2": "1/2·γ", "γ^2/4": "1/4·γ²", "1 - γ": "1 − γ",
     "-1 - γ": "−1 − γ", "1 + 2γ + 3γ^2": "1 + 2γ + 3γ²", "3γ/4 - 1/2": "−1/2 + 3/4·γ", "1/γ": "1/γ", "-1/γ": "−1/γ",
@@ -234,3 +236,26 @@ def test_a_sum_that_leads_a_product_keeps_its_brackets() -> None:
     w, one = matrix([[7 + generator("w")]]), matrix([[fmpq(1)]])
     known = {"t": 1, "covariance_bar": {1: w}, "Ct": {1: one}, "Qt": {1: matrix([[fmpq(6)]])}}
     assert written(KALMAN_GAIN, **known) == "K₁ = (7 + w)·1·(1·(7 + w)·1 + 6)⁻¹ = (7 + w)·(13 + w)⁻¹ = (7 + w)/(13 + w)"
+
+
+def test_the_bound_of_an_arm_keeps_its_logarithm_under_the_root() -> None:
+    known = {"a": "red", "t": 8, "Q": {"red": fmpq(5)}, "c": fmpq(1)}
+    assert written(UCB, N={"red": fmpq(4)}, **known) == "U(red) = 5 + 1·√((ln 8)/4) = 5 + √((ln 8)/4) = 5 + √(ln 8)/2"
+    assert written(UCB, N={"red": fmpq(2)}, **known) == "U(red) = 5 + 1·√((ln 8)/2) = 5 + √((ln 8)/2)"
+
+
+def test_a_factor_of_minus_1_goes_with_the_factors_of_1() -> None:
+    known = {"t": 0, "r": {1: fmpq(6), 2: fmpq(-1), 3: fmpq(4)}, "T": 3, "gamma": fmpq(1, 2)}
+    assert written(RETURN, **known) == "R₀ = (1/2)⁰·6 + (1/2)¹·(−1) + (1/2)²·4 = 6 − 1/2 + (1/2)²·4 = 13/2"
+
+
+def test_a_line_that_only_changes_the_order_is_not_written() -> None:
+    # 3/(3 + x) and 3/(x + 3) would be two lines that say the same.
+    counts = {("a", "a", "a"): fmpq(3), ("a", "a", "b"): generator("x")}
+    known = {"S": {0: "a", 1: "a", 2: "b"}, "t": 1, "N": counts, "states": ("b", "a")}
+    assert written(RELATIVE_FREQUENCY, **known) == "Pr(b|a, a) = x/(x + 3)"
+
+
+def test_a_number_in_brackets_is_parted_from_a_letter() -> None:
+    trace = put_in(sympy.Symbol("y") * sympy.Symbol("z"), {"y": fmpq(-1), "z": generator("lambda")})
+    assert unicode(typeset(2 + trace)) == "2 + (−1)·λ"
