@@ -48,7 +48,10 @@ class Values:
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """An action for every state; ``actions`` holds the states, and what is possible in each, ``of`` its letter."""
+    """An action for every state; ``actions`` holds the states, and what is possible in each, ``of`` its letter.
+
+    A single choice that no state is named for has no letter, and is told by itself.
+    """
 
     actions: Mapping[str, tuple[str, ...]]
     of: str = "π"

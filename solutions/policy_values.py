@@ -16,8 +16,6 @@ from rldrill.solutions.work import Work
 #: the form that fits how the policy is given, and from the model, the policy and the discount, as it needs them.
 #: Where there are values to begin with, they are among what is known.
 Evaluation: TypeAlias = Callable[[Work, Formula, Model, Mapping[str, Any]], dict[str, Value]]
-#: What is said first of a process without actions, where formulas have π.
-ONE_ACTION = "Without a choice there is one action in every state, so $π(a|s) = 1$."
 #: A solver that evaluates a policy on its way.
 Solve: TypeAlias = Callable[[Any, Work, Evaluation], None]
 

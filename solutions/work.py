@@ -66,7 +66,10 @@ class Step(_Applied):
         """The formula before the numbers are put in; a policy by the name that it has here, π₁ or π′."""
         formula = self.formula
         plain = formula.equation(formula.right)
-        if self.own or formula.right.has(type(formula.left)):  # what is updated has one name for the old and the new
+        codes = {node.code for node in formula.right.atoms(Quantity)}
+        if (
+            self.own or getattr(formula.left, "code", None) in codes
+        ):  # what is updated has a name for the old and the new
             return plain
         left = self.named if self.named.is_Symbol else self.named.func(*formula.left.args)
         return replace(formula, left=left).equation(formula.right)

@@ -120,7 +120,7 @@ def _of_all(given: Optimal, blocks: tuple[Block, ...]) -> Question:
         (*blocks, Paragraph(discount(given.gamma))),
         (
             Part("What is $V^*(s)$, the optimal value of every state?", Values("V^*", given.mdp.states)),
-            Part("Which action is best in every state?", Policy(given.mdp.actions, "π^*")),
+            Part("Which action $π^*(s)$ is best in every state?", Policy(given.mdp.actions, "π^*")),
             Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)),
         ),
     )
@@ -139,7 +139,9 @@ def _of_reward(given: Sought, blocks: tuple[Block, ...]) -> Question:
         (
             Part(f'What is $V^*("{row.state}")$?', Number()),
             Part(f"What is ${x}$?", Number(), zero=True),
-            Part(f"Which action is best in {state}?", Policy({state: given.mdp.actions[state]}, "π^*")),
+            Part(
+                f'Which action $π^*("{state}")$ is best in {state}?', Policy({state: given.mdp.actions[state]}, "π^*")
+            ),
             Part(
                 f'Now let ${x}$ be any number, so that $V^*("{state}")$ need not be ${shown(given.optimum[state])}$. '
                 f"What is the smallest ${x}$ with which {row.action} is a best action in {row.state}?",

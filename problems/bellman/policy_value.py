@@ -162,7 +162,7 @@ def question(given: Given) -> Question:
 
 
 def _in_the_long_run(given: Given) -> Question:
-    reward = "$r(π)$, the average reward per step" if given.mdp.chooses else "the average reward per step"
+    reward = f"${'r(π)' if given.mdp.chooses else 'r̄'}$, the average reward per step"
     return Question(
         (
             *model_blocks(given.mdp),

@@ -151,8 +151,8 @@ def question(given: Given) -> Question:
         ),
     ]
     if given.forks:
-        ask = "Which state does an optimal path visit next, from every state with a choice?"
-        parts.append(Part(ask, Policy(given.forks)))
+        ask = "Which state $s'(s)$ does an optimal path visit next, from every state $s$ with a choice?"
+        parts.append(Part(ask, Policy(given.forks, "s'")))
     if given.through is not None:
         ask = f"What is the greatest return of a path from {given.start} to {given.goal} that visits {given.through}?"
         parts.append(Part(ask, Number()))

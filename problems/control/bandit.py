@@ -272,7 +272,7 @@ def question(given: Given) -> Question:
     )
     match given:
         case Estimates():
-            greedy = Part("Which arm does a greedy choice pull next?", Policy({NEXT: given.every_arm}))
+            greedy = Part("Which arm does a greedy choice pull next?", Policy({NEXT: given.every_arm}, ""))
             return Question(
                 (*blocks, *_untried(given, "a greedy choice leaves out what has none")), (_averages(given), greedy)
             )
@@ -323,7 +323,7 @@ def _exploration(given: Bounds) -> Block:
 def _bounds(given: Bounds) -> tuple[Part, ...]:
     return (
         Part(f"What is the upper confidence bound $U(a)$ of {_pulled(given)}?", Values("U", given.tried)),
-        Part("Which arm does UCB pull next?", Policy({NEXT: given.every_arm})),
+        Part("Which arm does UCB pull next?", Policy({NEXT: given.every_arm}, "")),
     )
 
 
@@ -340,7 +340,7 @@ def _balance(given: Balance) -> tuple[Part, ...]:
         Part(f"For which $c$ are the upper confidence bounds of {better} and {rarer} equal?", Number()),
         Part(
             f"Which of {joined(list(_in_order(given)))} has the greater bound if $c$ is greater than that?",
-            Policy({NEXT: _in_order(given)}),
+            Policy({NEXT: _in_order(given)}, ""),
         ),
     )
 

@@ -142,7 +142,7 @@ def _row(rng: Draws, gamma: Fraction) -> tuple[Fraction, ...]:
 
 def question(given: Given) -> Question:
     """The table of action values; what is missing in it is asked for first."""
-    best = Part("Which action is optimal in every state?", Policy(given.actions, "π^*"))
+    best = Part("Which action $π^*(s)$ is optimal in every state?", Policy(given.actions, "π^*"))
     known: list[Block] = [Paragraph("The optimal action values are:"), _table(given)]
     if given.missing is None or given.gamma is None:
         return Question(tuple(known), (best,))
@@ -163,7 +163,7 @@ def question(given: Given) -> Question:
         state, action = given.tied
         parts.append(Part(f"What is the smallest $x$ with which {action} is optimal in {state}?", Number()))
         if others := {s: actions for s, actions in given.actions.items() if s != state}:
-            parts.append(Part("Which action is optimal in every other state?", Policy(others, "π^*")))
+            parts.append(Part("Which action $π^*(s)$ is optimal in every other state?", Policy(others, "π^*")))
         return Question(blocks, tuple(parts))
     return Question(blocks, (*parts, best))
 

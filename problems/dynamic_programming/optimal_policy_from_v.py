@@ -89,4 +89,6 @@ def question(given: Given) -> Question:
         parts.append(Part(f'What is $V^*("{given.missing}")$?', Number()))
     if given.action_values:
         parts.append(Part("What is $Q^*(s, a)$ for every state and action?", Values("Q^*", given.mdp.pairs)))
-    return Question(blocks, (*parts, Part("Which action is optimal in every state?", Policy(given.mdp.actions, "π^*"))))
+    return Question(
+        blocks, (*parts, Part("Which action $π^*(s)$ is optimal in every state?", Policy(given.mdp.actions, "π^*")))
+    )

@@ -97,9 +97,7 @@ def question(given: Given) -> Question:
         asked = [*asked, Part("What is $Q^π(s, a)$ for every state and action?", Values("Q^π", given.mdp.pairs))]
     parts = (
         *asked,
-        Part(
-            "Which action does the greedy policy $π'$ for $V^π$ take in every state?", Policy(given.mdp.actions, "π'")
-        ),
+        Part("Which action $π'(s)$ is greedy for $V^π$ in every state?", Policy(given.mdp.actions, "π'")),
         Part("Is $π$ an optimal policy?", YesNo()),
     )
     return Question(blocks, tuple(parts))

@@ -154,9 +154,8 @@ def question(given: Given) -> Question:
         options = dict(zip("AB", given.mdp.actions[given.tie], strict=True))
         smaller = Part("Which of the two is greedy there if $γ$ is smaller than that?", Choice(options))
         return Question(blocks, (values, Part(ask, Number()), smaller))
-    return Question(
-        blocks, (values, Part(f"Which action is greedy for $V_{{{k}}}$ in every state?", Policy(given.mdp.actions)))
-    )
+    ask = f"Which action $π(s)$ is greedy for $V_{{{k}}}$ in every state?"
+    return Question(blocks, (values, Part(ask, Policy(given.mdp.actions))))
 
 
 def _of_actions(given: Given) -> Question:
@@ -164,5 +163,5 @@ def _of_actions(given: Given) -> Question:
     start = "Value iteration goes over the action values, and starts from $Q_0(s, a) = 0$ for all states and actions."
     blocks = (*model_blocks(given.mdp), Paragraph(start), Paragraph(f"{discount(given.gamma)} {SYNCHRONOUS}"))
     ask = f"What is $Q_{{{k}}}(s, a)$, the value of every state and action after {counted(k)}?"
-    greedy = f"Which action is greedy for $Q_{{{k}}}$ in every state?"
+    greedy = f"Which action $π(s)$ is greedy for $Q_{{{k}}}$ in every state?"
     return Question(blocks, (Part(ask, Values(f"Q_{{{k}}}", given.mdp.pairs)), Part(greedy, Policy(given.mdp.actions))))

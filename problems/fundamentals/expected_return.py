@@ -216,7 +216,7 @@ def question(given: Given) -> Question:
         *model_blocks(given.mdp),
         *start,
         *policy_blocks(given),
-        Paragraph(f"The return is $R_0 = r_1 + γ r_2 + …$. {discount(given.gamma)}{open_chance(given)}"),
+        Paragraph(f"Here $R_0 = r_1 + γ r_2 + …$ is the return. {discount(given.gamma)}{open_chance(given)}"),
     )
     if given.known is not None:
         told = Paragraph(f"The expected return is $𝔼_π(R_0) = {shown(given.known)}$.")

@@ -138,7 +138,7 @@ def _equally_good(rng: Draws) -> Compared:
 
 
 #: With which reward the return from a time begins.
-_DEFINED = "The return from time $t$ is $R_t = r_{t+1} + γ r_{t+2} + …$."
+_DEFINED = "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$."
 
 
 def question(given: Single | Compared) -> Question:
@@ -177,7 +177,7 @@ def _comparison(given: Compared) -> Question:
     blocks = (
         Paragraph(
             f"An episode has the rewards ${_listed(given.rewards)}$. A second one has the rewards "
-            f"${_listed(given.others)}$. Each ends after its last reward; its return is $R_0 = r_1 + γ r_2 + …$. {told}"
+            f"${_listed(given.others)}$. Each ends after its last reward; $R_0 = r_1 + γ r_2 + …$ is its return. {told}"
         ),
     )
     if given.sought:

@@ -115,7 +115,8 @@ def question(given: Given) -> Question:
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
     more = unknown(
         given,
-        f"The return from time $t$ is $R_t = r_{{t+1}} + γ r_{{t+2}} + …$. {letter}{discount(given.gamma)}{limits}",
+        "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$. "
+        f"{letter}{discount(given.gamma)}{limits}",
     )
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."

@@ -37,7 +37,7 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
             places = [key if isinstance(key, str) else f"({', '.join(key)})" for key in keys]
             pairs = (f"{name}: {number}" for name, number in zip(places, example, strict=False))
             return f"every value, {_exact(parameters)}: {_shortened(pairs, len(places))}"
-        case Policy(actions):
+        case Policy(actions, of) if of:
             pairs = (f"{state}: {possible[0]}" for state, possible in actions.items())
             return f"an action for every state, such as {_shortened(pairs, len(actions))}"
         case _:

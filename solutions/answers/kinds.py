@@ -290,7 +290,8 @@ class PolicyAnswer(Answer[parts.Policy]):
         return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}
 
     def write(self, value: Any) -> str:
-        return ", ".join(f"{state}: {value[state][0]}" for state in self.kind.actions)
+        named = [(f"{state}: " if self.kind.of else "") + value[state][0] for state in self.kind.actions]
+        return ", ".join(named)
 
     def data(self, value: Any) -> Any:
         return {state: value[state][0] if len(value[state]) == 1 else list(value[state]) for state in self.kind.actions}
@@ -299,13 +300,15 @@ class PolicyAnswer(Answer[parts.Policy]):
         return None
 
     def lines(self, value: Any) -> list[tuple[Math | None, Math]]:
-        return [
-            (row(mathematics(self.kind.of), Fence(name(state))), name(" or ".join(value[state])))
-            for state in self.kind.actions
-        ]
+        return [(self._left(state), name(" or ".join(value[state]))) for state in self.kind.actions]
+
+    def _left(self, state: str) -> Math | None:
+        return row(mathematics(self.kind.of), Fence(name(state))) if self.kind.of else None
 
     def how_to_type(self) -> str:
         state, actions = next(iter(self.kind.actions.items()))
+        if not self.kind.of:
+            return f"one of {joined(list(actions))}"
         return f"an action for each state: {state}: {actions[0]}, …"
 
     def _wrong(self, value: Any) -> list[str]:

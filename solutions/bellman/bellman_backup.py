@@ -14,7 +14,7 @@ from rldrill.solutions.sheet.bellman import (
     FORGOT_POLICY,
     MAX_FOR_MEAN,
 )
-from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION
+from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION, synchronous
 from rldrill.solutions.work import Work
 
 
@@ -39,7 +39,7 @@ def solve(given: Given, work: Work) -> None:
         "V": knowns.values(given.values),
     }
     if given.current:
-        work.answer(work.step(POLICY_EVALUATION, into=numbered(V, 1), **known))
+        work.answer(work.step(synchronous(POLICY_EVALUATION), into=numbered(V, 1), **known))
         return
     value = work.step(BELLMAN_V, **known)
     if given.find:

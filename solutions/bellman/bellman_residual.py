@@ -13,7 +13,8 @@ from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
 from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
-from rldrill.solutions.policy_values import ONE_ACTION, evaluated
+from rldrill.solutions.policy_values import evaluated
+from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
     BELLMAN_OPTIMALITY_RESIDUAL,
     BELLMAN_RESIDUAL,
@@ -28,8 +29,6 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work) -> None:
     """One backup of every state, compared with what the values say."""
-    if not given.mdp.chooses:
-        work.say(ONE_ACTION)
     residuals = _residuals(given, work)
     if not given.verdict:
         return
@@ -57,8 +56,8 @@ def _totals(given: Given) -> Mapping[str, Value]:
 
 
 def _residuals(given: Given, work: Work) -> dict[str, Value]:
-    formula = BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL
-    known = knowns.model_and_policy(given.mdp, given.chances, given.gamma)
+    formula, letters = fitting(BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL, given.mdp)
+    known = knowns.model_and_policy(given.mdp, given.chances, given.gamma) | letters
     values = knowns.state_values(given.values, given.mdp.terminal)
     residuals = {state: work.step(formula, s=state, V=values, **known) for state in given.mdp.states}
     answered: dict[str, Value] = work.answer(residuals)

@@ -9,6 +9,7 @@ from rldrill.solutions import knowns
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, chances, swept, tensors
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
+from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
     AVERAGE_REWARD,
     BELLMAN_V,
@@ -27,9 +28,8 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     if given.average:
         _in_the_long_run(given, work, known)
         return
-    if not given.mdp.chooses:
-        work.say("There is nothing to choose: $π(a|s) = 1$ in every state, and $V$ is the $V^π$ of this one policy.")
-    work.answer(of_states(given.mdp, evaluation(work, BELLMAN_V, given.mdp, known)))
+    formula, letters = fitting(BELLMAN_V, given.mdp)
+    work.answer(of_states(given.mdp, evaluation(work, formula, given.mdp, known | letters)))
 
 
 def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
@@ -44,10 +44,12 @@ def _in_the_long_run(given: Given, work: Work, known: dict[str, Any]) -> None:
         "state follows from the others; that the shares sum to $1$ takes its place:"
     )
     cases = [{"s1": state} for state in given.mdp.states]
+    entering, letters = fitting(STATIONARY, given.mdp)
+    known |= letters
     shares = work.answer(
-        of_states(given.mdp, work.system(STATIONARY, Share, cases, instead=SHARES_SUM, predecessors=before, **known))
+        of_states(given.mdp, work.system(entering, Share, cases, instead=SHARES_SUM, predecessors=before, **known))
     )
-    work.answer(work.step(AVERAGE_REWARD, visited=shares, **known))
+    work.answer(work.step(fitting(AVERAGE_REWARD, given.mdp)[0], visited=shares, **known))
 
 
 MISCONCEPTIONS = (

@@ -8,9 +8,9 @@ from rldrill.solutions.exact import ZERO, exact
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at, chances, tensors
-from rldrill.solutions.policy_values import ONE_ACTION
+from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, MAX_FOR_MEAN
-from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION
+from rldrill.solutions.sheet.dynamic_programming import POLICY_EVALUATION, synchronous
 from rldrill.solutions.sweeps import order_slips
 from rldrill.solutions.work import Work
 
@@ -18,16 +18,16 @@ from rldrill.solutions.work import Work
 def solve(given: Given, work: Work) -> None:
     """Sweep after sweep, one step for every state."""
     mdp = given.mdp
-    if not mdp.chooses:
-        work.say(ONE_ACTION)
-    known = knowns.model(mdp) | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
+    formula, letters = fitting(POLICY_EVALUATION, mdp)
+    known = knowns.model(mdp) | letters | {"gamma": exact(given.gamma), "pi": knowns.policy(given.chances)}
     values = dict.fromkeys(mdp.states, ZERO) | knowns.state_values(given.start or {}, mdp.terminal)
+    formula = formula if given.in_place else synchronous(formula)
     for sweep in range(1, given.sweeps + 1):
         work.say(f"Sweep {sweep}:")
         old = values
         for state in mdp.states:
             current = values if given.in_place else old
-            value = work.step(POLICY_EVALUATION, s=state, V=current, into=numbered(V, sweep), **known)
+            value = work.step(formula, s=state, V=current, into=numbered(V, sweep), **known)
             values = values | {state: value}
     work.answer({state: values[state] for state in mdp.states})
 

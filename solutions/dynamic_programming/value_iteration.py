@@ -21,6 +21,7 @@ from rldrill.solutions.sheet.dynamic_programming import (
     SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
     greedy,
+    synchronous,
 )
 from rldrill.solutions.sweeps import order_slips
 from rldrill.solutions.work import Work
@@ -38,12 +39,13 @@ def solve(
         _over_actions(given, work, known, ends(mdp))
         return
     values = dict.fromkeys(mdp.states, ZERO) | knowns.values(given.start or {}) | ends(mdp)
+    formula = VALUE_ITERATION if given.in_place else synchronous(VALUE_ITERATION)
     for sweep in range(1, given.sweeps + 1):
         work.say(f"Sweep {sweep}:")
         before = values
         for state in mdp.states:
             V_k = values if given.in_place else before
-            values = values | {state: work.step(VALUE_ITERATION, s=state, V=V_k, into=numbered(V, sweep), **known)}
+            values = values | {state: work.step(formula, s=state, V=V_k, into=numbered(V, sweep), **known)}
     values |= work.answer({state: values[state] for state in mdp.states})
     if given.tie:
         _tie(given.tie, work, known | {"V": values})
@@ -79,7 +81,8 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
         work.say(f"Sweep {sweep}:")
         name, before = numbered(ActionValue, sweep), Q
         Q = before | {
-            (s, a): work.step(SWEEP_OVER_ACTIONS, s=s, a=a, Q=before, into=name, **known) for s, a in mdp.pairs
+            (s, a): work.step(synchronous(SWEEP_OVER_ACTIONS), s=s, a=a, Q=before, into=name, **known)
+            for s, a in mdp.pairs
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")

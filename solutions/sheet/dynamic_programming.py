@@ -3,9 +3,9 @@
 from dataclasses import replace
 from functools import cache
 
-from sympy import Abs, evaluate
+from sympy import Abs, Expr, evaluate
 
-from rldrill.problems.mathematics import Fence, Math, Script, operator, row, variable
+from rldrill.problems.mathematics import Fence, Math, Script, number, operator, row, variable
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Actions,
@@ -16,6 +16,7 @@ from rldrill.solutions.formula.notation import (
     Q,
     Qpi,
     Qstar,
+    Quantity,
     R,
     States,
     Successors,
@@ -279,6 +280,35 @@ with evaluate(False):
             CHANGE_FOR_ERROR: Change(0),
         },
     )
+
+
+def _after(values: type[Quantity], index: Math) -> type[Quantity]:
+    return quantity(values.code, called(Script(variable(values.code), index)))
+
+
+#: The values of states or of actions before a sweep, V_k, and after it, V_{k+1}.
+_SWEPT = {
+    kind: (_after(kind, variable("k")), _after(kind, row(variable("k"), operator("+"), number(1)))) for kind in (V, Q)
+}
+
+
+@cache
+def synchronous(formula: Formula) -> Formula:
+    """An update as a sweep makes it that uses the values of the sweep before only: V_{k+1}(s) = … V_k(s′)."""
+    kind = type(formula.left)
+    old, new = _SWEPT[kind]
+
+    def read(right: Expr) -> Expr:
+        return right.xreplace({value: old(*value.args) for value in right.atoms(kind)})
+
+    with evaluate(False):
+        return replace(
+            formula,
+            left=new(*formula.left.args),
+            right=read(formula.right),
+            sign="=",
+            misread={mistake: read(right) for mistake, right in formula.misread.items()},
+        )
 
 
 @cache

@@ -1,0 +1,82 @@
+"""A working speaks in the question's symbols: V_k of sweeps, no π and no a where nothing is chosen, labels as asked."""
+
+import re
+
+import pytest
+
+from rldrill.exercise import Exercise, draw, read
+from rldrill.problems.catalogue import chosen
+from rldrill.render.unicode import unicode_text
+
+ROWS = [["new", "worn", 1, 0], ["worn", "worn", "1/2", 2], ["worn", "broken", "1/2", 6]]
+CHOICE = [["new", "run", "worn", 1, 2], ["new", "wait", "new", 1, 0], ["worn", "run", "broken", 1, 4]]
+
+
+def problem(family: str, rows: list[list[object]], **more: object) -> Exercise:
+    mdp = {"transitions": rows, "terminal": ["broken"]}
+    return read({"family": family, "given": {"mdp": mdp, "gamma": "1/2", **more}})
+
+
+def working(exercise: Exercise) -> list[str]:
+    return [line.strip() for block in exercise.working() for line in unicode_text(block).splitlines()]
+
+
+def key(exercise: Exercise) -> list[str]:
+    return [unicode_text(exercise.answer(part)) for part in exercise.parts]
+
+
+def test_the_values_of_a_reward_process_need_no_action() -> None:
+    lines = working(problem("policy-value", ROWS))
+    assert lines[0] == "V(s) = Σₛ′ Pₛₛ′(Rₛₛ′ + γV(s′))"
+    assert "V(new) = 1·(0 + 1/2·V(worn))" in lines
+    assert not [line for line in lines if "π" in line]
+
+
+def test_its_residuals_need_none_either() -> None:
+    lines = working(problem("bellman-residual", ROWS, values={"new": 1, "worn": 4}))
+    assert lines[1] == "δ(s) = Σₛ′ Pₛₛ′(Rₛₛ′ + γV(s′)) − V(s)"
+    assert "δ(new) = 1·(0 + 1/2·4) − 1 = 2 − 1 = 1" in lines
+
+
+@pytest.mark.parametrize("family", ["policy-evaluation", "value-iteration"])
+def test_synchronous_sweeps_go_from_one_table_to_the_next(family: str) -> None:
+    lines = working(problem(family, CHOICE, sweeps=1))
+    (general,) = (line for line in lines if line.startswith("Vₖ₊₁(s) = "))
+    assert general.endswith("Σₛ′ Pₛₛ′ᵃ(Rₛₛ′ᵃ + γVₖ(s′))")
+    assert [line for line in working(problem(family, CHOICE, sweeps=1, in_place=True)) if line.startswith("V(s) ← ")]
+
+
+@pytest.mark.parametrize("family", ["policy-evaluation", "value-iteration"])
+def test_what_a_sweep_gives_stays_the_same(family: str) -> None:
+    # By hand: new earns 2 or 0, on average 1 and at best 2; worn earns 4.
+    found = {"policy-evaluation": "V₁(new) = 1  V₁(worn) = 4", "value-iteration": "V₁(new) = 2  V₁(worn) = 4"}
+    assert key(problem(family, CHOICE, sweeps=1))[0] == found[family]
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_the_arm_that_is_pulled_next_stands_by_itself(level: int) -> None:
+    for seed in range(6):
+        assert not [line for line in key(draw("bandit", level, seed)) if "next" in line]
+
+
+@pytest.mark.parametrize("name", chosen(("bellman", "dynamic-programming", "control")))
+def test_what_a_key_calls_its_entries_is_in_the_question(name: str) -> None:
+    for level in (1, 2, 3):
+        exercise = draw(name, level, 4)
+        asked = " ".join((str(exercise.question()), *(part.ask for part in exercise.parts))).replace("'", "′")
+        for part in exercise.parts:
+            of = getattr(part.kind, "of", "")
+            head = of.partition("·")[0].replace("'", "′").rstrip("(")
+            assert re.search(re.escape(head), asked), (exercise.id, part.label, of)
+
+
+def test_the_same_policy_is_not_written_twice() -> None:
+    # Both transitions lead to warm, where fast stays the best action: one policy of three lines.
+    run = {"states": ["cool", "warm", "warm"], "actions": ["fast", "slow"], "rewards": [1, 1]}
+    values = {"cool": {"slow": 0, "fast": 1}, "warm": {"slow": 2, "fast": 8}}
+    given = {"trajectory": run, "values": values, "alpha": "1/4", "gamma": "1/2", "epsilon": "1/2"}
+    lines = working(read({"family": "expected-sarsa", "given": given}))
+    assert [line for line in lines if line.startswith(("t = 0: π", "t = 1: π"))] == [
+        "t = 0: π(slow|warm) = (1/2)/2 = 1/4",
+        "t = 0: π(fast|warm) = 1 − 1/2 + (1/2)/2 = 3/4",
+    ]
