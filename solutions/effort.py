@@ -9,6 +9,7 @@ from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import Slot
+from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Elimination, Line, Result, Step
 
@@ -70,6 +71,9 @@ def _seconds(expression: Expr) -> Fraction:
         if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
             nodes.skip()
             plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
+        elif isinstance(node, Over):  # what it runs over is no work
+            nodes.skip()
+            plain += _seconds(node.body)
         elif isinstance(node, Node):
             operations += node.operations
             digits += sum(map(_digits, node.numbers))

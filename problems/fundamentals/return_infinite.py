@@ -111,12 +111,12 @@ def question(given: Given) -> Question:
     else:
         round_ = ", ".join(shown(reward) for reward in given.repeated)
         told = f"{since}, the rewards are ${round_}$, then again ${round_}$, and so on for ever."
-    limits = " Discounts satisfy $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else ""
+    limits = ", with $0 ≤ γ < 1$." if isinstance(given.gamma, Parameter) else "."
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
     more = unknown(
         given,
         "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$. "
-        f"{letter}{discount(given.gamma)}{limits}",
+        f"{letter}{discount(given.gamma)[:-1]}{limits}",
     )
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."

@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.bellman.principle_of_optimality import Given
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import ZERO, Value, exact, sign
+from rldrill.solutions.exact import ZERO, Value, absolute, exact, sign
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.oracle import Answers, at
@@ -77,8 +77,8 @@ def _through(given: Given, through: str, R: Rewards, values: Mapping[str, Value]
     before = given.backwards[given.backwards.index(through) + 1 :]
     there = _totals(through, before, given.onward, R, work, BEST_WAY_TO)
     total = there[given.start] + values[through]
-    onward = f"{values[through]}" if sign(values[through]) >= 0 else f"({values[through]})"
-    sum_ = f"{there[given.start]} + {onward} = {total}".replace("-", "−")
+    onward = f"{'−' if sign(values[through]) < 0 else '+'} {absolute(values[through])}"
+    sum_ = f"{there[given.start]} {onward} = {total}".replace("-", "−")
     work.say(f'Both parts together: $W("{given.start}") + V^*("{through}") = {sum_}$.')
     return total
 

@@ -35,11 +35,18 @@ def solve(given: Given, work: Work) -> None:
     """The value that is missing, the values of the actions, the best action of every state."""
     V = knowns.state_values(given.values, given.mdp.terminal)
     known = knowns.model(given.mdp) | {"gamma": exact(given.gamma)}
+    found: dict[tuple[str, str], Value] = {}
     if given.missing is not None:
-        V[given.missing] = work.answer(_missing(given, given.missing, work, known | {"V": V}))
+        value, found = _missing(given, given.missing, work, known | {"V": V})
+        V[given.missing] = work.answer(value)
+        if V[given.missing] != value:  # whoever has another value goes on with it
+            found = {}
     known |= {"V": V}
     if given.action_values:
-        Q = work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs})
+        if found:
+            work.say(f"The values of the actions in {given.missing} are those of part (a).")
+        rest = {(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, **known) for s, a in given.mdp.pairs if (s, a) not in found}
+        Q = work.answer({pair: (found | rest)[pair] for pair in given.mdp.pairs})
         greedy = {state: work.step(GREEDY_FROM_Q, s=state, Q=Q, **known) for state in given.mdp.states}
     else:
         greedy = {state: work.step(GREEDY_FROM_V, s=state, **known) for state in given.mdp.states}
@@ -51,8 +58,10 @@ def solve(given: Given, work: Work) -> None:
     work.answer(greedy)
 
 
-def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Value:
-    """The value of a state from those of the others: that of its best action, taken each time.
+def _missing(
+    given: Given, state: str, work: Work, known: dict[str, Any]
+) -> tuple[Value, dict[tuple[str, str], Value]]:
+    """The value of a state from those of the others, that of its best action taken each time; and its action values.
 
     An action that may lead back to the state gives an equation for the value; what it is worth where another is best,
     is known only then.
@@ -81,7 +90,7 @@ def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> Val
             )
     best = work.step(V_STAR_FROM_Q, s=state, Q=values, actions=known["actions"])
     work.say(f"The best action in {state} is {action}.")
-    return best
+    return best, values
 
 
 def possible(given: Given) -> bool:

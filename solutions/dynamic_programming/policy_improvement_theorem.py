@@ -21,7 +21,8 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     """What one step of the other policy is worth; the theorem applies if that is never a loss."""
-    holds = -1 not in _gaps(given, work, evaluation)
+    gaps = _gaps(given, work, evaluation)
+    holds = -1 not in gaps
     loop = _trap(given) if holds else None
     applies = holds and loop is None
     if loop is not None:
@@ -32,7 +33,10 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     elif applies:
         work.say("The inequality holds in every state, so the theorem applies: $π'$ is at least as good as $π$.")
     else:
-        work.say("The inequality fails in some state, so the theorem does not apply: it says nothing about $π'$.")
+        failing = [state for state, gap in zip(given.mdp.states, gaps, strict=True) if gap < 0]
+        work.say(
+            f"The inequality fails in {joined(failing)}, so the theorem does not apply: it says nothing about $π'$."
+        )
     work.answer(applies)
 
 

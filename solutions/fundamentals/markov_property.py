@@ -23,17 +23,28 @@ Chances = dict[tuple[str, str, str], Value]
 
 
 def solve(given: Given, work: Work) -> None:
-    """A count that is missing; then the probability asked for after every history, the others, and the comparison."""
+    """A count that is missing; the probability asked for after every history; of the others what is needed then."""
     work.say("$N(s_{t-1}, s_t, s_{t+1})$ is what the table gives for three successive states.")
     whole = _completed(given, work)
-    chances = _chances(whole, work)
+    asked = _asked(whole, work)
     work.say("A decision process has the Markov property if, with its actions and rewards,")
     work.recall(MARKOV_PROPERTY)
     work.say("Here only the states are considered, so it says: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
-    matters = _matters(whole, chances)
-    for now in whole.present:
-        _compare(whole, work, now, chances, differs=now in matters)
-    _conclude(given, work, matters)
+    if found := _matters(whole, asked):
+        _compare(whole, work, found, asked, found)
+        _tell(given, work, found)
+        rest = tuple(now for now in whole.present if now not in found)
+        matters = found
+        if where(given) and rest:
+            chances = asked | _others(whole, work, rest)
+            matters = tuple(now for now in whole.present if now in {*found, *_matters(whole, chances)})
+            _compare(whole, work, rest, chances, matters)
+    else:
+        chances = asked | _others(whole, work, whole.present)
+        matters = _matters(whole, chances)
+        _compare(whole, work, whole.present, chances, matters)
+        _tell(given, work, matters)
+    _place(given, work, matters)
 
 
 def _completed(given: Given, work: Work) -> Given:
@@ -53,11 +64,14 @@ def _completed(given: Given, work: Work) -> Given:
 
 
 def _chances(given: Given, work: Work) -> Chances:
-    asked = _asked(given, work)
-    others = [after for after in given.outcomes if after != given.asked]
-    if len(others) == 1:  # the rest to 1
-        return asked
-    return asked | {(*h, after): _probability(given, work, h, after) for h in given.histories for after in others}
+    return _asked(given, work) | _others(given, work, given.present)
+
+
+def _others(given: Given, work: Work, present: tuple[str, ...]) -> Chances:
+    """The probabilities of the other next states in these present states, but for the last: it has the rest to 1."""
+    *others, _ = (after for after in given.outcomes if after != given.asked)
+    histories = [history for history in given.histories if history[1] in present]
+    return {(*h, after): _probability(given, work, h, after) for h in histories for after in others}
 
 
 def _asked(given: Given, work: Work) -> Chances:
@@ -85,17 +99,29 @@ def _counts(given: Given) -> dict[tuple[str, str, str], Value]:
     return knowns.Sparse({row[:3]: exact(row.weight) for row in given.table})
 
 
-def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:
+def _tell(given: Given, work: Work, matters: tuple[str, ...]) -> None:
+    """Whether the table is consistent."""
     verdict = _verdict(given, matters)
     work.say(f"So the table is {'' if verdict[0] else 'not '}consistent with the Markov property.")
     work.answer(verdict[0])
-    if len(verdict) > 1:
+
+
+def _place(given: Given, work: Work, matters: tuple[str, ...]) -> None:
+    """Where it is not, if that is asked for."""
+    _, *letter = _verdict(given, matters)
+    if letter:
         work.say(f"The distribution of $s_{{t+1}}$ depends on $s_{{t-1}}$ {_in_words(matters)}.")
-        work.answer(verdict[1])
+        work.answer(*letter)
+
+
+def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:
+    _tell(given, work, matters)
+    _place(given, work, matters)
 
 
 def _states(given: Given) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(state for row in given.table for state in row[:3]))
+    """All states, the next ones first, in the order of the table."""
+    return tuple(dict.fromkeys((*given.outcomes, *(state for row in given.table for state in row[:2]))))
 
 
 def _verdict(given: Given, matters: tuple[str, ...]) -> tuple[Any, ...]:
@@ -111,11 +137,19 @@ def _in_words(matters: tuple[str, ...]) -> str:
     return f"for $s_t$ = {joined(list(matters))}" if matters else "for no $s_t$"
 
 
-def _compare(given: Given, work: Work, now: str, chances: Chances, *, differs: bool) -> None:
-    """Say which two probabilities differ, or that none do."""
-    if not differs:
-        work.say(f"For $s_t$ = {now} the probabilities of $s_{{t+1}}$ are the same after every history.")
-        return
+def _compare(
+    given: Given, work: Work, present: tuple[str, ...], chances: Chances, matters: tuple[str, ...]
+) -> None:
+    """Say of each of these present states which two probabilities differ, or that none do."""
+    for now in present:
+        if now in matters:
+            _contrast(given, work, now, chances)
+        else:
+            work.say(f"For $s_t$ = {now} the probabilities of $s_{{t+1}}$ are the same after every history.")
+
+
+def _contrast(given: Given, work: Work, now: str, chances: Chances) -> None:
+    """Say which two probabilities differ."""
     for after in given.outcomes:
         values = [(h[0], chances[(*h, after)]) for h in given.histories if h[1] == now and (*h, after) in chances]
         for before, value in values[1:]:
