@@ -53,6 +53,11 @@ class AskingBack(ActionUpdates):
             raise ValueError("outcome: leave one number open, such as alpha, which is asked for then")
         return self
 
+    @property
+    def asks_back(self) -> bool:
+        """Whether what is left open is asked for."""
+        return self.outcome is not None
+
     def parameters(self) -> tuple[str, ...]:
         """The parameters that answers are expressions in: none, where what is left open is asked for."""
         return () if self.outcome else super().parameters()

@@ -49,6 +49,11 @@ def unknown(letter: str) -> str:
     return f"The {what.get(letter, f'number {sign}')} is not known."
 
 
+def not_known(text: str) -> str:
+    """A sentence about a letter left open, as it is told where its value is asked for."""
+    return text.replace("is left open", "is not known")
+
+
 def check_one_open(given: Givens) -> None:
     """Demand that one parameter is left open at most.
 

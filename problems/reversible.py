@@ -8,6 +8,7 @@ from rldrill.problems.document import joined
 from rldrill.problems.exact import Exact, Parameter, shown
 from rldrill.problems.family import Givens
 from rldrill.problems.parts import Number, Part
+from rldrill.problems.phrases import not_known
 
 
 class Reversible(Givens):
@@ -46,4 +47,4 @@ def letter_asked(given: Reversible) -> Part:
 
 def unknown(given: Reversible, text: str) -> str:
     """A sentence about the letter left open, as it is told where its value is asked for."""
-    return text if given.known is None else text.replace("is left open", "is not known")
+    return text if given.known is None else not_known(text)

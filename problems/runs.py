@@ -16,7 +16,7 @@ from rldrill.problems.family import Givens
 from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.models import Name, Named, Names, Steps, check_ends, check_keys
 from rldrill.problems.parts import Number, Numbers, Part, Values
-from rldrill.problems.phrases import check_one_open, discount, in_open, step_size, terminal_note
+from rldrill.problems.phrases import check_one_open, discount, in_open, not_known, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.settings import draw_setting, draw_way
@@ -287,6 +287,11 @@ class ActionUpdates(Givens):
     def moves(self) -> tuple[ActionMove, ...]:
         """The transitions one by one."""
 
+    @property
+    def asks_back(self) -> bool:
+        """Whether a value in the end is known, and what is left open is asked for."""
+        return False
+
     @cached_property
     def updated(self) -> tuple[tuple[str, str], ...]:
         """The pairs of state and action that are updated, in the order of their first visit."""
@@ -547,6 +552,8 @@ def run_situation(
     happened = moves_table(given) if isinstance(given, ValueMoves | ActionMoves) else seen(given.trajectory)
     if isinstance(given, ValueRun):
         told = unknown(given, f"{told} The value $x$ is left open." if "x" in given.letters else told)
+    elif isinstance(given, ActionUpdates) and given.asks_back:
+        told = not_known(told)
     return (*happened, Paragraph(told), *values)
 
 

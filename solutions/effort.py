@@ -68,7 +68,9 @@ def _seconds(expression: Expr) -> Fraction:
     plain = Fraction(0)
     nodes = sympy.preorder_traversal(expression)
     for node in nodes:
-        if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
+        if node.is_Mul and any(isinstance(factor, Slot) and factor.args[0] == 0 for factor in node.args):
+            nodes.skip()  # nothing times 0 is worked out
+        elif node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
             nodes.skip()
             plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
         elif isinstance(node, Over):  # what it runs over is no work

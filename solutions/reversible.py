@@ -7,7 +7,7 @@ from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.reversible import Reversible
 from rldrill.problems.runs import ValueRun
-from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy, value_at
+from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sympy, value_at
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import at
@@ -67,7 +67,11 @@ def find_and_finish(
     after = updated(exact)
     letter = find(given, work, after[first])
     if others:
-        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$ in what was found above:")
+        sign = shown(Parameter(given.letter))
+        if any(parameters(after[state]) for state in others):
+            work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
+        else:
+            work.say(f"It does not depend on ${sign}$, and was found above:")
         found = {state: value_at(after[state], letter) for state in others}
         work.lines.append(Result(tuple(V(put_in_name(state)) for state in others), tuple(found.values())))
         work.answer(found)

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from rldrill.problems.asking_back import BackRun, back_asked, draw_back, draw_rates, draw_rows
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact
+from rldrill.problems.exact import Exact, Parameter
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, Steps, check_ends
@@ -123,6 +123,30 @@ def _other_row(rng: Draws, row: Mapping[str, Fraction], unit: int) -> dict[str, 
     return other if other[best] != row[best] else _other_row(rng, row, unit)
 
 
+_TIES = " Among equally good actions, the one that stands first in the table is selected."
+
+
+def _ties(given: Given) -> bool:
+    """Whether several actions are best where one is selected, or may be: as far as it can be told."""
+    tables = [{state: dict(row) for state, row in table.items()} for table in (given.values, given.second)]
+    moved: set[tuple[int, str]] = set()
+    for number, (state, action, entered, reward, _) in zip(given.updates, given.moves, strict=True):
+        mine, other = tables[number - 1], tables[2 - number]
+        ahead = Fraction(0)
+        if entered not in given.terminal:
+            row = mine[entered]
+            best = max(row, key=row.__getitem__)
+            if (number, entered) in moved or [*row.values()].count(row[best]) > 1:
+                return True
+            ahead = other[entered][best]
+        if isinstance(given.alpha, Parameter) or isinstance(given.gamma, Parameter):
+            moved.add((number, state))  # to what, is not known
+        else:
+            gap = reward + Fraction(str(given.gamma)) * ahead - mine[state][action]
+            mine[state][action] += Fraction(str(given.alpha)) * gap
+    return False
+
+
 def question(given: Given) -> Question:
     """The run and both tables before it; the updated pairs of each table are a part."""
     steps = len(given.updates)
@@ -141,7 +165,7 @@ def question(given: Given) -> Question:
         ),
         Paragraph(
             f"Double Q-learning updates one table after every transition, with the values that are current then. "
-            f"{turns} Among equally good actions, the one that stands first in the table is selected."
+            f"{turns}{_TIES if _ties(given) else ''}"
         ),
     )
     if given.outcome:

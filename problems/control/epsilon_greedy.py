@@ -12,7 +12,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Values
-from rldrill.problems.phrases import exploration, in_open
+from rldrill.problems.phrases import exploration, in_open, not_known
 from rldrill.problems.runs import action_values_table, draw_row
 from rldrill.problems.settings import draw_setting
 
@@ -124,12 +124,14 @@ def _cell(state: str) -> str:
 def question(given: Given) -> Question:
     """The action values and ε; the probability of every action, then what the state is worth."""
     tied = " Actions that are tied for the best share the greedy probability evenly." if len(given.best) > 1 else ""
+    rate = exploration(given.epsilon)
+    rate = not_known(rate) if given.taken or given.state_value is not None else rate
     blocks = (
         Paragraph(f"An agent in state {given.state}{_cell(given.state)} has these action values:"),
         action_values_table({given.state: given.values}),
         Paragraph(
             "It acts ε-greedily: with probability $1 − ε$ it takes the greedy action, with probability $ε$ one of all "
-            f"its actions, each equally likely. {exploration(given.epsilon)}{tied}"
+            f"its actions, each equally likely. {rate}{tied}"
         ),
     )
     where = f'"{given.state}"'
@@ -143,7 +145,7 @@ def question(given: Given) -> Question:
         asked = [Part(ask, Number())]
     else:
         every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
-        asked = [Part(every, Values("π", tuple(given.values)))]
+        asked = [Part(every, Values(f"π(·|{where})", tuple(given.values)))]
     if given.valued:
         valued = f"With this $ε$: {valued[0].lower()}{valued[1:]}" if given.taken else valued
         asked.append(Part(f"{valued} $V^π({where})${in_open(given)}?", Number()))

@@ -12,7 +12,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Part, Values
-from rldrill.problems.phrases import exploration, in_open
+from rldrill.problems.phrases import exploration, in_open, not_known
 from rldrill.problems.runs import action_values_table, run_blocks
 from rldrill.problems.settings import draw_setting
 
@@ -126,10 +126,31 @@ def _policy(given: Given) -> tuple[Block, ...]:
         case FixedPolicy():
             return (Paragraph("The policy does not change:"), policy_table(given.policy))
         case EpsilonGreedy():
+            rate = not_known(exploration(given.epsilon)) if given.asks_back else exploration(given.epsilon)
+            tied = "; tied best actions share the greedy probability evenly" if _ties(given) else ""
             return (
                 Paragraph(
-                    "The policy is ε-greedy for the values that are current at each update. "
-                    f"{exploration(given.epsilon)} Exploration takes every action with the same probability; tied "
-                    "best actions share the greedy probability evenly."
+                    f"The policy is ε-greedy for the values that are current at each update. {rate} Exploration takes "
+                    f"every action with the same probability{tied}."
                 ),
             )
+
+
+def _ties(given: EpsilonGreedy) -> bool:
+    """Whether several actions are best in a state that is entered, or may be: as far as it can be told."""
+    rates = given.alpha, given.gamma, given.epsilon
+    values: dict[str, dict[str, Fraction]] = {state: {**row} for state, row in given.values.items()}
+    moved: set[str] = set()
+    for state, action, entered, reward, _ in given.moves:
+        ahead = Fraction(0)
+        if entered not in given.terminal:
+            row = values[entered]
+            if entered in moved or [*row.values()].count(max(row.values())) > 1:
+                return True
+            ahead = Fraction(0) if isinstance(given.epsilon, Parameter) else _greedily(given.epsilon)(row, "")
+        if any(isinstance(rate, Parameter) for rate in rates):
+            moved.add(state)  # to what, is not known
+        else:
+            gap = reward + Fraction(str(given.gamma)) * ahead - values[state][action]
+            values[state][action] += Fraction(str(given.alpha)) * gap
+    return False

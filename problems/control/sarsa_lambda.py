@@ -12,7 +12,7 @@ from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, check_keys
 from rldrill.problems.parts import Part, Values
-from rldrill.problems.phrases import in_open
+from rldrill.problems.phrases import in_open, not_known
 from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw_action_run, readable, run_situation
 
 TITLE = "Sarsa(λ)"
@@ -135,6 +135,7 @@ def _back(rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The run, the table and the traces before it; then traces and values of all pairs that have a trace."""
     decay = "$λ$ is left open" if isinstance(given.lam, Parameter) else f"is $λ = {shown(given.lam)}$"
+    decay = not_known(decay) if given.asks_back else decay
     begin = (
         (Paragraph("Before the run the eligibility traces are:"), action_values_table(given.traces, "e(s, a)"))
         if given.traces

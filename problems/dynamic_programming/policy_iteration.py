@@ -33,6 +33,8 @@ REVISION = 4
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))
 _LARGEST = 15
+#: Policies of so many states are tried out for ties.
+_TRIED = 6
 
 
 class Started(Givens):
@@ -135,10 +137,8 @@ def question(given: Rounds | Threshold) -> Question:
 
 def _of_rounds(given: Rounds, blocks: tuple[Block, ...]) -> Question:
     """Values and policy of every round are asked for."""
-    rule = Paragraph(
-        f"{discount(given.gamma)} Each policy is evaluated exactly. Improvement changes an action only where "
-        "another one is better: on a tie the old action is kept."
-    )
+    kept = " Improvement changes an action only where another one is better: on a tie the old action is kept."
+    rule = Paragraph(f"{discount(given.gamma)} Each policy is evaluated exactly.{kept if _ties(given) else ''}")
     parts = []
     for number in range(given.rounds):
         after = f"π_{{{number + 1}}}"
@@ -150,6 +150,21 @@ def _of_rounds(given: Rounds, blocks: tuple[Block, ...]) -> Question:
     return Question((*blocks, rule), (*parts, last))
 
 
+def _ties(given: Rounds) -> bool:
+    """Whether several actions are best in an improvement; where that takes long to find out, they may be."""
+    if given.gamma == 1 or given.parameters() or len(given.mdp.states) > _TRIED:
+        return True
+    policy = dict(given.start)
+    for _ in range(given.rounds):
+        values = policy_values(given.mdp, deterministic(policy), given.gamma)
+        for state, actions in given.mdp.actions.items():
+            ahead = {action: worth(given.mdp, (state, action), values, given.gamma) for action in actions}
+            policy[state] = max(ahead, key=ahead.__getitem__)
+            if [*ahead.values()].count(ahead[policy[state]]) > 1:
+                return True
+    return False
+
+
 def _of_threshold(given: Threshold, blocks: tuple[Block, ...]) -> Question:
     """The values of the first policy, the reward up to which it is optimal, and the values of the next one."""
     x, row = shown(Parameter(given.row.reward)), given.row
@@ -158,7 +173,7 @@ def _of_threshold(given: Threshold, blocks: tuple[Block, ...]) -> Question:
         (*blocks, told),
         (
             _values_asked(given.mdp, 0),
-            Part(f"Up to which ${x}$ is $π_0$ an optimal policy?", Number(), zero=True),
+            Part(f"What is the largest ${x}$ with which $π_0$ is an optimal policy?", Number(), zero=True),
             _values_asked(given.mdp, 1, f"Now let ${x} = {shown(given.reward)}$. "),
         ),
     )

@@ -137,10 +137,7 @@ def question(given: Given) -> Question:
     """The episodes as Example 6.4 lists them; what each method converges to is a part."""
     blocks = (
         Paragraph("These episodes are observed (state, reward, state, reward, …). Each ends after its last reward."),
-        Table(
-            header=("times", "episode"),
-            rows=tuple((f"${episode.times}$", run_text(episode)) for episode in given.episodes),
-        ),
+        _listed(given.episodes),
         Paragraph(discount(given.gamma)),
         Paragraph(
             "All episodes are presented again and again as one batch. The values change only at the end of each batch, "
@@ -158,6 +155,15 @@ def question(given: Given) -> Question:
             Part(f"{ask} batch TD(0) converge{tail}?", key),
         ),
     )
+
+
+def _listed(episodes: tuple[Observed, ...]) -> Table:
+    """The episodes, with how many times each was observed unless that is once for all."""
+    if all(episode.times == 1 for episode in episodes):
+        rows = tuple((f"${number}$", run_text(episode)) for number, episode in enumerate(episodes, 1))
+        return Table(header=("episode", "observed"), rows=rows)
+    rows = tuple((f"${episode.times}$", run_text(episode)) for episode in episodes)
+    return Table(header=("times", "episode"), rows=rows)
 
 
 def run_text(episode: Observed) -> str:

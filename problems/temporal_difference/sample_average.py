@@ -143,7 +143,8 @@ def question(given: Given) -> Question:
     if count == 1:
         weights = Part(f"With what weight $w_1$ does the return enter {after}{tail}?", Number())
     else:
-        ask = f"With what weights $w_1, …, w_{{{count}}}$ do the returns of the visits $1, …, {count}$ enter"
+        between = ", …, " if count > 2 else ", "
+        ask = f"With what weights $w_1{between}w_{{{count}}}$ do the returns of the visits $1{between}{count}$ enter"
         weights = Part(f"{ask} {after}{in_open(given)}?", Numbers(entries))
     return Question(blocks, (weights, Part(value, Number())))
 

@@ -41,7 +41,9 @@ def solve(given: Given, work: Work) -> None:
     match given:
         case Estimates():
             averages = _averages(given, work)
-            work.answer({NEXT: work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.tried)})
+            best = work.step(GREEDY_ARM, n=len(given.pulls), Q=averages, choices=given.tried)
+            work.say(f"The greatest average is that of {' or '.join(best)}.")
+            work.answer({NEXT: best})
         case Bounds():
             _explore(given, work, _averages(given, work))
         case Balance():

@@ -58,9 +58,7 @@ def solve(given: Given, work: Work) -> None:
     work.answer(greedy)
 
 
-def _missing(
-    given: Given, state: str, work: Work, known: dict[str, Any]
-) -> tuple[Value, dict[tuple[str, str], Value]]:
+def _missing(given: Given, state: str, work: Work, known: dict[str, Any]) -> tuple[Value, dict[tuple[str, str], Value]]:
     """The value of a state from those of the others, that of its best action taken each time; and its action values.
 
     An action that may lead back to the state gives an equation for the value; what it is worth where another is best,

@@ -51,7 +51,7 @@ def solve(
         _tie(given.tie, work, known | {"V": values})
         return
     work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    best = {state: work.step(greedy()[0], s=state, V=values, **known) for state in mdp.states}
+    best = {state: work.step(greedy(given.sweeps)[0], s=state, V=values, **known) for state in mdp.states}
     work.say(f"So these actions are greedy: {taken(best)}.")
     work.answer(best)
 
@@ -86,7 +86,7 @@ def _over_actions(given: Given, work: Work, known: dict[str, Any], ends: Mapping
         }
     Q |= work.answer({pair: Q[pair] for pair in mdp.pairs})
     work.say(f"The greedy policy $π$ for $Q_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
-    best = {state: work.step(greedy()[1], s=state, Q=Q, **known) for state in mdp.states}
+    best = {state: work.step(greedy(given.sweeps)[1], s=state, Q=Q, **known) for state in mdp.states}
     work.say(f"So these actions are greedy: {taken(best)}.")
     work.answer(best)
 

@@ -201,7 +201,15 @@ def reduced(expression: Expr) -> Expr:
     """
     written = without_slots(expression)
     plain = _plain_powers(written)
-    return _numbers_first(_reduced(written)) if plain == written else plain
+    result = _numbers_first(_reduced(written)) if plain == written else plain
+    return result if result == expression else _subtracted(result)
+
+
+def _subtracted(expression: Expr) -> Expr:
+    """A sum with its negative numbers subtracted: 4 − 1, where the line before has 1·4 + 1·(−1)."""
+    if not expression.is_Add or isinstance(expression, Node):
+        return expression
+    return Add._from_args([term.args[0] if isinstance(term, Negative) else term for term in expression.args])
 
 
 def _numbers_first(expression: Expr) -> Expr:

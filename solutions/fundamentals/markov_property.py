@@ -137,9 +137,7 @@ def _in_words(matters: tuple[str, ...]) -> str:
     return f"for $s_t$ = {joined(list(matters))}" if matters else "for no $s_t$"
 
 
-def _compare(
-    given: Given, work: Work, present: tuple[str, ...], chances: Chances, matters: tuple[str, ...]
-) -> None:
+def _compare(given: Given, work: Work, present: tuple[str, ...], chances: Chances, matters: tuple[str, ...]) -> None:
     """Say of each of these present states which two probabilities differ, or that none do."""
     for now in present:
         if now in matters:

@@ -72,7 +72,6 @@ Distance = quantity("distance", lambda index: _distance(_values(index), _V_STAR)
 Change = quantity("change", lambda _: _distance(_V_1, _V_0))
 
 with evaluate(False):
-    _NEXT_VALUE = SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a))
     _NEXT_POLICY_VALUE = SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a))
     _NEXT_OPTIMAL_VALUE = SumOver(P(s, a, s1) * Vstar(s1), s1, Successors(s, a))
     _REWARD = SumOver(P(s, a, s1) * R(s, a, s1), s1, Successors(s, a))
@@ -312,24 +311,27 @@ def synchronous(formula: Formula) -> Formula:
 
 
 @cache
-def greedy() -> tuple[Formula, Formula]:
-    """The greedy policy for current values of states, and for those of actions: no optimal ones yet."""
+def greedy(sweeps: int) -> tuple[Formula, Formula]:
+    """The greedy policy for the values of states after so many sweeps, and for those of actions."""
+    V_k, Q_k = numbered(V, sweeps), numbered(Q, sweeps)
     with evaluate(False):
+        ahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * V_k(s1)), s1, Successors(s, a))
+        after = SumOver(P(s, a, s1) * V_k(s1), s1, Successors(s, a))
         return (
             replace(
                 GREEDY_FROM_V,
                 left=pi(s),
-                right=ArgMaxOver(LOOKAHEAD, a, Actions(s)),
+                right=ArgMaxOver(ahead, a, Actions(s)),
                 misread={
-                    GREEDY_BY_VALUE: ArgMaxOver(_NEXT_VALUE, a, Actions(s)),
+                    GREEDY_BY_VALUE: ArgMaxOver(after, a, Actions(s)),
                     GREEDY_BY_REWARD: ArgMaxOver(_REWARD, a, Actions(s)),
                 },
             ),
             replace(
                 GREEDY_FROM_Q,
                 left=pi(s),
-                right=ArgMaxOver(Q(s, a), a, Actions(s)),
-                misread={SMALLEST_Q: ArgMaxOver(-Q(s, a), a, Actions(s))},
+                right=ArgMaxOver(Q_k(s, a), a, Actions(s)),
+                misread={SMALLEST_Q: ArgMaxOver(-Q_k(s, a), a, Actions(s))},
             ),
         )
 

@@ -1,6 +1,8 @@
 """Section 4 of the sheet: temporal difference learning."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from sympy import Pow, evaluate
@@ -25,6 +27,7 @@ from rldrill.solutions.formula.notation import (
     gammas,
     i,
     lam,
+    letter,
     n,
     quantity,
     r,
@@ -42,6 +45,8 @@ N = quantity("count", called("n"))
 Visits = quantity("visits", called("T"))
 Vn = quantity("Vn", subscripted("V"))
 w = quantity("w", subscripted("w"))
+#: The return after a visit that has no time.
+observed = letter("observed", "R")
 
 
 def _given(letter: str) -> Callable[[Any], bool]:
@@ -363,3 +368,16 @@ with evaluate(False):
         note="These are the values of the most likely Markov process behind the data (the certainty equivalence).",
         place=Place.BEYOND,
     )
+
+
+@cache
+def of_a_visit(formula: Formula) -> Formula:
+    """A formula for the visit to s, after which the return is R, where visits have no times."""
+    plain = {S(t): s, G(t): observed}
+    with evaluate(False):
+        return replace(
+            formula,
+            left=formula.left.xreplace(plain),
+            right=formula.right.xreplace(plain),
+            misread={mistake: right.xreplace(plain) for mistake, right in formula.misread.items()},
+        )

@@ -18,6 +18,7 @@ from rldrill.solutions.sheet.temporal_difference import (
     SAMPLE_AVERAGE,
     START_FORGOTTEN,
     VISIT_COUNT,
+    of_a_visit,
 )
 from rldrill.solutions.work import Work
 
@@ -35,11 +36,11 @@ def solve(given: Given, work: Work) -> None:
 def _averaged(given: Given, work: Work) -> None:
     values = knowns.values(given.values)
     counts = {state: exact(count) for state, count in given.counts.items()}
-    S = {visit: state for visit, (state, _) in enumerate(given.visits, start=1)}
-    G = {visit: exact(value) for visit, (_, value) in enumerate(given.visits, start=1)}
-    for visit, state in S.items():
-        counts = counts | {state: work.step(VISIT_COUNT, t=visit, S=S, count=counts)}
-        values = values | {state: work.step(SAMPLE_AVERAGE, t=visit, S=S, count=counts, G=G, V=values)}
+    for number, (state, observed) in enumerate(given.visits, start=1):
+        known = {"s": state, "label": f"visit {number}" if len(given.visits) > 1 else None}
+        counts = counts | {state: work.step(of_a_visit(VISIT_COUNT), count=counts, **known)}
+        value = work.step(of_a_visit(SAMPLE_AVERAGE), count=counts, observed=exact(observed), V=values, **known)
+        values = values | {state: value}
     if given.known is None:
         work.answer({state: values[state] for state in given.visited})
     else:
@@ -49,8 +50,8 @@ def _averaged(given: Given, work: Work) -> None:
 def _weighted(given: Given, work: Work) -> None:
     if given.known is not None and len(given.visits) == 1:
         ((state, observed),) = given.visits
-        update = {"t": 1, "S": {1: state}, "G": {1: exact(observed)}, "V": knowns.values(given.values)}
-        find(given, work, work.step(MONTE_CARLO, label="", alpha=exact(given.alpha or 0), **update))
+        known = {"s": state, "observed": exact(observed), "V": knowns.values(given.values)}
+        find(given, work, work.step(of_a_visit(MONTE_CARLO), alpha=exact(given.alpha or 0), **known))
         return
     count, alpha = len(given.visits), exact(given.alpha or 0)
     weights = tuple(work.step(RECENCY_WEIGHT, i=i, n=count, alpha=alpha) for i in range(1, count + 1))
