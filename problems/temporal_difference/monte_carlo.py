@@ -155,14 +155,14 @@ def _learned(run: OfStates) -> Fraction:
 def question(given: Given) -> Question:
     """The returns first, then the updated values; in an open α the values alone."""
     what = "pair of state and action" if isinstance(given, OfActions) else "state"
-    returns = "All returns are computed at the end of the episode."
+    late = "All returns are computed at the end of the episode."
     if not given.revisits:
-        told = f"Monte Carlo makes one update for every visited {what}. {returns}"
+        told = f"Monte Carlo makes one update for every visited {what}. {late}"
     elif given.visits == "first":
-        told = f"The method is first-visit Monte Carlo: only the first visit to a {what} counts. {returns}"
+        told = f"The method is first-visit Monte Carlo: only the first visit to a {what} counts. {late}"
     else:
         told = (
-            f"The method is every-visit Monte Carlo: every visit to a {what} counts. {returns} Then the updates are "
+            f"The method is every-visit Monte Carlo: every visit to a {what} counts. {late} Then the updates are "
             "made in the order of the visits, each with the value that is current at that time."
         )
     table = action_values_table(given.values) if isinstance(given, OfActions) else values_table(given.values)

@@ -49,7 +49,9 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
     tables |= {(2, state, a): exact(value) for state, row in given.second.items() for a, value in row.items()}
     for time, (turn, *pair) in enumerate(zip(given.updates, run.states, run.actions, strict=False)):
         if len(given.updates) > 1:
-            work.say(f"The transition at $t = {time}$ updates $Q_{turn}$:")
+            ended = run.states[time + 1] in run.terminal
+            last = " and ends the episode, so nothing comes after its reward" if ended else ""
+            work.say(f"The transition at $t = {time}$ updates $Q_{turn}${last}:")
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
             find(work, given.outcome, given.asked_for, {pair: tables[turn, *pair] for pair in given.updated})

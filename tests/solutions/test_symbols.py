@@ -80,3 +80,63 @@ def test_the_same_policy_is_not_written_twice() -> None:
         "t = 0: π(slow|warm) = (1/2)/2 = 1/4",
         "t = 0: π(fast|warm) = 1 − 1/2 + (1/2)/2 = 3/4",
     ]
+
+
+def told(family: str, **given: object) -> str:
+    return str(read({"family": family, "given": given}).question())
+
+
+RUN = {"states": ["cool", "warm"], "actions": ["fast", "slow"], "rewards": [1]}
+
+
+@pytest.mark.parametrize(("slow", "tie"), [(2, False), (8, True)])
+def test_ties_are_settled_only_where_there_is_one(slow: int, *, tie: bool) -> None:
+    values = {"cool": {"slow": 0, "fast": 1}, "warm": {"slow": slow, "fast": 8}}
+    known = {"trajectory": RUN, "values": values, "alpha": "1/4", "gamma": "1/2"}
+    assert ("tied best actions" in told("expected-sarsa", epsilon="1/2", **known)) == tie
+    second = {"cool": {"slow": 1, "fast": 0}, "warm": {"slow": 3, "fast": 5}}
+    assert ("equally good actions" in told("double-q-learning", second=second, updates=[1], **known)) == tie
+
+
+def test_a_tie_that_an_update_makes_is_settled_too() -> None:
+    # Q(warm, slow) ← 4 + 1/2·(6 + 1/2·4 − 4) = 6, as much as fast: the second transition enters warm again.
+    run = {"states": ["warm", "warm", "warm"], "actions": ["slow", "fast"], "rewards": [5, 1]}
+    known = {"trajectory": run, "alpha": "1/2", "gamma": "1/2", "epsilon": 0}
+    assert "tied best actions" in told("expected-sarsa", values={"warm": {"slow": 4, "fast": 6}}, **known)
+    assert "tied best actions" not in told("expected-sarsa", values={"warm": {"slow": 2, "fast": 6}}, **known)
+
+
+@pytest.mark.parametrize(("pays", "tie"), [(1, False), (2, True)])
+def test_policy_iteration_keeps_the_old_action_only_on_a_tie(pays: int, *, tie: bool) -> None:
+    # Both actions end the episode: run earns 2, wait as much or less.
+    rows = [["new", "run", "broken", 1, 2], ["new", "wait", "broken", 1, pays]]
+    mdp = {"transitions": rows, "terminal": ["broken"]}
+    asked = told("policy-iteration", mdp=mdp, start={"new": "wait"}, gamma="1/2", rounds=1)
+    assert ("on a tie the old action is kept" in asked) == tie
+
+
+def test_first_visits_are_told_only_where_there_is_a_second_one() -> None:
+    known = {"alpha": "1/2", "gamma": "1/2", "visits": "first", "values": {"a": 1, "b": 2}}
+
+    def question(*states: str) -> str:
+        run = {"states": [*states, "end"], "rewards": [1] * len(states), "terminal": ["end"]}
+        return told("monte-carlo", trajectory=run, **known)
+
+    assert "visit to a state" not in question("a", "b")
+    assert "only the first visit to a state counts" in question("a", "b", "a")
+
+
+@pytest.mark.parametrize("name", ["sarsa", "q-learning", "expected-sarsa", "sarsa-lambda", "epsilon-greedy"])
+def test_what_is_asked_for_is_not_left_open(name: str) -> None:
+    for seed in range(12):
+        exercise = draw(name, 3, seed)
+        asks_back = not exercise.problem.parameters
+        asked = " ".join(str(exercise.question()).split())
+        assert ("is not known" in asked) == asks_back, exercise.id
+
+
+def test_a_visit_without_a_time_has_no_t() -> None:
+    given = {"values": {"a": 4}, "counts": {"a": 4}, "visits": [["a", 9]]}
+    lines = working(read({"family": "sample-average", "given": given}))
+    assert lines == ["n(s) ← n(s) + 1", "n(a) ← 4 + 1 = 5", "V(s) ← V(s) + (R − V(s))/n(s)",
+                     "V(a) ← 4 + (9 − 4)/5 = 4 + 5/5 = 5"]  # fmt: skip
