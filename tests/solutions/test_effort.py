@@ -12,10 +12,12 @@ from rldrill.problems.parts import Number, Part
 from rldrill.solutions.effort import minutes, minutes_of, seconds_of, whole, whole_points
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.formula.notation import (
+    ArgMaxOver,
     Clipped,
     Counting,
     Greatest,
     MaxOver,
+    States,
     V,
     called,
     gamma,
@@ -142,3 +144,18 @@ def test_a_point_for_a_minute_and_a_half(seconds: int, points_: int) -> None:
     """At two minutes a second point begins, and then one every minute and a half: a point is 1 to 2 minutes."""
     assert whole_points(Fraction(seconds, 60)) == points_
     assert 1 <= Fraction(seconds, 60) / points_ <= 2
+
+
+def test_what_an_arg_max_runs_over_is_no_work() -> None:
+    # Two values are looked up and written (2 · 1.5 s), and compared (3 s).
+    known = {"states": ("a", "b"), "V": {"a": fmpq(3), "b": fmpq(5)}}
+    assert of(ArgMaxOver(V(s), s, States), **known) == 6
+
+
+def test_nobody_works_out_a_product_with_zero() -> None:
+    with evaluate(False):
+        product = x * y * z
+        total = x + y * z
+    assert of(product, x=fmpq(3, 4), y=fmpq(2, 3), z=fmpq(0)) == 0
+    # 3 + 7·0: one addition (3 s), the digit 3 (1.5 s).
+    assert of(total, x=fmpq(3), y=fmpq(7), z=fmpq(0)) == Fraction(9, 2)
