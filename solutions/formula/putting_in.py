@@ -209,7 +209,18 @@ def _subtracted(expression: Expr) -> Expr:
     """A sum with its negative numbers subtracted: 4 − 1, where the line before has 1·4 + 1·(−1)."""
     if not expression.is_Add or isinstance(expression, Node):
         return expression
-    return Add._from_args([term.args[0] if isinstance(term, Negative) else term for term in expression.args])
+    return Add._from_args(list(map(_minus_first, expression.args)))
+
+
+def _minus_first(term: Expr) -> Expr:
+    """A negative number, or a quotient of one, with its minus in front."""
+    if isinstance(term, Negative):
+        return term.args[0]
+    above = [factor for factor in Mul.make_args(term) if not (factor.is_Pow and factor.args[1] == -1)]
+    if len(above) != 1 or not isinstance(above[0], Negative):
+        return term
+    below = [factor for factor in term.args if factor is not above[0]]
+    return Mul._from_args([sympy.S.NegativeOne, -above[0].args[0], *below])
 
 
 def _numbers_first(expression: Expr) -> Expr:

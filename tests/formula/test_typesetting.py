@@ -29,7 +29,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import JOINT_RATES
 from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO, UCB
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
 from rldrill.solutions.sheet.fundamentals import RELATIVE_FREQUENCY, RETURN
-from rldrill.solutions.sheet.temporal_difference import TD_ZERO
+from rldrill.solutions.sheet.temporal_difference import SAMPLE_AVERAGE, TD_ZERO, of_a_visit
 from rldrill.solutions.work import Step, Work
 
 LINES = Path(__file__).parent / "lines"
@@ -259,3 +259,10 @@ def test_a_line_that_only_changes_the_order_is_not_written() -> None:
 def test_a_number_in_brackets_is_parted_from_a_letter() -> None:
     trace = put_in(sympy.Symbol("y") * sympy.Symbol("z"), {"y": fmpq(-1), "z": generator("lambda")})
     assert unicode(typeset(2 + trace)) == "2 + (−1)·λ"
+
+
+def test_a_quotient_of_a_negative_number_is_subtracted() -> None:
+    known = {"s": "a", "count": {"a": fmpq(4)}, "observed": fmpq(-5), "V": {"a": fmpq(10)}}
+    assert written(of_a_visit(SAMPLE_AVERAGE), **known) == "V(a) ← 10 + (−5 − 10)/4 = 10 − 15/4 = 25/4"
+    discounted = {"t": 0, "r": {1: fmpq(4), 2: fmpq(-1)}, "T": 2, "gamma": fmpq(1)}
+    assert written(RETURN, **discounted) == "R₀ = 1⁰·4 + 1¹·(−1) = 4 − 1 = 3"
