@@ -20,7 +20,12 @@ def best_actions(values: Mapping[str, Value]) -> tuple[str, ...]:
 
 
 def epsilon_greedy(
-    work: Work, state: str, values: Mapping[str, Value], epsilon: Value, label: str | None = None
+    work: Work,
+    state: str,
+    values: Mapping[str, Value],
+    epsilon: Value,
+    label: str | None = None,
+    only: Sequence[str] = (),
 ) -> dict[str, Value]:
     """The probability of every action of a state; tied best actions share that of the greedy choice.
 
@@ -30,6 +35,7 @@ def epsilon_greedy(
         values: the value of each of its actions.
         epsilon: the exploration rate.
         label: when it is, where the policy changes with the values.
+        only: the actions whose probabilities are needed; all if empty.
 
     Raises:
         NoSolution: which action is best depends on what is left open.
@@ -37,7 +43,9 @@ def epsilon_greedy(
     best = best_actions(values)
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
-    return {action: work.step(formula, s=state, a=action, label=label, **known) for action in values}
+    if len(best) == 1:
+        work.say(f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of $|A("{state}")| = {len(values)}$ actions.')
+    return {action: work.step(formula, s=state, a=action, label=label, **known) for action in only or values}
 
 
 def taken(best: Mapping[str, Sequence[str]]) -> str:

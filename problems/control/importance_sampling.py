@@ -27,7 +27,7 @@ from rldrill.problems.settings import Setting, draw_moves, possible, settings
 
 TITLE = "Importance sampling"
 SOURCE = "Sutton & Barto 2018, section 5.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -123,9 +123,25 @@ def draw(level: int, rng: Draws) -> Given:
     if not _telling(given):
         return draw(level, rng)
     if level == 3:
+        if not _open_matters(given, both[0]):
+            return draw(level, rng)
         open_chances = dict(zip(both, (Parameter("p"), Parameter("1-p")), strict=True))
         return given.model_copy(update={"target": target | {first: open_chances}})
     return given
+
+
+def _open_matters(given: Given, onward: str) -> bool:
+    """Whether, with p for the first action, no ratio is p or 1 − p itself, and their sum depends on p."""
+    slopes = []
+    for episode in given.episodes:
+        (first, *later), (state, *rest) = episode.actions, episode.states
+        shares = [
+            Fraction(str(given.target[after][action])) / Fraction(str(given.behaviour[after][action]))
+            for after, action in zip(rest, later, strict=False)
+        ]
+        slope = prod(shares, start=1 / Fraction(str(given.behaviour[state][first])))
+        slopes.append(slope if first == onward else -slope)
+    return sum(slopes) != 0 and all(abs(slope) != 1 for slope in slopes)
 
 
 def _telling(given: Given) -> bool:

@@ -38,7 +38,8 @@ def _answer(given: Given, work: Work, values: dict[str, Value]) -> None:
 
 def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
     """ε from a probability or from the state's value; where that is asked for, too, the value with this ε."""
-    chances = epsilon_greedy(work, given.state, values, exact(given.epsilon))
+    needed = (given.taken.action,) if given.taken else ()
+    chances = epsilon_greedy(work, given.state, values, exact(given.epsilon), only=needed)
     if given.taken:
         work.say(f"{given.taken.action} is taken with probability ${shown(given.taken.probability)}$:")
         epsilon = work.answer(work.equate("epsilon", chances[given.taken.action], exact(given.taken.probability)))
