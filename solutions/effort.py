@@ -10,6 +10,7 @@ from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.nodes.leaves import Slot
 from rldrill.solutions.formula.nodes.sets import Over
+from rldrill.solutions.formula.putting_in import without_slots
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Elimination, Line, Result, Step
 
@@ -20,6 +21,8 @@ PART, STEP, OPERATION, DIGIT = 40, 8, 3, Fraction(3, 2)
 LEAST = Fraction(1)
 #: A letter left open is as much trouble as this many digits: its terms must be kept apart and collected.
 LETTER = 9
+#: Where nothing is added to it, only its power is counted.
+LONE_LETTER = 2
 
 
 def minutes(solution: Solution) -> Fraction:
@@ -64,15 +67,17 @@ def whole(time: Fraction) -> int:
 
 
 def _seconds(expression: Expr) -> Fraction:
+    letter = LETTER if without_slots(expression).has(sympy.Add) else LONE_LETTER
     operations = digits = 0
     plain = Fraction(0)
     nodes = sympy.preorder_traversal(expression)
     for node in nodes:
-        if node.is_Mul and any(isinstance(factor, Slot) and factor.args[0] == 0 for factor in node.args):
-            nodes.skip()  # nothing times 0 is worked out
-        elif node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
+        if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
             nodes.skip()
             plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
+        elif node.is_Mul and any(isinstance(factor, Slot) and factor.args[0] == 0 for factor in node.args):
+            nodes.skip()  # nor a product with 0
+            operations += 1
         elif isinstance(node, Over):  # what it runs over is no work
             nodes.skip()
             plain += _seconds(node.body)
@@ -82,7 +87,7 @@ def _seconds(expression: Expr) -> Fraction:
         elif node.is_Rational:
             digits += _digits(node)
         elif node.is_Symbol:
-            digits += LETTER
+            digits += letter
         elif node.is_Add or node.is_Mul:
             operations += len(node.args) - 1
         elif node.is_Function or node.is_Pow:

@@ -44,7 +44,9 @@ def epsilon_greedy(
     formula = EPSILON_GREEDY if len(best) == 1 else EPSILON_GREEDY_TIED
     known = {"epsilon": epsilon, "actions": {state: tuple(values)}, "best": {state: best[0]}, "greedy": {state: best}}
     if len(best) == 1:
-        work.say(f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of $|A("{state}")| = {len(values)}$ actions.')
+        work.say(
+            f'The greedy action is $a^*("{state}") = "{best[0]}"$, one of $|A("{state}")| = {len(values)}$ actions.'
+        )
     return {action: work.step(formula, s=state, a=action, label=label, **known) for action in only or values}
 
 

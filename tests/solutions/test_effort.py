@@ -86,7 +86,7 @@ def test_operations_and_digits(right: Expr, operations: int, digits: int) -> Non
 
 
 def test_a_letter_that_is_left_open_is_as_much_as_nine_digits() -> None:
-    assert of(x * y, x=generator("p"), y=fmpq(1, 3)) == 3 + (9 + 2) * Fraction(3, 2)
+    assert of(x + y, x=generator("p"), y=fmpq(1, 3)) == 3 + (9 + 2) * Fraction(3, 2)
 
 
 def test_a_larger_matrix_takes_longer() -> None:
@@ -156,6 +156,16 @@ def test_nobody_works_out_a_product_with_zero() -> None:
     with evaluate(False):
         product = x * y * z
         total = x + y * z
-    assert of(product, x=fmpq(3, 4), y=fmpq(2, 3), z=fmpq(0)) == 0
-    # 3 + 7·0: one addition (3 s), the digit 3 (1.5 s).
-    assert of(total, x=fmpq(3), y=fmpq(7), z=fmpq(0)) == Fraction(9, 2)
+    assert of(product, x=fmpq(3, 4), y=fmpq(2, 3), z=fmpq(0)) == 3
+    # 3 + 7·0: one addition (3 s), the digit 3 (1.5 s), and to see that the rest is 0 (3 s).
+    assert of(total, x=fmpq(3), y=fmpq(7), z=fmpq(0)) == Fraction(15, 2)
+
+
+def test_a_letter_is_little_trouble_where_nothing_is_added() -> None:
+    with evaluate(False):
+        product, total = x * y, x * y + z
+    p = generator("p")
+    # 1/4·p: a multiplication (3 s), two digits and the power of p (2 · 1.5 s each).
+    assert of(product, x=fmpq(1, 4), y=p) == 9
+    # 1/4·p + 3: one operation and one digit more, and p as good as nine digits.
+    assert of(total, x=fmpq(1, 4), y=p, z=fmpq(3)) == 3 * 2 + Fraction(3, 2) * (2 + 9 + 1)
