@@ -17,7 +17,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Sample average"
 SOURCE = "Sutton & Barto 2018, sections 2.4 and 2.5"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Reversible):
@@ -78,7 +78,8 @@ def draw(level: int, rng: Draws) -> Given:
         return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=alpha)
     kind = rng.below(4)
     if kind == 0:
-        return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=Parameter("alpha"))
+        few = returns[:3]  # with a fourth the powers of α are no pleasure
+        return Given(values={a: value}, visits=tuple((a, each) for each in few), alpha=Parameter("alpha"))
     if kind == 1:  # the step size from one visit
         alpha = rng.fraction("1/2", "1/3", "1/4", "2/3", "1/5", "3/4")
         first = rng.fitting(-9, 12, lambda each: each != value and (alpha * (each - value)).denominator == 1)
