@@ -185,7 +185,7 @@ def test_a_notebook_shows_question_and_parts_with_mathematics_in_latex() -> None
     assert shown.startswith("**Value iteration**\n\n")
     assert "| cool | fast | warm | $\\frac{1}{2}$ | $2$ |" in shown
     assert "(a) What is $V_{2}" in shown
-    assert "(b) Which action is greedy" in shown
+    assert "is greedy for $V_{2}$ in every state?" in shown
     assert shown.count("$") % 2 == 0
     assert shown.count("```") == 2
 
