@@ -4,7 +4,7 @@ from typing import Any
 
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
 from rldrill.problems.document import joined
-from rldrill.solutions.exact import Value, decimal, exact
+from rldrill.solutions.exact import Value, decimal, exact, told
 from rldrill.solutions.formula.compiling import arg_max
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -98,7 +98,11 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     """The weight with which both bounds are equal; above it the arm that was pulled less often is ahead."""
     better, rarer = given.between
     known = _counted(given, averages)
-    work.say("Equal bounds, $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, are solved for $c$:")
+    bounds = [f"{told(averages[arm])} + c √((ln {known['t']})/{told(known['N'][arm])})" for arm in given.between]
+    work.say(
+        "The bounds are equal if $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, here "
+        f"${' = '.join(bounds)}$. This is solved for $c$:"
+    )
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
         lambda: (
