@@ -11,6 +11,8 @@ from rich.console import Console, RenderableType
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.family import Family
+from rldrill.render.html import Html
+from rldrill.render.latex import latex_document
 from rldrill.render.markdown import markdown
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.terminal import asked, render
@@ -33,6 +35,7 @@ def _level(family: Family, level: int) -> str:
     exercise, said, seen = exercises[0], exercises[:SAID], exercises[:SEEN]
     drawn = [each.problem.data() for each in exercises]
     everything = [*exercise.question(), *(Paragraph(part.ask) for part in exercise.parts), *exercise.working()]
+    pictured = [block for each in seen for block in each.question()]
     return "\n".join(
         [
             f"{'=' * 20} {exercise.id}",
@@ -45,6 +48,8 @@ def _level(family: Family, level: int) -> str:
             f"narrow {_digest(_terminal(everything, 48))}",
             f"typst {_digest(document(tuple(everything)))}",
             f"markdown {_digest(markdown(tuple(everything)))}",
+            f"latex {_digest(latex_document([*everything, *pictured]))}",
+            f"html {_digest(Html().blocks([*everything, *pictured]))}",
             "",
         ]
     )
