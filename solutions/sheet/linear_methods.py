@@ -394,6 +394,7 @@ class Stationary(NamedTuple):
     """The formulas of the infinite horizon in the letters of one convention."""
 
     equation: Formula
+    scalar: Formula
     beta: Formula
     root: Formula
     gain: Formula
@@ -403,8 +404,9 @@ class Stationary(NamedTuple):
 @cache
 def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Stationary:
     """The infinite horizon as it is written in a convention; the sheet's own formulas, where nothing is added."""
+    scalar = _scalar(notation, discounted=discounted, crossed=crossed)
     if not (notation.costs or discounted or crossed):
-        return Stationary(LQR_STATIONARY, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
+        return Stationary(LQR_STATIONARY, scalar, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
     value, gain = letter(f"{notation.value}i", notation.value, matrix=True), letter(f"{notation.gain}i", notation.gain,
                                                                                     matrix=True)  # fmt: skip
     loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
@@ -422,7 +424,6 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
             beta_right = beta_right - Mul(2, *ahead, a1, b1, n1)
             product = product - n1**2
         root = beta + sqrt(beta**2 + Mul(4, *ahead, b1**2, product))
-        scalar = letter(f"{notation.value}k", notation.value)
         return Stationary(
             replace(
                 LQR_STATIONARY,
@@ -430,14 +431,27 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 right=(Qi if notation.costs else -Qi) + Mul(*ahead, Transposed(Ai), value, Ai) - turned * gain,
                 note="",
             ),
+            scalar,
             replace(LQR_BETA, right=beta_right, note=""),
             replace(
-                LQR_ROOT, left=scalar, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2), misread={},
-                note="",
+                LQR_ROOT, left=scalar.left, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2),
+                misread={}, note="",
             ),
             replace(LQR_STATIONARY_GAIN, left=gain, right=Pow(bracket, -1) * both, misread={}),
             replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
         )  # fmt: skip
+
+
+def _scalar(notation: Notation, *, discounted: bool, crossed: bool) -> Formula:
+    """The Riccati equation of a scalar system with the gain put in, in which only P is left."""
+    with evaluate(False):
+        ahead, value = (gamma,) if discounted else (), letter(f"{notation.value}k", notation.value)
+        price, turned = Mul(*ahead, b1**2, value), Mul(*ahead, a1, b1, value)
+        if crossed:
+            turned = turned + n1 if notation.costs else turned - n1
+        bracket, cost = (r1 + price, q1) if notation.costs else (price - r1, -q1)
+        right = cost + Mul(*ahead, a1**2, value) - Mul(turned**2, Pow(bracket, -1))
+    return replace(LQR_STATIONARY, left=value, right=right, note="")
 
 
 # Linearisation --------------------------------------------------------------------------------------

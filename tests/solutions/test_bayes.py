@@ -355,3 +355,12 @@ def test_a_variance_by_the_other_divisor_is_recognised_both_ways() -> None:
     assert exercise.solve()["b"] == fmpq(14, 3)
     assert [m.name for m in exercise.check("7", "b").misconceptions] == ["n-minus-1-for-n"]
     assert [m.name for m in exercise.check("14/3", "c").misconceptions] == ["n-for-n-minus-1"]
+
+
+def test_no_measurement_is_as_it_was_predicted() -> None:
+    """Else the gain would not matter for the mean."""
+    for seed in range(40):
+        given_: Any = draw("kalman-filter", 3, seed).problem.given
+        if len(given_.mean) == 2:
+            (place,), (velocity,) = given_.mean
+            assert given_.steps[0].z[0][0] not in (place, place + velocity)

@@ -411,3 +411,14 @@ def test_the_price_of_a_first_action_by_hand() -> None:
     # P₁ = −2; a₀ = −3·2/(2 + ρ) = −3/2 for ρ = 2; L₀ = 3/2 (from the state 1), and P₀ = −2 − 2·9 + 2·3·3/2 = −11.
     answers = solved("lqr-backward", A=3, B=1, Q=2, R="rho", start=[1], horizon=1, action="-3/2")
     assert [answers["a"], answers["b"][0, 0], answers["c"][0, 0]] == [2, fmpq(3, 2), -11]
+
+
+def test_the_scalar_riccati_equation_is_solved_with_its_numbers() -> None:
+    """The root of a value is the negative one."""
+    exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": [[1]], "B": [[1]], "Q": [[2]], "R": [[4]]}})
+    working = str(exercise.working("a"))
+    # −2 + P − P²/(P − 4), times P − 4: P² − 4P = −2P + 8 + P² − 4P − P², so P² + 2P − 8 = 0, whose roots are −4 and 2.
+    assert "P = −2 + 1²·P − (1·1·P)²/(1²·P − 4)" in working
+    assert "−8 + 2P + P² = 0" in working
+    assert exercise.solve()["a"][0, 0] == -4
+    assert exercise.parts[0].points >= 3

@@ -90,11 +90,6 @@ class MatrixLeaf(Leaf):
         return self.scalar and bool(self.args[0][0].is_Add)
 
     @property
-    def operations(self) -> int:
-        """One for every entry."""
-        return len(self.args[0])
-
-    @property
     def numbers(self) -> Iterable[Expr]:
         """Its entries, though they are in its arguments: what is written down is first looked up."""
         return self.args[0]
