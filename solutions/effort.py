@@ -79,6 +79,9 @@ def _seconds(expression: Expr) -> Fraction:
         if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
             nodes.skip()
             plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
+        elif node.is_Mul and any(isinstance(factor, Slot) and factor.args[0] == 0 for factor in node.args):
+            nodes.skip()  # nor a product with 0
+            operations += 1
         elif isinstance(node, Node):
             operations += node.operations
             digits += sum(map(_digits, node.numbers))

@@ -491,6 +491,7 @@ partial_s, partial_a = quantity("partialS", _by_entry("s")), quantity("partialA"
 Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
 f_value, f_point = (quantity(code, lambda component: row(Script(variable("f"), component), _POINT))
                     for code in ("fValue", "fPoint"))  # fmt: skip
+f_alone = quantity("fAlone", lambda _: row(variable("f"), _POINT))  # where f has one component only
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
 F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)

@@ -129,6 +129,10 @@ def test_zeros_in_a_matrix_are_not_multiplied() -> None:
     assert full - diagonal == 3 * 2 * (8 - 2)
 
 
+def test_a_product_with_zero_is_seen_at_once() -> None:
+    assert of(x * y * z, x=fmpq(123, 45), y=fmpq(0), z=fmpq(67)) == 3
+
+
 def system(work: Work, discount: Any) -> None:
     """V(cool) = 1 + γ V(hot) and V(hot) = 3 + γ V(cool)."""
     with evaluate(False):

@@ -127,6 +127,8 @@ def leaf(value: Any) -> Expr:
     if isinstance(value, Vector):
         return VectorLeaf(value.matrix())
     number_ = to_sympy(value)
+    if number_.is_Mul and number_.is_algebraic and not number_.could_extract_minus_sign():
+        return Factor(number_)
     return Slot(number_) if number_ in (0, 1) else computed(ordered(number_))
 
 
