@@ -189,7 +189,8 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph(
             f"A coin is tossed ${given.heads + given.tails}$ times, independently, and the order is written down: "
-            f"${given.heads}$ head{'s' * (given.heads != 1)} and ${given.tails}$ tail{'s' * (given.tails != 1)}. "
+            f"$n_1 = {given.heads}$ head{'s' * (given.heads != 1)} and $n_0 = {given.tails}$ "
+            f"tail{'s' * (given.tails != 1)}. "
             "With $θ$ the probability of heads, these models $M$ are compared:"
         ),
         Table(
@@ -213,7 +214,8 @@ def question(given: Given) -> Question:
         odds = Part(f"What are the posterior odds {ratio}?", Number())
     else:
         odds = Part("What is the posterior probability $p(M|D_z)$ of every model?", Values("p(·|D_z)", names))
-    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the most probable model?", YesNo())))
+    most = "more" if len(names) == 2 else "most"
+    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the {most} probable model?", YesNo())))
 
 
 def _says(model: CoinModel) -> str:

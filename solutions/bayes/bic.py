@@ -78,7 +78,8 @@ def free_parameters(data: Data, model: str) -> int:
 def _fit(work: Work, data: Data, model: str) -> Value:
     heads = {coin: exact(counts[0]) for coin, counts in data.tosses.items()}
     tails = {coin: exact(counts[1]) for coin, counts in data.tosses.items()}
-    work.say(f"The model “{model}”:")
+    counts = ", with $n_1$ heads and $n_0$ tails of all coins" if model == "shared" and len(heads) > 1 else ""
+    work.say(f"The model “{model}”{counts}:")
     if model == "fair":
         theta: dict[str, Any] = dict.fromkeys(heads, exact(1) / 2)
     elif model == "shared":

@@ -364,3 +364,21 @@ def test_no_measurement_is_as_it_was_predicted() -> None:
         if len(given_.mean) == 2:
             (place,), (velocity,) = given_.mean
             assert given_.steps[0].z[0][0] not in (place, place + velocity)
+
+
+def test_of_two_models_one_is_the_more_probable_of_three_the_most() -> None:
+    for seed in range(12):
+        for level in (1, 2, 3):
+            exercise = rldrill.draw("model-comparison", level, seed)
+            two = len(exercise.problem.given.models) == 2  # type: ignore[attr-defined]
+            said = " ".join([part.ask for part in exercise.parts] + [str(exercise.working())])
+            assert ("most probable model" if two else "more probable model") not in said
+
+
+def test_the_letters_of_the_tosses_are_in_the_question() -> None:
+    """n₁ and n₀ of the formulas are told where the tosses are."""
+    for name in ("model-comparison", "bic", "model-fitting"):
+        for seed in range(12):
+            exercise = rldrill.draw(name, 2, seed)
+            question, working = str(exercise.question()), str(exercise.working())
+            assert ("n₁" in working) <= ("n₁" in question or "n_(1,c)" in question), exercise.id
