@@ -187,8 +187,9 @@ def _state(given: Given) -> Document:
 
 def _weights(given: Given) -> Document:
     order = (
-        "Action values are estimated as $Q̂(s, a) = θ^⊤ f(s, a)$. In $f(s, a)$ the features $φ(s)$ are stacked, one block "
-        f"for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are $0$. "
+        "Action values are estimated as $Q̂(s, a) = θ^⊤ f(s, a)$. In $f(s, a)$ the features $φ(s)$ are stacked, "
+        f"one block for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are "
+        "$0$. "
     )
     return (Paragraph(f"{order}The weights are ${weights(given.theta)}$."),)
 
