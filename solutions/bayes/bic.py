@@ -49,6 +49,7 @@ def _compare(given: Given, work: Work, better: int) -> None:
         fit = work.answer({name: _fit(work, given.data, name) for name in names})
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
+    work.recall(formula)
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
@@ -98,8 +99,8 @@ def _border(given: Given, work: Work, better: int) -> None:
     assert given.fitted is not None
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
-    fit = {name: _logarithm(given, name, work) for name in given.fitted}
     work.recall(BIC)
+    fit = {name: _logarithm(given, name, work) for name in given.fitted}
     work.say(f"It is the same for {rich}, on the left, and {simple}, on the right, if")
     sides = [
         sympy.Add(

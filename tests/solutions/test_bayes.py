@@ -3,6 +3,7 @@
 from fractions import Fraction
 from json import dumps, loads
 from math import comb
+from re import findall
 from typing import Any
 
 import pytest
@@ -382,3 +383,10 @@ def test_the_letters_of_the_tosses_are_in_the_question() -> None:
             exercise = rldrill.draw(name, 2, seed)
             question, working = str(exercise.question()), str(exercise.working())
             assert ("n₁" in working) <= ("n₁" in question or "n_(1,c)" in question), exercise.id
+
+
+def test_the_factorials_of_an_evidence_are_known_by_heart() -> None:
+    for seed in range(15):
+        for level in (2, 3):
+            working = str(rldrill.draw("model-comparison", level, seed).working("a"))
+            assert max(map(int, findall(r"\d+", working))) <= 720
