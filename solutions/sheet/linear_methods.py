@@ -723,7 +723,7 @@ f_iss, f_ias, f_iaa = (
 
 def _second(line: Math, first: Math, then: Math) -> Math:
     above = Script(variable("∂"), above=Glyph("2", "number"))
-    of = line if isinstance(line, Glyph) and line.text == "r" else Script(variable("f"), line)
+    of = variable(line.text) if isinstance(line, Glyph) and line.text in ("r", "f") else Script(variable("f"), line)
     if first == then:
         below: Math = row(variable("∂"), Script(_letter(first), above=Glyph("2", "number")))
     else:
@@ -731,7 +731,7 @@ def _second(line: Math, first: Math, then: Math) -> Math:
     return Fraction(row(above, of), below)
 
 
-#: ∂²f₁/∂θ² and the like; of the reward, with r in place of the number.
+#: ∂²f₁/∂θ² and the like; of the reward, or of an f of one component, with r or f in place of the number.
 second = quantity("secondD", _second)
 g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
