@@ -66,7 +66,7 @@ def _pose(work: Work, known: dict[str, Any]) -> None:
     seen = origins[last]
     if before:
         work.say(
-            f"In the frame of link ${last - 1}$ the last origin is $p_{last - 1} = o_{last}$; seen from further in:"
+            f"In the frame of link ${last - 1}$ the last origin is $p_{last - 1} = o_{last}$; in the frames before it:"
         )
     for link in reversed(before):
         seen = work.step(FORWARD_POINT, i=link, point={link: seen}, rotation=turns, origin=origins)
