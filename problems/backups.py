@@ -32,6 +32,57 @@ TITLES: dict[Backup, str] = {
     "q-learning": "Q-learning",
 }
 
+#: What may be changed in a diagram.
+Change: TypeAlias = Literal[
+    "arc",
+    "no-arc",
+    "one-state",
+    "all-states",
+    "one-action",
+    "all-actions",
+    "sampled",
+    "everything",
+    "one-step",
+    "several-steps",
+    "to-the-end",
+]
+CHANGES: tuple[Change, ...] = get_args(Change)
+
+#: What is done to the diagram, in a question.
+DONE: dict[Change, str] = {
+    "arc": "an arc is drawn across the branches from each state",
+    "no-arc": "every arc is left out",
+    "one-state": "of the next states only the one that was reached is drawn",
+    "all-states": "all possible next states are drawn, not only the one that was reached",
+    "one-action": "of the actions at the bottom only the one that was taken is drawn",
+    "all-actions": "all actions of the next state are drawn, not only the one that was taken",
+    "sampled": "at every node only the branch that was sampled is drawn",
+    "everything": "all actions and all next states are drawn, not only those that were sampled",
+    "one-step": "the run stops after one step, in a state where the episode goes on",
+    "several-steps": "the run stops after several steps, in a state where the episode goes on",
+    "to-the-end": "the run goes on to the end of the episode",
+}
+
+#: What each diagram becomes by a change; where it becomes none of these diagrams, the change is left out.
+CHANGED: dict[Backup, dict[Change, Backup]] = {
+    "bellman-v": {"arc": "bellman-optimality-v", "sampled": "td-zero"},
+    "bellman-q": {"arc": "bellman-optimality-q", "one-state": "expected-sarsa", "sampled": "sarsa"},
+    "bellman-optimality-v": {"no-arc": "bellman-v", "sampled": "td-zero"},
+    "bellman-optimality-q": {"no-arc": "bellman-q", "one-state": "q-learning", "sampled": "sarsa"},
+    "td-zero": {"everything": "bellman-v", "several-steps": "n-step-td", "to-the-end": "monte-carlo"},
+    "n-step-td": {"one-step": "td-zero", "to-the-end": "monte-carlo"},
+    "monte-carlo": {"one-step": "td-zero", "several-steps": "n-step-td"},
+    "sarsa": {"all-actions": "expected-sarsa", "everything": "bellman-q"},
+    "expected-sarsa": {
+        "arc": "q-learning", "all-states": "bellman-q", "everything": "bellman-q", "one-action": "sarsa",
+        "sampled": "sarsa",
+    },
+    "q-learning": {
+        "no-arc": "expected-sarsa", "all-states": "bellman-optimality-q", "everything": "bellman-optimality-q",
+        "one-action": "sarsa", "sampled": "sarsa",
+    },
+}  # fmt: skip
+
 
 def legend(*, arcs: bool, ends: bool) -> str:
     """What a reader of such diagrams must know: of arcs and of ends of episodes, where there may be any."""

@@ -1,17 +1,19 @@
 """Robots with their published dynamics, from ``robots.toml``, and dynamics as problems give them."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import zip_longest
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from rldrill.problems import mathematics as maths
-from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, shown
-from rldrill.problems.document import Block, Equation, Paragraph
+from rldrill.problems.angles import Angle, AngleField, degrees, read_angle
+from rldrill.problems.angles import text as angle_text
+from rldrill.problems.document import Beside, Block, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.exact import shown as exact_shown
@@ -224,55 +226,58 @@ class Entries(Givens):
         ]
 
 
-def situation(given: System) -> Iterator[Block]:
-    """What the system does: its story, the rates of its state, and the values of the letters."""
-    yield from _story(given, "The rates $f(s, a)$ of the state are:")
-    for name, text in given.dynamics.items():
-        yield Equation(_rate(name), (written(text),), ("=",))
-    if given.where:
-        yield Paragraph("where")
-        for name, text in given.where.items():
-            yield Equation(written_letter(name), (written(text),), ("=",))
-    yield from _values(given)
+def situation(given: System, then: str) -> Iterator[Block]:
+    """What the system does: its story, the rates of its state, the values of the letters; and what is said then."""
+    yield from _story(given, f"The rates $f(s, a)$ {'and their parts' if given.where else 'of the state'} are:")
+    yield from _in_pairs((_rate(name), written(text)) for name, text in given.dynamics.items())
+    yield from _in_pairs((written_letter(name), written(text)) for name, text in given.where.items())
+    yield Paragraph(f"{_values(given)} {then}")
 
 
-def plan(given: System, reward: str) -> Iterator[Block]:
+def plan(given: System, reward: str, then: str) -> Iterator[Block]:
     """The same for a system of which the next state and the reward are given."""
-    yield from _story(given, "The next state is $f(s, a)$:")
-    for index, text in enumerate(given.dynamics.values(), 1):
-        yield Equation(mathematics(f"f_{index}" if len(given.dynamics) > 1 else "f"), (written(text),), ("=",))
-    yield Paragraph("The reward is")
-    yield Equation(mathematics("r(s, a)"), (written(reward),), ("=",))
-    yield from _values(given)
+    yield from _story(given, "The next state $f(s, a)$ and the reward $r(s, a)$ are:")
+    names = ["f(s, a)"] if len(given.dynamics) == 1 else [f"f_{index}" for index in range(1, len(given.dynamics) + 1)]
+    lefts, rights = (*names, "r(s, a)"), (*given.dynamics.values(), reward)
+    yield from _in_pairs(zip(map(mathematics, lefts), map(written, rights), strict=True))
+    yield Paragraph(f"{_values(given)} {then}")
+
+
+def _in_pairs(equations: Iterable[tuple[Math, Math]]) -> Iterator[Block]:
+    """Equations two and two side by side."""
+    blocks = [Equation(left, (right,), ("=",)) for left, right in equations]
+    for first, second in zip_longest(blocks[::2], blocks[1::2]):
+        yield first if second is None else Beside((first, second))
 
 
 def _story(given: System, then: str) -> Iterator[Block]:
     if given.story:
         yield Paragraph(given.story)
     yield from _drawn(given)
-    states, actions = (_column(names) for names in (given.states, tuple(given.action)))
+    states, actions = (_column(map(_text, names)) for names in (given.states, tuple(given.action)))
     yield Paragraph(f"State and action are $s = {states}$ and $a = {actions}$. {then}")
 
 
-def _values(given: System) -> Iterator[Block]:
-    if given.constants:
-        what = "constant is" if len(given.constants) == 1 else "constants are"
-        yield Paragraph(f"The {what} ${_assignments(given.constants)}$.")
-    yield Paragraph("The operating point is")
-    for head, values in (("s", {name: given.state[name] for name in given.states}), ("a", given.action)):
-        yield _point(head, values)
+def _values(given: System) -> str:
+    """The values of the constants, and the operating point."""
+    state = _column(angle_text(given.state[name]) for name in given.states)
+    point = f"he operating point is $s̄ = {state}$, $ā = {_column(map(angle_text, given.action.values()))}$."
+    if not given.constants:
+        return f"T{point}"
+    what = "constant is" if len(given.constants) == 1 else "constants are"
+    return f"The {what} ${_assignments(given.constants)}$; t{point}"
 
 
-def discretised(given: System) -> Paragraph:
+def discretised(given: System) -> str:
     """The sentence that gives the Euler step, or the zero-order hold."""
     if given.held:
-        return Paragraph(
+        return (
             "The rates are linearised at the operating point, $f(s, a) ≈ f(s̄, ā) + A (s − s̄) + B (a − ā)$, and time is "
             "discretised by a zero-order hold: the action stays $a_t$ for the time "
             f"$Δ t = {exact_shown(given.step or Fraction(0))}$, and $s_{{t+1}} = F(s_t, a_t)$ is where the linearised "
             "rates have then led from $s_t$."
         )
-    return Paragraph(
+    return (
         "Time is discretised by an Euler step: $s_{t+1} = F(s_t, a_t) = s_t + Δ t f(s_t, a_t)$ with "
         f"$Δ t = {exact_shown(given.step or Fraction(0))}$."
     )
@@ -286,9 +291,9 @@ def _drawn(given: System) -> Iterator[Picture]:
         yield Pendulum(degrees(given.state["θ"]), cart=given.picture == "cart-pole")
 
 
-def _column(names: tuple[str, ...]) -> str:
-    inside = ", ".join(_text(name) for name in names)
-    return f"({inside})^⊤" if len(names) > 1 else inside
+def _column(entries: Iterable[str]) -> str:
+    each = tuple(entries)
+    return f"({', '.join(each)})^⊤" if len(each) > 1 else each[0]
 
 
 def _text(name: str) -> str:
@@ -302,10 +307,3 @@ def _rate(name: str) -> Math:
 
 def _assignments(values: Mapping[str, Fraction]) -> str:
     return ", ".join(f"{_text(name)} = {value}" for name, value in values.items())
-
-
-def _point(head: str, values: Mapping[str, Angle]) -> Equation:
-    """The operating point by its letters, and as a column."""
-    column = tuple(map(shown, values.values()))
-    right = column[0] if len(column) == 1 else maths.Tabular(tuple((entry,) for entry in column))
-    return Equation(maths.Accent(variable(head), "bar"), (right,), ("=",))

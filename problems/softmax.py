@@ -79,9 +79,11 @@ def episode_blocks(given: Episode) -> tuple[Block, ...]:
     """An episode, and the policy that was followed in it."""
     run = given.trajectory
     return (
-        Paragraph("An agent follows this trajectory (each reward stands at the time at which it is received):"),
+        Paragraph(
+            f"This is an agent's episode, which ends at $T = {len(run.rewards)}$ (each reward stands at the time at "
+            "which it is received):"
+        ),
         trajectory_table(run),
-        Paragraph(f"The episode ends in {run.states[-1]}, at $T = {len(run.rewards)}$."),
         *policy_blocks(given.features, given.theta),
     )
 

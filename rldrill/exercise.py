@@ -298,7 +298,7 @@ class Exercise:
 
 def _seconds(lines: Sequence[Line], index: int) -> Fraction:
     """The time that a line takes, which for the solution of equations depends on those before."""
-    if isinstance(lines[index], Result | Elimination):
+    if isinstance(lines[index], Result | Elimination | Equality):
         return seconds_of(lines[: index + 1]) - seconds_of(lines[:index])
     return seconds_of([lines[index]])
 

@@ -1,6 +1,8 @@
 """How long a problem takes by hand, estimated from its own steps, operations and digits; and the points that follow."""
 
 from collections.abc import Iterable
+from functools import reduce
+from typing import TypeAlias
 
 import sympy
 from sympy import Expr
@@ -8,15 +10,18 @@ from sympy import Expr
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import parameters
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.formula.nodes.leaves import Slot
+from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, Slot
+from rldrill.solutions.formula.nodes.matrices import Transposed
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.putting_in import without_slots
 from rldrill.solutions.solution import Solution
-from rldrill.solutions.work import Elimination, Line, Result, Step
+from rldrill.solutions.work import Elimination, Equality, Line, Result, Step
 
 #: Seconds, as for somebody who knows the formula: to read a part, to write down a step, to do an
 #: operation, and to handle one digit of a number in it.
 PART, STEP, OPERATION, DIGIT = 40, 8, 3, Fraction(3, 2)
+#: An equation is written once more with the same done to both sides, on numbers of three digits.
+REARRANGED = STEP + 2 * OPERATION + 3 * DIGIT
 #: Nobody reads, answers and checks a part in less than this.
 LEAST = Fraction(1)
 #: A letter left open is as much trouble as this many digits: its terms must be kept apart and collected.
@@ -49,6 +54,7 @@ def seconds_of(lines: Iterable[Line]) -> Fraction:
     """The seconds that lines of a working take to be worked out and written."""
     seconds = Fraction(0)
     unknowns = 0
+    before: Line | None = None
     for line in lines:
         if isinstance(line, Step):
             seconds += STEP + _seconds(line.put_in)
@@ -58,6 +64,9 @@ def seconds_of(lines: Iterable[Line]) -> Fraction:
             size = LETTER if any(map(parameters, line.values)) else 3
             seconds += (2 * OPERATION + size * DIGIT) * Fraction(unknowns**3 + 3 * unknowns**2, 3)
             unknowns = 0
+        elif isinstance(line, Equality):
+            seconds += REARRANGED if isinstance(before, Equality) else STEP
+        before = line
     return seconds
 
 
@@ -88,10 +97,8 @@ def _seconds(expression: Expr) -> Fraction:
             digits += _digits(node)
         elif node.is_Symbol:
             digits += letter
-        elif node.is_Add or node.is_Mul:
-            operations += len(node.args) - 1
-        elif node.is_Function or node.is_Pow:
-            operations += 1
+        elif node.is_Add or node.is_Mul or node.is_Function or node.is_Pow:
+            operations += _operations(node)
     return plain + OPERATION * operations + DIGIT * digits
 
 
@@ -99,3 +106,59 @@ def _digits(number: Expr) -> int:
     if not number.is_Rational:
         return 2
     return len(str(abs(number.p))) + (len(str(number.q)) if number.q != 1 else 0)
+
+
+def _operations(node: Expr) -> int:
+    """The operations of arithmetic of one sum, product, power or function, once its arguments are worked out."""
+    grids = [grid for argument in node.args if (grid := _filled(argument))]
+    if not grids:
+        return len(node.args) - 1 if node.is_Add or node.is_Mul else 1
+    if node.is_Pow:  # determinant and adjugate, or elimination
+        return len(grids[0]) ** 3
+    if node.is_Add:
+        return (len(node.args) - 1) * max(map(_entries, grids))
+    factors = sum(argument != -1 for argument in node.args) - len(grids)
+    operations = factors * min(map(_entries, grids))
+    product = grids[0]
+    for grid in grids[1:]:
+        operations += 2 * sum(map(sum, _terms(product, grid)))  # multiplied, and added or written down
+        product = _product(product, grid)
+    return operations
+
+
+#: Which entries of a matrix are not zero.
+Grid: TypeAlias = tuple[tuple[bool, ...], ...]
+
+
+def _filled(expression: Expr) -> Grid | None:
+    """Which entries of a matrix are not zero, as far as its terms and factors tell; None for a number."""
+    if isinstance(expression, MatrixLeaf):
+        return None if expression.scalar else _grid(expression.args[0].tolist())
+    if isinstance(expression, Node) and not isinstance(expression, Transposed):
+        return None
+    grids = [grid for argument in expression.args if (grid := _filled(argument))]
+    if not grids:
+        return None
+    if isinstance(expression, Transposed):
+        return tuple(zip(*grids[0], strict=True))
+    if expression.is_Mul:
+        return reduce(_product, grids)
+    return _grid([any(entries) for entries in zip(*lines, strict=True)] for lines in zip(*grids, strict=True))
+
+
+def _grid(lines: Iterable[Iterable[object]]) -> Grid:
+    return tuple(tuple(map(bool, line)) for line in lines)
+
+
+def _entries(grid: Grid) -> int:
+    return sum(map(sum, grid))
+
+
+def _terms(left: Grid, right: Grid) -> list[list[int]]:
+    """How many products are added up in every entry of a product of two matrices."""
+    columns = list(zip(*right, strict=True))
+    return [[sum(a and b for a, b in zip(line, column, strict=True)) for column in columns] for line in left]
+
+
+def _product(left: Grid, right: Grid) -> Grid:
+    return _grid(_terms(left, right))

@@ -26,6 +26,7 @@ from rldrill.solutions.sheet.linear_methods import (
     STATE_JACOBIAN,
     Ai,
     Bi,
+    f_alone,
     f_value,
     part_value,
     partial,
@@ -36,18 +37,25 @@ from rldrill.solutions.zero_order_hold import ZeroOrderHold
 
 #: The derivative of an expression by a letter, with the named parts in it that depend on the letter.
 Rule = Callable[[str, str, tuple[str, ...]], Expr]
-#: How somebody gets from a system to its matrices A and B.
-Linearised = Callable[[System, Work], Iterator[AnyMatrix]]
+#: How somebody gets from a system to its matrices, in the order "AB" or "BA".
+Linearised = Callable[[System, Work, str], Iterator[AnyMatrix]]
 
 
-def linearised(given: System, work: Work, rule: Rule = dynamics.chained) -> Iterator[AnyMatrix]:
-    """A and then B, of the Euler step if the system has one."""
+def linearised(given: System, work: Work, order: str = "AB", rule: Rule = dynamics.chained) -> Iterator[AnyMatrix]:
+    """The matrices in this order, of the Euler step if the system has one; a zero-order hold takes A first."""
     work.recall(LINEARISE)
     known = _point(work, given)
-    A = _jacobian(work, given, STATE_JACOBIAN, known, rule)
-    yield hold(given, A).state(work) if given.held else _euler(work, given, EULER_A, A)
-    B = _jacobian(work, given, INPUT_JACOBIAN, known, rule)
-    yield hold(given, A).action(work, B) if given.held else _euler(work, given, EULER_B, B)
+    found: dict[str, AnyMatrix] = {}
+    for which in order:
+        found[which] = _jacobian(work, given, STATE_JACOBIAN if which == "A" else INPUT_JACOBIAN, known, rule)
+        yield _discretised(work, given, which, found)
+
+
+def _discretised(work: Work, given: System, which: str, found: Mapping[str, AnyMatrix]) -> AnyMatrix:
+    if given.held:
+        holding = hold(given, found["A"])
+        return holding.state(work) if which == "A" else holding.action(work, found["B"])
+    return _euler(work, given, EULER_A if which == "A" else EULER_B, found[which])
 
 
 def answered(work: Work, entries: Entries | None, which: str, found: AnyMatrix) -> AnyMatrix:
@@ -103,7 +111,7 @@ def _at_zero(given: System) -> list[AnyMatrix]:
 @kept
 def _exchanged(given: System) -> list[AnyMatrix]:
     """Sines for cosines in all derivatives, and the other way round."""
-    return list(linearised(given, Work(), lambda *of: dynamics.exchanged(dynamics.chained(*of))))
+    return list(linearised(given, Work(), rule=lambda *of: dynamics.exchanged(dynamics.chained(*of))))
 
 
 def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception, ...]:
@@ -113,13 +121,18 @@ def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception
             "derivative-at-zero",
             "The derivatives are taken at the operating point (s̄, ā), not at zero: put its values in.",
             when=lambda given: _changes(given, _at_zero),
-        )(lambda given, work: solve(given, work, lambda given, _: iter(_at_zero(given)))),
+        )(lambda given, work: solve(given, work, _in_order(_at_zero))),
         slip(
             "sine-for-cosine",
             "The derivative of the sine is the cosine, and that of the cosine is minus the sine: they were exchanged.",
             when=lambda given: _changes(given, _exchanged),
-        )(lambda given, work: solve(given, work, lambda given, _: iter(_exchanged(given)))),
+        )(lambda given, work: solve(given, work, _in_order(_exchanged))),
     )
+
+
+def _in_order(mistaken: Callable[[System], list[AnyMatrix]]) -> Linearised:
+    """Matrices that were made with a mistake, in the order in which they are wanted."""
+    return lambda given, _, order: (mistaken(given)["AB".index(which)] for which in order)
 
 
 def _changes(given: System, mistaken: Callable[[System], list[AnyMatrix]]) -> bool:
@@ -140,8 +153,9 @@ def _point(work: Work, given: System) -> dict[str, Value]:
 
 
 def _right(text: str) -> Expr:
-    (expression,) = dynamics.expressions((("", text),))
-    return dynamics.readable(expression)
+    """What a text says, in its own order."""
+    (expression,) = dynamics.expressions((("", text),), evaluate=False)
+    return expression
 
 
 @dynamics.at_operating_point()
@@ -150,8 +164,9 @@ def rates(work: Work, given: System) -> AnyMatrix:
     known = dynamics.known(given)
     for name, text in given.where.items():
         known[dynamics.code(name)] = value_of(_right(text), known)
+    several = len(given.dynamics) > 1
     return matrices.column(
-        work.step(PART_VALUE, into=f_value, right=_right(text), i=index, **known)
+        work.step(PART_VALUE, into=f_value if several else f_alone, right=_right(text), i=index, **known)
         for index, text in enumerate(given.dynamics.values(), 1)
     )
 
@@ -172,15 +187,17 @@ def _column(work: Work, given: System, formula: Formula, by: str, known: dict[st
     known = {**known, "j": by}
 
     def derivative(text: str, index: int | str) -> Value:
+        component = isinstance(index, int)
         within = letters(text)
         right = rule(text, by, tuple(part for part in moving if part in within))
         if right == 0:
             return ZERO
-        if isinstance(index, str) and is_zero(value_of(right, known)):
+        if not component and is_zero(value_of(right, known)):
             work.step(formula, into=partial_part, right=right, i=index, **known)
             return ZERO
-        into = partial if isinstance(index, int) else partial_part
-        return work.step(formula, into=into, right=right, i=index, **known)
+        if component and len(given.dynamics) == 1:
+            return work.step(formula, into=partial_part, right=right, i="f", **known)
+        return work.step(formula, into=partial if component else partial_part, right=right, i=index, **known)
 
     for part, text in given.where.items():
         value = derivative(text, part)

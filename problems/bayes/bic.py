@@ -248,7 +248,7 @@ def question(given: Given) -> Question:
             + " gave:"
         ),
         Table(
-            header=("coin", "heads", "tails"),
+            header=("coin $c$", "heads $n_{1, c}$", "tails $n_{0, c}$"),
             rows=tuple((coin, f"${heads}$", f"${tails}$") for coin, (heads, tails) in tosses.items()),
         ),
         Paragraph("With $θ$ the probability of heads, two models are compared:"),

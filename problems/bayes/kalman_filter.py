@@ -25,7 +25,7 @@ from rldrill.problems.parts import LETTERS, Matrix, Number, Numbers, Part
 
 TITLE = "Kalman filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 3.2"
-REVISION = 5
+REVISION = 6
 
 _0, _1 = Fraction(0), Fraction(1)
 _ONE = ((_1,),)
@@ -176,15 +176,19 @@ def _with_velocity(rng: Draws) -> Given:
     """A position and a velocity, of which the first is measured; with a command, or without."""
     driven = rng.chance(Fraction(1, 2))
     u = ((rng.nonzero(-2, 2),),) if driven else None
+    place, velocity = rng.whole(0, 5), rng.nonzero(-2, 3)
+    z = rng.whole(2, 12)
+    while z in (place, place + velocity):  # a measurement as it was predicted changes nothing
+        z += 1
     return Given(
-        mean=((rng.whole(0, 5),), (rng.nonzero(-2, 3),)),
+        mean=((place,), (velocity,)),
         covariance=diagonal(rng.whole(1, 4), rng.whole(1, 3)),
         A=((_1, _1), (_0, _1)),
         **({"B": ((_0,), (_1,))} if driven else {}),
         C=((_1, _0),),
         process=diagonal(rng.whole(1, 2), rng.whole(1, 2)),
         sensor=((rng.whole(1, 4),),),
-        steps=(Event(u=u, z=((rng.whole(2, 12),),)),),
+        steps=(Event(u=u, z=((z,),)),),
     )
 
 

@@ -16,7 +16,7 @@ from rldrill.problems.parts import Number, Part, Values, YesNo
 
 TITLE = "Model comparison"
 SOURCE = "MacKay 2003, section 3.3"
-REVISION = 2
+REVISION = 3
 
 
 @lru_cache(maxsize=4096)  # the same coins are drawn again and again
@@ -129,6 +129,8 @@ class Given(Givens):
 #: How long the numbers of a level may be.
 _LONGEST = {1: 64, 2: 100, 3: 220}
 _HALF = Fraction(1, 2)
+#: Of tosses and prior together, so that no factorial is above 6! = 720.
+_MOST_COUNTED = 7
 
 
 def draw(level: int, rng: Draws) -> Given:
@@ -139,6 +141,8 @@ def draw(level: int, rng: Draws) -> Given:
         models = _models(level, rng, two=level < 3 or found)
         heads, tails = rng.below(5), rng.below(5)
         if heads + tails < 2 or any(heads * model.b == tails * model.a for model in models.values()):
+            continue
+        if any(model.a + model.b + heads + tails > _MOST_COUNTED for model in models.values() if not model.certain):
             continue
         q = rng.fraction("1/4", "1/3", "2/5", "1/2", "3/5", "2/3", "3/4", "4/5")
         if found:
@@ -189,7 +193,8 @@ def question(given: Given) -> Question:
     blocks = (
         Paragraph(
             f"A coin is tossed ${given.heads + given.tails}$ times, independently, and the order is written down: "
-            f"${given.heads}$ head{'s' * (given.heads != 1)} and ${given.tails}$ tail{'s' * (given.tails != 1)}. "
+            f"$n_1 = {given.heads}$ head{'s' * (given.heads != 1)} and $n_0 = {given.tails}$ "
+            f"tail{'s' * (given.tails != 1)}. "
             "With $θ$ the probability of heads, these models $M$ are compared:"
         ),
         Table(
@@ -213,7 +218,8 @@ def question(given: Given) -> Question:
         odds = Part(f"What are the posterior odds {ratio}?", Number())
     else:
         odds = Part("What is the posterior probability $p(M|D_z)$ of every model?", Values("p(·|D_z)", names))
-    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the most probable model?", YesNo())))
+    most = "more" if len(names) == 2 else "most"
+    return Question(blocks, (evidences, odds, Part(f"Is “{first}” now the {most} probable model?", YesNo())))
 
 
 def _says(model: CoinModel) -> str:

@@ -189,11 +189,13 @@ def _coin(coin: Coin) -> Question:
     tosses = coin.heads + coin.tails
     blocks = (
         Paragraph(
-            f"A gripper is tried ${tosses}$ times: it holds in ${coin.heads}$ of the trials and slips in "
-            f"${coin.tails}$. The trials are independent, and each holds with the same unknown probability $θ$."
+            f"A gripper is tried ${tosses}$ times: it holds in $n_1 = {coin.heads}$ of the trials and "
+            f"slips in $n_0 = {coin.tails}$. The trials are independent, and each holds with the same unknown "
+            "probability $θ$."
         ),
     )
-    prior = f'Now $θ$ has the prior $"Beta"({shown(coin.a)}, {shown(coin.b)})$, whose density is proportional to '
+    beta = f'$"Beta"(a, b)$ with $a = {shown(coin.a)}$ and $b = {shown(coin.b)}$'
+    prior = f"Now $θ$ has the prior {beta}, whose density is proportional to "
     factors = (_power("θ", coin.a - 1), _power("(1 − θ)", coin.b - 1))
     power = f"${' '.join(filter(None, factors)) or '1'}$."
     return Question(

@@ -5,7 +5,7 @@ from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph, Table
+from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, StepSize, shown
 from rldrill.problems.family import Givens, Question
@@ -15,7 +15,7 @@ from rldrill.problems.phrases import in_open, step_size
 
 TITLE = "MAML step"
 SOURCE = "Finn, Abbeel & Levine 2017, section 2.2"
-REVISION = 4
+REVISION = 5
 
 
 class Task(NamedTuple):
@@ -67,9 +67,17 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 3:
         return rng.choice((_open, _staying, _step_sought))(rng)
     count, first_order = (1, False) if level == 1 else rng.choice(((2, False), (2, True), (1, True), (3, False)))
-    theta, tasks, alpha = _drawn(rng, count)
+    theta, tasks, alpha = _drawn_halved(rng) if level == 1 else _drawn(rng, count)
     beta = Fraction(1, 4) if alpha == Fraction(1, 2) else Fraction(1, 2)
     return Given(theta=theta, tasks=tasks, alpha=alpha, beta=beta, first_order=first_order)
+
+
+def _drawn_halved(rng: Draws) -> tuple[Fraction, tuple[Task, ...], Fraction]:
+    """One task whose optimum is half as far after the adaptation, at a whole number."""
+    alpha, curvature = rng.choice(((Fraction(1, 2), 1), (Fraction(1, 2), 3), (Fraction(1, 4), 2)))
+    optimum = rng.whole(-3, 5)
+    theta = optimum + 2 * rng.nonzero(-3, 3)
+    return theta, (Task(Fraction(curvature), optimum),), alpha
 
 
 def _drawn(rng: Draws, count: int) -> tuple[Fraction, tuple[Task, ...], Fraction]:
@@ -104,28 +112,42 @@ def _step_sought(rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The losses; the adapted parameters, then the new shared one; or what is to be found."""
-    rows = tuple(
-        (f"${index}$", f"${shown(task.curvature)}$", f"${shown(task.optimum)}$")
-        for index, task in enumerate(given.tasks, 1)
-    )
-    several = "one of several tasks" if len(given.tasks) > 1 else "a task"
     start = "" if given.theta is None else f"The parameter is $θ = {shown(given.theta)}$. "
     inner = step_size(given.alpha).replace("step size", "step size of the adaptation")
+    tasks, adapted, total = _losses(given)
     return Question(
         (
+            *tasks,
             Paragraph(
-                f"A robot has a parameter $θ$ that is to be adapted to {several}. Task $i$ has the loss "
-                "$L_i(θ) = 1/2 · c_i (θ − m_i)^2$, before the adaptation as well as after it:"
-            ),
-            Table(("task $i$", "$c_i$", "$m_i$"), rows),
-            Paragraph(
-                f"{start}MAML adapts it to every task by one step of gradient descent on the task's loss, from $θ$ to "
-                "$θ′_i$. In the outer step it changes $θ$ by one step of gradient descent on $J = Σ_i L_i(θ′_i)$, with "
-                f"the full gradient through the adaptation. {inner}{_outer(given)}"
+                f"{start}MAML {adapted}. In the outer step it changes $θ$ by one step of gradient descent on "
+                f"$J = {total}$, with the full gradient through the adaptation. {inner}{_outer(given)}"
             ),
         ),
         tuple(_parts(given)),
     )
+
+
+def _losses(given: Given) -> tuple[tuple[Block, ...], str, str]:
+    """The tasks, what the adaptation does, and the outer loss."""
+    if len(given.tasks) == 1:
+        ((curvature, optimum),) = given.tasks
+        told = (
+            "A robot has a parameter $θ$ that is to be adapted to a task. The task has the loss "
+            f"$L_1(θ) = 1/2 · c_1 (θ − m_1)^2$ with $c_1 = {shown(curvature)}$ and $m_1 = {shown(optimum)}$, before "
+            "the adaptation as well as after it."
+        )
+        adapted = "adapts it by one step of gradient descent on this loss, from $θ$ to $θ′_1$"
+        return (Paragraph(told),), adapted, "L_1(θ′_1)"
+    rows = tuple(
+        (f"${index}$", f"${shown(task.curvature)}$", f"${shown(task.optimum)}$")
+        for index, task in enumerate(given.tasks, 1)
+    )
+    told = (
+        "A robot has a parameter $θ$ that is to be adapted to one of several tasks. Task $i$ has the loss "
+        "$L_i(θ) = 1/2 · c_i (θ − m_i)^2$, before the adaptation as well as after it:"
+    )
+    adapted = "adapts it to every task by one step of gradient descent on the task's loss, from $θ$ to $θ′_i$"
+    return (Paragraph(told), Table(("task $i$", "$c_i$", "$m_i$"), rows)), adapted, "Σ_i L_i(θ′_i)"
 
 
 def _outer(given: Given) -> str:
@@ -155,5 +177,5 @@ def _parts(given: Given) -> Iterator[Part]:
         return
     yield Part(f"What is $θ$ after the outer step{opened}?", Number(), zero=True)
     if given.first_order:
-        ask = "What would $θ$ be after the outer step of first-order MAML, which treats $dθ′_i/dθ$ as $1$"
+        ask = "What would $θ$ be after the outer step of first-order MAML, which takes $dθ′_i/dθ$ to be $1$"
         yield Part(f"{ask}{opened}?", Number(), zero=True)

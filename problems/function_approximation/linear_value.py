@@ -187,8 +187,9 @@ def _state(given: Given) -> Document:
 
 def _weights(given: Given) -> Document:
     order = (
-        "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features are stacked, one block for "
-        f"each action, in the order {joined(list(given.actions))}; the blocks of the other actions are $0$. "
+        "Action values are estimated as $Q̂(s, a) = θ^⊤ f(s, a)$. In $f(s, a)$ the features $φ(s)$ are stacked, "
+        f"one block for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are "
+        "$0$. "
     )
     return (Paragraph(f"{order}The weights are ${weights(given.theta)}$."),)
 
@@ -203,8 +204,8 @@ def _parts(given: Given) -> Iterator[Part]:
     if given.bumps is not None:
         yield asked_features(given.bumps, ())
     if given.action is not None:
-        names = tuple(f'φ_{{{number}}}(s, "{given.action}")' for number in range(1, len(given.theta) + 1))
-        yield Part(f'What is the stacked vector $φ(s, "{given.action}")$?', Numbers(names), zero=True)
+        names = tuple(f'f_{{{number}}}(s, "{given.action}")' for number in range(1, len(given.theta) + 1))
+        yield Part(f'What is the stacked vector $f(s, "{given.action}")$?', Numbers(names), zero=True)
     valued = tuple(("s", action) for action in actions if action != given.raised)
     if given.raised is None:
         yield Part("What is $Q̂(s, a)$ of every action?", Values("Q̂", valued), zero=True)

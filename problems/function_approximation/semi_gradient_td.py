@@ -142,8 +142,9 @@ def question(given: Given) -> Question:
     if given.actions:
         method = "Semi-gradient Sarsa"
         model = (
-            "Action values are estimated as $Q̂(s, a) = θ^⊤ φ(s, a)$. In $φ(s, a)$ the features below are stacked, one "
-            f"block for each action, in the order {joined(list(given.actions))}; the blocks of the other actions are 0."
+            "Action values are estimated as $Q̂(s, a) = θ^⊤ f(s, a)$. In $f(s, a)$ the features $φ(s)$ below are "
+            f"stacked, one block for each action, in the order {joined(list(given.actions))}; the blocks of the other "
+            "actions are $0$."
         )
     else:
         method = "Semi-gradient TD(0)"

@@ -136,7 +136,7 @@ def question(given: Given) -> Question:
     weights = ", ".join(f"w_{{{index}}} = {shown(weight)}" for index, weight in zip(components, given.w, strict=True))
     opened = f", where ${shown(given.asked_for)}$ is left open" if given.asked_for else ""
     rows = (
-        ("$π_E$ (expert)", *(f"${shown(value)}$" for value in given.expert), "–"),
+        ("expert, $π_E$", *(f"${shown(value)}$" for value in given.expert), "–"),
         *(
             (name, *(f"${shown(value)}$" for value in rival.mu), f"${shown(rival.margin)}$")
             for name, rival in given.policies.items()
@@ -170,7 +170,7 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part(
-                "What is the value $w^⊤ μ(π)$ of each policy, the expert's $π_E$ included?",
+                "What is the value $w^⊤ μ(π)$ of each policy, the expert's included?",
                 Values("w^⊤ μ", (EXPERT, *given.policies)),
                 zero=True,
             ),

@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Equation, Paragraph
+from rldrill.problems.document import Beside, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
 from rldrill.problems.expressions import Expression, letters
@@ -65,9 +65,9 @@ def question(given: Given) -> Question:
     """The system and the next value; all derivatives of Q, then k and K."""
     n, m = len(given.state), len(given.action)
     kept = (
-        "This is a step of DDP: the second derivatives of $f$ count."
+        "in a step of DDP: the second derivatives of $f$ count"
         if given.second_order
-        else "This is a step of iLQR: $f$ is taken as linear, so its second derivatives are left out."
+        else "in a step of iLQR: the second derivatives of $f$ are left out"
     )
     gradient, hessian = ("derivative", "second derivative") if n == 1 else ("gradient", "Hessian")
     first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
@@ -75,18 +75,19 @@ def question(given: Given) -> Question:
         ("Q_s", first, n, 1), ("Q_a", first, m, 1), ("Q_{s s}", then, n, n), ("Q_{a s}", then, m, n),
         ("Q_{a a}", then, m, m), ("k", "constant change of the action", m, 1), ("K", "gain", m, n),
     )  # fmt: skip
+    known = f"At $f(s̄, ā)$ the value $V′$ of the next state has this {gradient} and this {hessian}:"
     return Question(
         (
-            *plan(given, given.reward),
-            Paragraph(
-                f"The value of the next state is $V′$. At $f(s̄, ā)$ its {gradient} and its {hessian} with respect to "
-                "the next state are"
+            *plan(given, given.reward, known),
+            Beside(
+                (
+                    Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
+                    Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),
+                )
             ),
-            Equation(mathematics("V′_s"), (tabular(tuple((entry,) for entry in given.gradient)),), ("=",)),
-            Equation(mathematics("V′_{s s}"), (tabular(given.hessian),), ("=",)),
             Paragraph(
-                "$Q(s, a) = r(s, a) + V′(f(s, a))$ is expanded to second order around the operating point; there is no "
-                f"discount. {kept} The action that maximises this expansion is $a = ā + k + K (s − s̄)$."
+                f"$Q(s, a) = r(s, a) + V′(f(s, a))$ is expanded to second order around the operating point, {kept}. "
+                "The best action is then $a = ā + k + K (s − s̄)$."
             ),
         ),
         tuple(

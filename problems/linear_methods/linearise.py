@@ -4,7 +4,6 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, shown
 from rldrill.problems.family import Question
@@ -61,7 +60,8 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The system and its operating point; both matrices, and how the system answers to a deviation."""
     f, A, B = ("f", "A", "B") if given.step is None else ("F", "A_Δ", "B_Δ")
-    near = Paragraph(f"Near the operating point, ${f}(s, a) ≈ {f}(s̄, ā) + {A} (s − s̄) + {B} (a − ā)$.")
+    near = f"Near the operating point, ${f}(s, a) ≈ {f}(s̄, ā) + {A} (s − s̄) + {B} (a − ā)$."
+    said = near if given.step is None else f"{discretised(given)} {near}"
     n, m = len(given.state), len(given.action)
     if given.entries is not None:
         parts = [*given.entries.part("A", A), *given.entries.part("B", B)]
@@ -70,13 +70,11 @@ def question(given: Given) -> Question:
         parts = [Part(f"What is {of}${A}$?", Matrix(n, n)), Part(f"What is {of}${B}$?", Matrix(n, m))]
     if given.deviation is not None:
         s, a = (_column(numbers) for numbers in (given.deviation[:n], given.deviation[n:]))
-        which = "do the rates" if given.step is None else "does the next state"
         ask = (
-            f"The state differs from $s̄$ by $δ s = {s}$, the action from $ā$ by $δ a = {a}$. By how much {which} "
-            f"${f}(s, a)$ differ from ${f}(s̄, ā)$, to first order?"
+            f"For $δ s = s − s̄ = {s}$ and $δ a = a − ā = {a}$, what is $δ {f} = {f}(s, a) − {f}(s̄, ā)$, to first order?"
         )
         parts.append(Part(ask, Numbers(tuple(f"δ {f}_{index}" for index in range(1, n + 1))), zero=True))
-    return Question((*situation(given), *((discretised(given),) if given.step else ()), near), tuple(parts))
+    return Question(tuple(situation(given, said)), tuple(parts))
 
 
 def _column(numbers: tuple[Fraction, ...]) -> str:

@@ -4,7 +4,6 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
@@ -47,15 +46,13 @@ def draw(level: int, rng: Draws) -> Given:
 def question(given: Given) -> Question:
     """The system and its operating point; C, then both matrices."""
     n, m = len(given.state), len(given.action)
+    then = (
+        f"{discretised(given)} The linearisation of $F$ at the operating point is multiplied out, "
+        "$F(s, a) ≈ A_Δ s + B_Δ a + C$. Then $C$ is made part of the state: with $s̃_t = (s_t, 1)^⊤$ it reads "
+        "$s̃_{t+1} = Ã s̃_t + B̃ a_t$."
+    )
     return Question(
-        (
-            *situation(given),
-            discretised(given),
-            Paragraph(
-                "The linearisation of $F$ at the operating point is multiplied out, $F(s, a) ≈ A_Δ s + B_Δ a + C$. "
-                "Then $C$ is made part of the state: with $s̃_t = (s_t, 1)^⊤$ it reads $s̃_{t+1} = Ã s̃_t + B̃ a_t$."
-            ),
-        ),
+        tuple(situation(given, then)),
         (Part("What is $C$?", Matrix(n, 1)), *_matrices(given, n, m)),
     )
 

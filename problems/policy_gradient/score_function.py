@@ -14,7 +14,6 @@ from rldrill.problems.features import (
     OneStateFeatures,
     check_features,
     features_table,
-    weight_names,
     weights,
 )
 from rldrill.problems.models import Name, OpenDistributionField, check_keys, check_sum
@@ -149,9 +148,7 @@ def question(given: Given) -> Question:
     )
     if given.component is not None:
         return Question((*blocks, *_known(given, given.component)), tuple(_parts_for_p(given)))
-    ask = f"What is the score $∇_θ log π(a|s)$ of {{}}{in_open(given)}?"
-    wanted = [ask.format(f"the action {action}") for action in given.asked]
-    names = tuple(f"∂/∂{name}" for name in weight_names(range(size)))
+    ask = f"What is the score $g = ∇_θ log π(a|s)$ of {{}}{in_open(given)}?"
     if given.policy is not None:
         blocks += (
             Paragraph("With the present weights the policy takes them with these probabilities:"),
@@ -167,13 +164,17 @@ def question(given: Given) -> Question:
         probabilities = (
             Part(
                 f"What is the probability $π(a|s)$ of every action{in_open(given)}?",
-                Values("π", tuple(given.features)),
+                Values("π(·|s)", tuple(given.features)),
             ),
         )
-    parts = [*probabilities]
-    for text in wanted:
-        parts.append(Part(text, Numbers(names)))
-    return Question(blocks, tuple(parts))
+    names = _entries(size)
+    scores = [Part(ask.format(f"the action {action}"), Numbers(names)) for action in given.asked]
+    return Question(blocks, (*probabilities, *scores))
+
+
+def _entries(size: int) -> tuple[str, ...]:
+    """What the entries of a score are called."""
+    return tuple(f"g_{{{index}}}" for index in range(1, size + 1))
 
 
 def _known(given: Given, component: Component) -> Document:
@@ -185,6 +186,6 @@ def _known(given: Given, component: Component) -> Document:
 
 def _parts_for_p(given: Given) -> Iterator[Part]:
     yield Part("What is $p$?", Number())
-    names = tuple(f"∂/∂{name}" for name in weight_names(next(iter(given.features.values()))))
     (other,) = given.asked
-    yield Part(f"What is the score $∇_θ log π(a|s)$ of the action {other}?", Numbers(names))
+    names = _entries(len(given.features[other]))
+    yield Part(f"What is the score $g = ∇_θ log π(a|s)$ of the action {other}?", Numbers(names))

@@ -141,16 +141,16 @@ def question(given: Given) -> Question:
             blocks,
             (
                 Part(f"For which $x$ is {action} taken {often} as {other}?", Number()),
-                Part("What is the probability $π(a|s)$ of every action for this $x$?", Values("π", actions)),
+                Part("What is the probability $π(a|s)$ of every action for this $x$?", Values("π(·|s)", actions)),
             ),
         )
     parts = [
         Part(
             f"What is the preference $h(s, a)$ of every action{in_open(given)}?",
-            Values("h", actions),
+            Values("h(s, ·)", actions),
             zero=True,
         ),
-        Part(f"What is the probability $π(a|s)$ of every action{in_open(given)}?", Values("π", actions)),
+        Part(f"What is the probability $π(a|s)$ of every action{in_open(given)}?", Values("π(·|s)", actions)),
     ]
     if given.entropy:
         ask = "What is the entropy $H = −Σ_a π(a|s) ln π(a|s)$ of the policy in $s$, with natural logarithms"

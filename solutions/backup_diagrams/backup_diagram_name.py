@@ -1,8 +1,11 @@
 """A diagram is named by its root, by whether it branches, by its arcs and by how far it reaches."""
 
-from rldrill.problems.backup_diagrams.backup_diagram_name import Given
-from rldrill.problems.backups import BACKUPS, TITLES, Backup, backup_diagram
-from rldrill.problems.pictures import Node
+from collections.abc import Callable
+from dataclasses import replace
+
+from rldrill.problems.backup_diagrams.backup_diagram_name import Changed, Drawn, Several
+from rldrill.problems.backups import BACKUPS, TITLES, Backup, Change, backup_diagram
+from rldrill.problems.pictures import Branch, Node
 from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.oracle import Answers
 from rldrill.solutions.work import Work
@@ -44,12 +47,38 @@ _NAMES: dict[Backup, str] = {
 }
 
 
-def solve(given: Given, work: Work) -> None:
-    """One letter for every diagram."""
+def solve(given: Several | Changed, work: Work) -> None:
+    """One letter for every diagram; or what a diagram becomes, and what would make another one of it."""
+    if isinstance(given, Changed):
+        _solve_changed(given, work)
+        return
     for item in given.diagrams:
         letter = item.letters[item.shows]
         work.say(f"The diagram {_LOOKS[item.shows]} So it is ({letter}), {TITLES[item.shows]}.")
         work.answer(letter)
+
+
+def _solve_changed(given: Changed, work: Work) -> None:
+    letter = given.letters[given.named]
+    work.say(f"As it is drawn, it is that of {TITLES[given.shows]}: it {_LOOKS[given.shows]}")
+    work.say(f"The diagram of {TITLES[given.named]} {_LOOKS[given.named]} So with the change it is ({letter}).")
+    work.answer(letter)
+    (change,) = given.right_changes
+    letter = given.letters_of_changes[change]
+    work.say(f"The diagram of {TITLES[given.target]} {_LOOKS[given.target]}")
+    work.say(f"The diagram has become that of {TITLES[given.named]}, so what is still wanting is ({letter}).")
+    work.answer(letter)
+
+
+@slip(
+    "change-overlooked",
+    "That is the diagram as it is drawn; the question is what it shows after the change.",
+    when=lambda given: isinstance(given, Changed) and given.shows in given.options,
+)
+def change_overlooked(given: Changed, work: Work) -> None:
+    """As if nothing had been changed before the first question."""
+    work.answer(given.letters[given.shows])
+    work.answer(given.letters_of_changes[given.right_changes[0]])
 
 
 def _took_it_for(wrong: Backup) -> Misconception:
@@ -58,25 +87,35 @@ def _took_it_for(wrong: Backup) -> Misconception:
     @slip(
         f"took-it-for-{wrong}",
         f"{_NAMES[wrong]} {_LOOKS[wrong]}",
-        when=lambda given: any(wrong != item.shows and wrong in item.options for item in given.diagrams),
+        when=lambda given: (
+            isinstance(given, Several) and any(wrong != item.shows and wrong in item.options for item in given.diagrams)
+        ),
     )
-    def took_it(given: Given, work: Work) -> None:
+    def took_it(given: Several, work: Work) -> None:
         seen = [item.model_copy(update={"shows": wrong} if wrong in item.options else {}) for item in given.diagrams]
         solve(given.model_copy(update={"diagrams": seen}), work)
 
     return took_it
 
 
-MISCONCEPTIONS = tuple(map(_took_it_for, BACKUPS))
+MISCONCEPTIONS = (*map(_took_it_for, BACKUPS), change_overlooked)
 
 
-def oracle(given: Given) -> Answers:
-    """Named by what is drawn, not by what was to be drawn."""
-    answers = []
-    for item in given.diagrams:
-        root = backup_diagram(item.shows, item.branches, item.steps).root
-        answers.append(item.letters[_named(root)])
-    return answers
+def oracle(given: Several | Changed) -> Answers:
+    """Named by what is drawn, not by what was to be drawn; changes are made in the picture."""
+    if isinstance(given, Several):
+        return [item.letters[_named(_root(item))] for item in given.diagrams]
+    changed = _with(given.change, _root(given), given.steps)
+    (further,) = (
+        letter
+        for change, letter in given.letters_of_changes.items()
+        if _shape(_with(change, changed, given.steps)) == _shape(_root(given, given.target))
+    )
+    return given.letters[_named(changed)], further
+
+
+def _root(item: Drawn, shows: Backup | None = None) -> Node:
+    return backup_diagram(shows or item.shows, item.branches, item.steps).root
 
 
 def _named(root: Node) -> Backup:
@@ -93,3 +132,50 @@ def _named(root: Node) -> Backup:
     if len(after.branches) == 1:
         return "sarsa"
     return "q-learning" if after.maximum else "expected-sarsa"
+
+
+def _with(change: Change, root: Node, several: int) -> Node:
+    """The picture with something changed in it; where a run gets longer, it has so many steps."""
+    match change:
+        case "arc" | "no-arc":
+            return _everywhere(root, lambda node: replace(node, maximum=change == "arc" and _is_choice(node)))
+        case "one-state" | "all-states":
+            return _everywhere(
+                root, lambda node: _wide(node, change == "all-states") if node.kind == "action" else node
+            )
+        case "one-action" | "all-actions":
+            return _everywhere(root, lambda node: _wide(node, change == "all-actions") if _is_last(node) else node)
+        case "sampled" | "everything":
+            return _everywhere(root, lambda node: _wide(node, change == "everything"))
+        case "one-step" | "several-steps" | "to-the-end" if root.kind == "state" and len(root.branches) == 1:
+            node = Node("end" if change == "to-the-end" else "state")
+            for _ in range({"one-step": 1, "several-steps": several, "to-the-end": 2}[change]):
+                node = Node("state", (Branch(Node("action", (Branch(node),))),))
+            return node
+        case _:
+            return root
+
+
+def _everywhere(node: Node, change: Callable[[Node], Node]) -> Node:
+    return change(replace(node, branches=tuple(Branch(_everywhere(each.node, change)) for each in node.branches)))
+
+
+def _wide(node: Node, several: bool) -> Node:
+    """The node with one branch, or with at least two; no arc is left where there is one."""
+    branches = node.branches if several and len(node.branches) > 1 else node.branches[:1] * (1 + several)
+    return replace(node, branches=branches, maximum=node.maximum and several)
+
+
+def _is_choice(node: Node) -> bool:
+    return node.kind == "state" and len(node.branches) > 1
+
+
+def _is_last(node: Node) -> bool:
+    """Whether this is a state whose actions lead nowhere."""
+    return node.kind == "state" and bool(node.branches) and not node.branches[0].node.branches
+
+
+def _shape(node: Node) -> tuple[object, ...]:
+    """What a picture shows, however many branches stand for all of them."""
+    below = [_shape(each.node) for each in node.branches[:1]]
+    return (node.kind, node.maximum, len(node.branches) > 1, *below)

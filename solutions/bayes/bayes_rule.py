@@ -5,7 +5,7 @@ from typing import Any
 from rldrill.problems.bayes.bayes_rule import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.beliefs import before_and_after, number, root
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import ONE, Value, exact, told
 from rldrill.solutions.formula.nodes.sets import LONG
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import OPEN, Answers, at
@@ -30,6 +30,8 @@ def solve(given: Given, work: Work) -> None:
     hypotheses = tuple(given.prior)
     belief = knowns.values(given.prior)
     if len(hypotheses) == 2:
+        work.recall(BAYES)
+        work.say("For two hypotheses, $h_1$ and $h_2$, this is:")
         work.recall(BAYES_TWO_STATES)
     readings = given.measurements
     if given.outcome is not None:
@@ -39,14 +41,28 @@ def solve(given: Given, work: Work) -> None:
         found = work.answer(work.equate(letter, after, exact(given.outcome.probability)))
         belief, likelihood = knowns.settled(belief, found), knowns.settled(likelihood, found)
         if len(readings) > 1:
-            work.say(f"With this ${letter}$ the first measurement gives:")
-            belief = _posterior(work, {**known, "p": belief, "likelihood": likelihood})
+            belief = _first(given, work, letter, {**known, "p": belief, "likelihood": likelihood})
             work.say(f"The next measurement, {readings[1]}, gives:")
         readings = readings[1:]
     for reading in readings:
         posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})
         work.picture(before_and_after, belief, posterior)
         belief = work.answer(posterior)
+
+
+def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict[str, Value]:
+    """The belief after the first measurement; of two hypotheses it is known with the one probability."""
+    hypotheses, outcome = known["hypotheses"], given.outcome
+    if len(hypotheses) != 2 or outcome is None or outcome.state not in hypotheses:
+        work.say(f"With this ${letter}$ the first measurement gives:")
+        return _posterior(work, known)
+    share = exact(outcome.probability)
+    belief = {name: share if name == outcome.state else ONE - share for name in hypotheses}
+    (other,) = (name for name in hypotheses if name != outcome.state)
+    work.say(
+        f'After the first measurement $p("{outcome.state}") = {told(share)}$, so $p("{other}") = {told(ONE - share)}$.'
+    )
+    return belief
 
 
 def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:

@@ -49,6 +49,7 @@ def _compare(given: Given, work: Work, better: int) -> None:
         fit = work.answer({name: _fit(work, given.data, name) for name in names})
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
+    work.recall(formula)
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
@@ -78,7 +79,8 @@ def free_parameters(data: Data, model: str) -> int:
 def _fit(work: Work, data: Data, model: str) -> Value:
     heads = {coin: exact(counts[0]) for coin, counts in data.tosses.items()}
     tails = {coin: exact(counts[1]) for coin, counts in data.tosses.items()}
-    work.say(f"The model “{model}”:")
+    counts = ", with $n_1$ heads and $n_0$ tails of all coins" if model == "shared" and len(heads) > 1 else ""
+    work.say(f"The model “{model}”{counts}:")
     if model == "fair":
         theta: dict[str, Any] = dict.fromkeys(heads, exact(1) / 2)
     elif model == "shared":
@@ -97,8 +99,8 @@ def _border(given: Given, work: Work, better: int) -> None:
     assert given.fitted is not None
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
-    fit = {name: _logarithm(given, name, work) for name in given.fitted}
     work.recall(BIC)
+    fit = {name: _logarithm(given, name, work) for name in given.fitted}
     work.say(f"It is the same for {rich}, on the left, and {simple}, on the right, if")
     sides = [
         sympy.Add(

@@ -31,19 +31,19 @@ def solve(given: Given, work: Work) -> None:
     """Every step: the belief moved, then weighed with the measurement."""
     mean, covariance = given_matrix(given.mean), given_matrix(given.covariance)
     models: dict[str, Any] = {
-        "At": given_matrix(given.A), "Bt": given_matrix(given.B), "Ct": given_matrix(given.C),
-        "Rt": given_matrix(given.process), "Qt": given_matrix(given.sensor),
+        "Ai": given_matrix(given.A), "Bi": given_matrix(given.B), "Ci": given_matrix(given.C),
+        "Ri": given_matrix(given.process), "Qi": given_matrix(given.sensor),
     }  # fmt: skip
     one = identity(len(given.mean))
     if given.on_a_line:
-        ones = "A_t = B_t = C_t" if given.driven else "A_t = C_t"
+        ones = "A = B = C" if given.driven else "A = C"
         work.say(f"The position itself is moved and measured, so in the formulas ${ones} = 1$.")
     if given.variance is not None:
         _noise(given, work, models, exact(given.variance))
         return
     for time, event in enumerate(given.steps, 1):
         answer = work.answer if time in given.asked else _unasked
-        known: dict[str, Any] = {name: {time: model} for name, model in models.items()} | {"t": time, "identity": one}
+        known: dict[str, Any] = models | {"t": time, "identity": one}
         known |= {
             "mean": {time - 1: mean},
             "covariance": {time - 1: covariance},
@@ -65,7 +65,7 @@ def solve(given: Given, work: Work) -> None:
 
 def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) -> None:
     """The variance of a noise from that after the measurement, then the mean."""
-    known: dict[str, Any] = {name: {1: model} for name, model in models.items()} | {"t": 1, "identity": identity(1)}
+    known: dict[str, Any] = models | {"t": 1, "identity": identity(1)}
     known |= {"mean": {0: given_matrix(given.mean)}, "covariance": {0: given_matrix(given.covariance)}}
     (event,) = given.steps
     known |= {"moved": {1: given_matrix(given.command(event))}, "read": {1: given_matrix(event.z or ())}}
@@ -79,7 +79,7 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
     found = matrix([[work.answer(work.equate("w", after, variance))]])
     moving = isinstance(given.process[0][0], Parameter)
-    known["Rt" if moving else "Qt"] = {1: found}
+    known["Ri" if moving else "Qi"] = found
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
     if moving:  # that of the sensor says nothing of the prediction
         known["covariance_bar"] = {1: widened()}

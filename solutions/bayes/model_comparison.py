@@ -37,8 +37,9 @@ def solve(given: Given, work: Work) -> None:
     else:
         work.answer({name: work.step(MODEL_POSTERIOR, M=name, **known) for name in names})
     best = work.step(MODEL_COMPARISON, **known)
-    most = f"“{best[0]}” is the most probable model" if len(best) == 1 else "No model is more probable than all others"
-    work.say(f"{most}: {'yes' if best == names[:1] else 'no'}.")
+    how = "more" if len(names) == 2 else "most"
+    told = f"“{best[0]}” is the {how} probable model" if len(best) == 1 else "No model is more probable than all others"
+    work.say(f"{told}: {'yes' if best == names[:1] else 'no'}.")
     work.answer(best == names[:1])
 
 
@@ -47,10 +48,11 @@ def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -
         return work.step(FIXED_COIN, M=name, share=exact(model.theta), **tosses)
     if model.thetas is not None:
         thetas, priors = ({i: exact(pair[which]) for i, pair in enumerate(model.thetas, 1)} for which in (0, 1))
+        work.say(f"In “{name}” there are $n = {len(thetas)}$ values $θ_i$, with the probabilities $p(θ_i)$:")
         return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, n=len(thetas), **tosses)
     integral = Note(
         "If $θ$ is unknown, the evidence is the mean of the likelihood, $∫ p(D_z|θ) p(θ) dθ$, over the prior "
-        '$"Beta"(a, b)$. $n_1$ and $n_0$ count heads and tails. From $0$ to $1$, '
+        '$"Beta"(a, b)$. From $0$ to $1$, '
         "$∫ θ^j (1 − θ)^k dθ = j! k!/(j + k + 1)!$, in the likelihood as in the prior, so it is:"
     )
     if integral not in work.lines:

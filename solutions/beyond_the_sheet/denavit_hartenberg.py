@@ -2,8 +2,6 @@
 
 from typing import Any
 
-from sympy import Symbol
-
 from rldrill.problems.beyond_the_sheet.denavit_hartenberg import Given, Link
 from rldrill.solutions import matrices
 from rldrill.solutions.dynamics import angle, radians
@@ -17,11 +15,13 @@ from rldrill.solutions.sheet.beyond_the_sheet import (
     CHAIN,
     CRAIGS,
     FORWARD_POINT,
+    LINK_ORIGIN,
     LINK_TRANSFORM,
     NOT_INVERTED,
     WRONG_ORDER,
+    rotations,
 )
-from rldrill.solutions.work import Result, Work
+from rldrill.solutions.work import Work
 
 MISCONCEPTIONS: tuple[Misconception, ...] = (CRAIGS, WRONG_ORDER, NOT_INVERTED)
 
@@ -37,8 +37,10 @@ def solve(given: Given, work: Work) -> None:
     if given.point is not None:
         _through(given, work, known, matrices.column(map(exact, given.point)))
         return
-    answer = work.answer if given.asked == "transforms" else _unasked
-    transforms = [answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
+    if given.asked == "pose":
+        _pose(work, known)
+        return
+    transforms = [work.answer(work.step(LINK_TRANSFORM, i=index, **known)) for index in known["th"]]
     if given.base is None:
         total, rest, first = transforms[0], transforms[1:], 2
     else:
@@ -46,27 +48,39 @@ def solve(given: Given, work: Work) -> None:
     for index, transform in enumerate(rest, first):
         total = work.step(CHAIN, before=total, after=transform, i=index, label=f"i = {index}")
         if index in given.posed:
-            total = answer(total)
-    if given.asked == "pose":
-        T = "T" if len(given.links) > 1 or given.base is not None else "T_1"
-        work.say(f"The rotation is the upper left corner of ${T}$, its first three rows and columns.")
-        work.answer(_corner(total))
-        origin = tuple(_column(total).entries())
-        work.say(f"The origin is the last column of ${T}$, without the $1$ below it:")
-        work.lines.append(Result(tuple(map(Symbol, "xyz")), origin))
-        work.answer(origin)
+            total = work.answer(total)
 
 
-def _unasked(value: AnyMatrix) -> AnyMatrix:
-    """What comes out of a step that is not asked for."""
-    return value
+def _pose(work: Work, known: dict[str, Any]) -> None:
+    """The rotation of the last frame, then its origin, seen from frame to frame inwards."""
+    first, *others = known["th"]
+    work.say(_PARTS)
+    of_link, of_chain = rotations()
+    turns = {link: work.step(of_link, i=link, **known) for link in known["th"]}
+    total = turns[first]
+    for link in others:
+        total = work.step(of_chain, Rtotal=total, rotation=turns, i=link, label=f"i = {link}")
+    work.answer(total)
+    origins = {link: work.step(LINK_ORIGIN, i=link, **known) for link in known["th"]}
+    *before, last = known["th"]
+    seen = origins[last]
+    if before:
+        work.say(
+            f"In the frame of link ${last - 1}$ the last origin is $p_{last - 1} = o_{last}$; in the frames before it:"
+        )
+    for link in reversed(before):
+        seen = work.step(FORWARD_POINT, i=link, point={link: seen}, rotation=turns, origin=origins)
+    work.answer(tuple(seen.entries()))
+
+
+_PARTS = "$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, its last column."
 
 
 def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) -> None:
     """A point from frame to frame, inwards or outwards; each transform is worked out where it is needed."""
     outwards = given.asked == "back"
     links = tuple(known["th"])
-    work.say("$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, its last column.")
+    work.say(_PARTS)
     if outwards:
         work.say("From $p_{i−1} = R_i p_i + o_i$ follows $p_i = R_i^{−1} (p_{i−1} − o_i)$, and $R_i^{−1} = R_i^⊤$.")
     for link in links if outwards else links[::-1]:

@@ -96,8 +96,6 @@ def _flat(kind: type[Expr], arguments: Iterable[Expr]) -> list[Expr]:
 def sum_of(terms: Iterable[Expr]) -> Expr:
     """A sum, unevaluated: without terms that are zero."""
     kept = [term for term in _flat(Add, terms) if term is not sympy.S.Zero]
-    if any(not _is_nothing(term) for term in kept):
-        kept = [term for term in kept if not _is_nothing(term)]
     if not kept:
         return sympy.S.Zero
     if len(kept) == 1:  # what is left of 0 − 5 is −5, not (−1)·5; and of 0 − (−5) it is 5
@@ -109,7 +107,7 @@ def sum_of(terms: Iterable[Expr]) -> Expr:
 
 
 def _is_nothing(term: Expr) -> bool:
-    """Whether a term is a multiple of a matrix of zeros, which only fills the line; vectors are short, and stay."""
+    """Whether a term is a multiple of a matrix of zeros, which keeps its place in the first line only."""
     matrices = (f for f in Mul.make_args(term) if isinstance(f, MatrixLeaf) and not isinstance(f, VectorLeaf))
     return any(not f.scalar and f.args[0].is_zero_matrix for f in matrices)
 
@@ -223,6 +221,19 @@ def _minus_first(term: Expr) -> Expr:
     return Mul._from_args([sympy.S.NegativeOne, -above[0].args[0], *below])
 
 
+def term_by_term(expression: Expr) -> Expr:
+    """The step with every term of a sum worked out that is a number without a root: 16 + 1 + 2 for 2²·4 + 1 + 4·1/2."""
+    if not expression.is_Add:
+        return expression
+    values = [(term, evaluated(term)) for term in expression.args]
+    return Add._from_args([_with_sign(value) if value.is_Rational else term for term, value in values])
+
+
+def _with_sign(number: Expr) -> Expr:
+    """A number as a term of a sum: a negative one is taken away."""
+    return Mul(-1, -number, evaluate=False) if number.is_negative else number
+
+
 def _numbers_first(expression: Expr) -> Expr:
     """The step with the numbers of its products before the letters left open: 8γ, not γ·8."""
     if isinstance(expression, Node):
@@ -270,7 +281,7 @@ def _reduced(expression: Expr) -> Expr:
     if isinstance(expression, Node):
         return expression._reduced(_worked_out)
     if expression.is_Add:
-        kept = [_term(term) for term in expression.args if not _is_zero_number(term)]
+        kept = [_term(term) for term in expression.args if not (_is_zero_number(term) or _is_nothing(term))]
         return Add._from_args(kept) if len(kept) > 1 else _inner(expression)
     return _inner(expression)
 

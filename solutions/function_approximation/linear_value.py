@@ -63,7 +63,7 @@ def _values(
         for number, value in enumerate(_stacked(given, features, places(given, action)), 1)
     }
     theta = dict(enumerate(map(exact, given.theta), 1))
-    known = {"s": "s", "theta": theta, "phi": stacked, "features": tuple(theta)}
+    known = {"s": "s", "theta": theta, "f": stacked, "features": tuple(theta)}
     return {("s", a): work.step(LINEAR_VALUE, a=a, **known) for a in actions}
 
 

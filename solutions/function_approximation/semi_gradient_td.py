@@ -64,7 +64,7 @@ def _error(given: Given, work: Work, known: Mapping[str, Any], theta: Vector, ti
     for moment in (time, time + 1):
         state, action = pair = run.states[moment], known["A"][moment]
         if pair not in pairs:
-            pairs[pair] = work.step(LINEAR_VALUE, s=state, a=action, **numbered, phi=known["phi"])
+            pairs[pair] = work.step(LINEAR_VALUE, s=state, a=action, **numbered, f=known["f"])
     return work.step(SARSA_ERROR_APPROXIMATE, t=time, Qhat=pairs, **known)
 
 
@@ -93,8 +93,8 @@ def _stacked(given: Given) -> dict[str, Any]:
         actions[len(run.rewards)] = knowns.NO_ACTION
     return {
         "A": actions,
-        "phi": {(number, *pair): value for pair, row in rows.items() for number, value in enumerate(row, 1)},
-        "phi_vector": {pair: Vector(row) for pair, row in rows.items()},
+        "f": {(number, *pair): value for pair, row in rows.items() for number, value in enumerate(row, 1)},
+        "f_vector": {pair: Vector(row) for pair, row in rows.items()},
     }
 
 

@@ -36,6 +36,8 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
+    work.say("The aim is a policy with the expert's feature expectations:")
+    work.recall(APPRENTICESHIP)
     if not given.candidates:
         work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
     for mu in policies:
@@ -51,9 +53,6 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         point = dict(zip(features, work.answer(_moved(work, features, known)), strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         weights = {index: work.step(WEIGHTS, component=index, **known) for index in features}
-    work.say("The aim is a policy with these feature expectations:")
-    work.recall(APPRENTICESHIP)
-    work.say("The length of $w$ tells how far off that is:")
     left = work.answer(work.step(REMAINING, w=weights, features=features))
     if given.tolerance is not None:
         limit = exact(given.tolerance)
@@ -65,6 +64,7 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
 
 
 def _moved(work: Work, features: tuple[int, ...], known: dict[str, Any]) -> tuple[Any, ...]:
+    work.say("The projection lies the share $c$ of the way from $μ̄$ to $μ(π)$:")
     length = work.step(PROJECTION_LENGTH, **known)
     return tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features)
 

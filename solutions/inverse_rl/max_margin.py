@@ -34,8 +34,8 @@ def solve(given: Given, work: Work) -> None:
     work.say("With $ξ = 0$ the left side must be at least as great as every right side.")
     violated = tuple(name for name in given.policies if not _holds(work, name, sides))
     holding = len(given.policies) - len(violated)
-    count = f"{holding} of the {len(given.policies)} constraints {'holds' if holding == 1 else 'hold'}"
-    work.say(f"With $ξ = 0$ {_told(violated)}{f': {count}' if violated else ''}.")
+    count = f"{holding or 'none'} of the {len(given.policies)} constraints {'hold' if holding > 1 else 'holds'}"
+    work.say(f"With $ξ = 0$ {_told(violated)}: {count}.")
     work.answer(fmpq(len(given.policies) - len(violated)))
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
@@ -81,7 +81,11 @@ def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
 
 
 def _told(violated: tuple[str, ...]) -> str:
-    return f"the left side is too small for {joined(list(violated))}" if violated else "all constraints hold"
+    return (
+        f"the left side is too small for {joined(list(violated))}"
+        if violated
+        else "the left side is great enough for every policy"
+    )
 
 
 def _margins_decide(given: Given) -> bool:

@@ -56,7 +56,9 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
         "Vi": {index: exact(entry) for index, entry in enumerate(given.gradient, 1)},
     }
     values = dynamics.known(given)
-    texts = tuple(given.dynamics.values())
+    texts: dict[int | str, str] = dict(enumerate(given.dynamics.values(), 1))
+    if len(texts) == 1:
+        texts = {"f": texts[1]}  # no index where there is one component
     Q = {}
     work.say(
         "$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation; $r$ is differentiated in the same way."
@@ -66,12 +68,12 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     ):  # fmt: skip
         known[f"r_{code}"] = matrices.column(_first(work, formula, values, given.reward, "r", name) for name in by)
         known[f"f_{code}"] = matrices.matrix(
-            [_first(work, formula, values, text, index, name) for name in by] for index, text in enumerate(texts, 1)
+            [_first(work, formula, values, text, index, name) for name in by] for index, text in texts.items()
         )
         Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
     work.say(
         "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its entries. "
-        "Those that are zero are not written down, nor matrices that hold nothing else."
+        "Those that are zero are not written down."
     )
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
@@ -83,7 +85,9 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     ):
         known[f"r_{code}"] = _second(work, values, given.reward, "r", rows, columns)
         known[f"fi{code}"] = {
-            index: _second(work, values, texts[index - 1], index, rows, columns) for index in known["components"]
+            number: _second(work, values, text, index, rows, columns)
+            for number, (index, text) in enumerate(texts.items(), 1)
+            if given.second_order
         }
         Q[f"Q_{code}"] = work.answer(work.step(formula, right=None if given.second_order else ilqr(formula), **known))
     return Q
@@ -92,7 +96,7 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
 @dynamics.at_operating_point()
 def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of: int | str, name: str) -> Value:
     right = dynamics.chained(text, name, ())
-    into = partial_part if of == "r" else partial
+    into = partial_part if isinstance(of, str) else partial
     return ZERO if right == 0 else work.step(formula, into=into, right=right, i=of, j=name, **values)
 
 
@@ -109,15 +113,16 @@ def _second(
                 indices = {"i": of, "j": first, "g": then}
                 found[frozenset((first, then))] = ZERO
                 if right != 0:
-                    formula, into = (reward_second(), _of_reward) if of == "r" else (SECOND_DERIVATIVE, second)
+                    formula = reward_second() if of == "r" else SECOND_DERIVATIVE
+                    into = _second_of(of) if isinstance(of, str) else second
                     value = work.step(formula, into=into, right=right, **{**values, **indices})
                     found[frozenset((first, then))] = value
     return matrices.matrix([found[frozenset((first, then))] for then in columns] for first in rows)
 
 
-def _of_reward(first: Any, then: Any) -> Any:
-    """The name of a second derivative of the reward."""
-    return second(put_in_name("r"), first, then)
+def _second_of(of: str) -> Callable[..., Any]:
+    """The second derivatives of something that has a name, by the last two of their indices."""
+    return lambda *by: second(put_in_name(of), *by[-2:])
 
 
 def _is_negative(matrix: AnyMatrix) -> bool:

@@ -12,9 +12,12 @@ from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work, matrices: Linearised = linearised) -> None:
-    """A, then B; then what a deviation leads to."""
-    found = zip("AB", matrices(given, work), strict=True)
-    A, B = (answered(work, given.entries, which, matrix) for which, matrix in found)
+    """A, then B; then what a deviation leads to, and for it alone A, if no entry of A is asked for."""
+    only_B = given.entries is not None and not given.entries.A and not given.held
+    order = "BA" if only_B else "AB"
+    found = zip(order, matrices(given, work, order), strict=True)
+    answers = {which: answered(work, given.entries, which, matrix) for which, matrix in found}
+    A, B = answers["A"], answers["B"]
     if given.deviation is not None:
         n = len(given.state)
         ds, da = (column(map(exact, numbers)) for numbers in (given.deviation[:n], given.deviation[n:]))

@@ -27,7 +27,7 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> None:
     """Everything is taken at the operating point."""
-    A, B = differentiated(given, work)
+    A, B = differentiated(given, work, "AB")
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     f_bar = moved_point(given, work, s_bar, rates(work, given))

@@ -5,11 +5,12 @@ from typing import Any
 
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.exact import exact, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, exact, is_rational, to_sympy
 from rldrill.solutions.matrices import column, matrix
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, in_costs, quadratic
 from rldrill.solutions.work import Work
 
@@ -27,14 +28,27 @@ def solve(given: Given, work: Work) -> None:
     }
     known |= {"t": 0, "Pt": {1: given_matrix(given.P)}, "gamma": exact(given.gamma)}
     start = None if given.start is None else column(map(exact, given.start))
+    L = linear_quadratic.gain(work, lqr, **known)
     if given.action is not None:
-        action = work.step(lqr.action, t=0, Lt={0: linear_quadratic.gain(work, lqr, **known)}, St={0: start})
+        action = work.step(lqr.action, t=0, Lt={0: L}, St={0: start})
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
-        known["Rt"] = {0: matrix([[price]])}
-        work.say(f"With $ρ = {to_sympy(price)}$:")
-    L = work.answer(linear_quadratic.gain(work, lqr, **known))
-    if start is not None and given.action is None:
+        work.say(f"With $ρ = {to_sympy(price)}$ the gain is:")
+        priced = matrix([[_at(entry, price) for entry in line] for line in L.tolist()])
+        work.give(lqr.gain, priced, t=0)
+        work.answer(priced)
+        return
+    L = work.answer(L)
+    if start is not None:
         work.answer(work.step(lqr.action, t=0, Lt={0: L}, St={0: start}))
+
+
+def _at(entry: Value, price: Value) -> Value:
+    """An entry of the gain for a price that was left open in it."""
+    if not isinstance(entry, RationalFunction):
+        return entry
+    if not is_rational(price):
+        raise NoSolution("the price that was found is no rational number")
+    return entry(price)
 
 
 def oracle(given: Given) -> Answers:

@@ -1,5 +1,6 @@
 """The scalar Riccati equation by its quadratic; a larger system by its modes, if it has any, else in decimals."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -8,7 +9,7 @@ from flint import fmpq
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
-from rldrill.solutions.exact import NoSolution, Value, decimal, exact, is_rational, to_sympy, told
+from rldrill.solutions.exact import ZERO, NoSolution, Value, decimal, exact, is_rational, to_sympy, told
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -21,7 +22,7 @@ from rldrill.solutions.sheet.linear_methods import (
     back_from_modes,
 )
 from rldrill.solutions.sheet.linear_methods import stationary as stationary_formulas
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Equality, Step, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -101,9 +102,9 @@ def _value(work: Work, given: Given, formulas: Stationary, regulator: Regulator)
         work.say(_in_costs(given))
     A, B = regulator.A, regulator.B
     if A.nrows() == B.ncols() == 1:
-        work.say(_equation(given))
-        numbers = (getattr(regulator, name)[0, 0] for name in "ABQRN")
-        return matrices.matrix([[_root(work, given, formulas, *numbers)]])
+        work.say("With the gain put in:")
+        numbers = [getattr(regulator, name)[0, 0] for name in "ABQRN"]
+        return matrices.matrix([[_root(work, given, formulas, numbers)]])
     if (modes := _modes(regulator)) is not None:
         return _by_modes(work, given, formulas, modes)
     return _in_decimals(work, given, regulator)
@@ -117,25 +118,39 @@ def _in_costs(given: Given) -> str:
     return f"$P$ is the {what} of the value; for the cost-to-go, $S = −P$, it reads {riccati}."
 
 
-def _equation(given: Given) -> str:
+def _quadratic(given: Given) -> str:
     """The scalar equation, cleared of its denominator."""
-    gamma, product = ("" if given.gamma == 1 else "γ "), ("(Q R − N^2)" if given.N else "Q R")
-    P, sign, other = given.notation.value, "−" if given.notation.costs else "+", given.notation.costs
-    bracket = f"R + {gamma}B^2 {P}" if other else f"{gamma}B^2 P − R"
-    cost, turned = ("Q", "+") if other else ("−Q", "−")
-    crossed = f"{gamma}A B {P} {turned} N" if given.N else f"{gamma}A B {P}"
-    start = "With" if len(given.A) == 1 else "For each mode, with"
-    what, never, side = ("a cost", "negative", "positive") if other else ("a value", "positive", "negative")
+    P, sign = given.notation.value, "−" if given.notation.costs else "+"
+    squared, product = _coefficients(given)
     return (
-        f"{start} the gain put in, ${P} = {cost} + {gamma}A^2 {P} − ({crossed})^2/({bracket})$. Multiplied by "
-        f"${bracket}$, this becomes ${gamma}B^2 {P}^2 {sign} β {P} − {product} = 0$. The product of its roots, "
-        f"$−{product}/{f'({gamma}B^2)' if gamma else 'B^2'}$, is not positive, so at most one root is {side}; {what} "
-        f"here is never {never}, so ${P}$ is that one."
+        "Multiplied by its denominator it has no cubic terms, and with $β$ for what stands at "
+        f"${P}$ it is ${squared} {P}^2 {sign} β {P} − {product} = 0$:"
     )
 
 
-def _root(work: Work, given: Given, formulas: Stationary, a: fmpq, b: fmpq, q: fmpq, r: fmpq, n: fmpq) -> Value:
+def _which(given: Given) -> str:
+    """Why one of the two roots is the value."""
+    squared, product = _coefficients(given)
+    what, never, side = (
+        ("a cost", "negative", "positive") if given.notation.costs else ("a value", "positive", "negative")
+    )
+    below = squared if squared == "B^2" else f"({squared})"
+    return (
+        f"The product of its roots, $−{product}/{below}$, is not positive, so at most one root is {side}; {what} here "
+        f"is never {never}, so ${given.notation.value}$ is that one."
+    )
+
+
+def _coefficients(given: Given) -> tuple[str, str]:
+    """What stands at the square, and alone."""
+    return "B^2" if given.gamma == 1 else "γ B^2", "(Q R − N^2)" if given.N else "Q R"
+
+
+def _root(
+    work: Work, given: Given, formulas: Stationary, numbers: Sequence[fmpq], *, told_before: bool = False
+) -> Value:
     """The scalar P: the root that makes the closed loop stable."""
+    a, b, q, r, n = numbers
     gamma: fmpq = exact(given.gamma)
     if r == 0 and (b == 0 or q == 0):
         raise NoSolution("some action costs nothing and changes nothing that does, so no single one is the best")
@@ -152,7 +167,16 @@ def _root(work: Work, given: Given, formulas: Stationary, a: fmpq, b: fmpq, q: f
     if r and cost == 0 and gamma * left * left == 1:
         raise NoSolution("to bring the state to 0 can be made as cheap as one likes, so no action is the best")
     known = {"Ak": a, "Bk": b, "Qk": q, "Rk": r, "Nk": n, "gamma": gamma}
-    found: Value = work.step(formulas.root, betak=work.step(formulas.beta, **known), **known)
+    work.lines.append(Step(formulas.scalar, formulas.scalar.right, known, None, "="))
+    if not told_before:
+        work.say(_quadratic(given))
+    beta: Value = work.step(formulas.beta, **known)
+    P = generator(given.notation.value)
+    linear = P * beta * (-1 if given.notation.costs else 1)
+    work.lines.append(Equality(P * P * (gamma * b * b) + linear - (q * r - n * n), (ZERO,)))
+    if not told_before:
+        work.say(_which(given))
+    found: Value = work.step(formulas.root, betak=beta, **known)
     if is_rational(found) and found != 0 and (other := (n * n - q * r) / (gamma * b * b * found)) != 0:
         side = "negative" if given.notation.costs else "positive"
         work.say(f"The other root, ${told(other)}$, is {side}, so it is not the one.")
@@ -206,13 +230,13 @@ def _is_diagonal(matrix: AnyMatrix) -> bool:
 
 def _by_modes(work: Work, given: Given, formulas: Stationary, modes: _Modes) -> AnyMatrix:
     roots = []
-    work.say(_equation(given))
+    work.say("With the gain put in, every mode has its own equation:")
     letters = "ABQRN" if given.N else "ABQR"
     for mode, what in enumerate(modes.names):
         numbers = [matrix[mode, mode] for matrix in modes.split]
         told = ", ".join(f"{name} = {number}".replace("-", "−") for name, number in zip(letters, numbers, strict=False))
         work.say(f"Mode {mode + 1}, {what}, is a system of its own with ${told}$:")
-        roots.append(_root(work, given, formulas, *numbers))
+        roots.append(_root(work, given, formulas, numbers, told_before=mode > 0))
     return _back(work, modes, given.notation.value, roots)
 
 
@@ -232,8 +256,12 @@ def _gain_by_modes(
 def _back(work: Work, modes: _Modes, head: str, entries: list[Value]) -> AnyMatrix:
     """A matrix of the states from its entries in the modes."""
     size = len(entries)
-    work.say("Back in the entries of the state, with the modes as the columns of $T$:")
     diagonal = matrices.matrix([[entries[i] if i == j else 0 for j in range(size)] for i in range(size)])
+    if matrices.identity(size) == modes.T:
+        work.say("These are the entries of the diagonal:")
+        work.lines.append(Equality(back_from_modes(head).left, (diagonal,)))
+        return diagonal
+    work.say("Back in the entries of the state, with the modes as the columns of $T$:")
     back: AnyMatrix = work.step(back_from_modes(head), modes=modes.T, **{f"{head}m": diagonal})
     return back
 

@@ -7,7 +7,7 @@ from rldrill.problems.exact import Weight, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
 from rldrill.solutions.answers.kinds import text_of
-from rldrill.solutions.exact import NoSolution, Value, absolute, exact, largest, sign, simplest
+from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, largest, sign, simplest, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -144,16 +144,21 @@ def _from_the_objective(work: Work, known: Mapping[str, Any], objective: Value) 
         raise NoSolution("the objective tells ε only where clipping can cut off the gradient of exactly one sample")
     (one,) = cut
     above = sign(known["rho"][one] - 1) > 0
+    unclipped = sum(known["unclipped"].values(), ZERO) / len(times)
     work.say(
         f"Clipping lowers an objective only where the advantage is positive and the ratio above $1$, or the advantage "
         f"negative and the ratio below $1$. That is so at $t = {one}$ alone; the other objectives are the unclipped "
-        f"terms. $L$ is not the mean of the unclipped terms, so $ρ_{{{one}}}$ is clipped:"
+        f"terms. The mean of all unclipped terms is ${told(unclipped)}$, but $L = {told(objective)}$ is less, so "
+        f"$ρ_{{{one}}}$ is clipped:"
     )
     held = work.step(PPO_AT_THE_UPPER_BOUND if above else PPO_AT_THE_LOWER_BOUND, t=one, **known)
     mean = work.step(PPO_BATCH, L_t={**known["unclipped"], one: held}, **known)
     epsilon = work.equate("epsilon", mean, objective)
     if sign(epsilon) <= 0 or sign(absolute(known["rho"][one] - 1) - epsilon) < 0:
         raise NoSolution("no ε gives this objective")
+    edge, side = (1 + epsilon, "above $1 + ε") if above else (1 - epsilon, "below $1 − ε")
+    ratio = told(known["rho"][one])
+    work.say(f"With this $ε$ the ratio $ρ_{{{one}}} = {ratio}$ lies {side} = {told(edge)}$: it is clipped indeed.")
     work.answer(epsilon)
 
 

@@ -31,7 +31,7 @@ from rldrill.solutions.formula.notation import (
     t,
     z,
 )
-from rldrill.solutions.sheet.linear_methods import At, Bt, Qt, Rt
+from rldrill.solutions.sheet.linear_methods import Ai, Bi, Qi, Ri
 
 p = quantity("p", conditioned("p"))
 likelihood = quantity("likelihood", conditioned("p"))
@@ -115,7 +115,7 @@ covariance = quantity("covariance", subscripted("Σ"), matrix=True)
 covariance_bar = quantity("covariance_bar", subscripted(Accent(variable("Σ"), "bar")), matrix=True)
 moved = quantity("moved", subscripted("u"), matrix=True)
 read = quantity("read", subscripted("z"), matrix=True)
-Ct = quantity("Ct", subscripted("C"), matrix=True)
+Ci = letter("Ci", "C", matrix=True)
 Kt = quantity("Kt", subscripted("K"), matrix=True)
 identity = letter("identity", "I", matrix=True)
 
@@ -237,7 +237,7 @@ with evaluate(False):
     KALMAN_MOVE_MEAN = Formula(
         "kalman-predict-mean",
         mean_bar(t),
-        At(t) * mean(t - 1) + Bt(t) * moved(t),
+        Ai * mean(t - 1) + Bi * moved(t),
         title="Kalman: mean after a motion",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 2",
         hint="Put the old mean and the command into the motion model, without noise.",
@@ -249,14 +249,14 @@ with evaluate(False):
     KALMAN_MOVE_COVARIANCE = Formula(
         "kalman-predict-covariance",
         covariance_bar(t),
-        At(t) * covariance(t - 1) * Transposed(At(t)) + Rt(t),
+        Ai * covariance(t - 1) * Transposed(Ai) + Ri,
         title="Kalman: covariance after a motion",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 3",
         hint="A motion makes the belief wider: the covariance of its noise is added.",
         note="$R$ is the covariance of the motion's noise, $Q$ that of the sensor's.",
         place=Place.BEYOND,
         misread={
-            PROCESS_NOISE_FORGOTTEN: At(t) * covariance(t - 1) * Transposed(At(t)),
+            PROCESS_NOISE_FORGOTTEN: Ai * covariance(t - 1) * Transposed(Ai),
         },
     )
     VARIANCES_FOR_INVERSES = Misconception(
@@ -267,13 +267,13 @@ with evaluate(False):
     KALMAN_GAIN = Formula(
         "kalman-gain",
         Kt(t),
-        covariance_bar(t) * Transposed(Ct(t)) * Pow(Ct(t) * covariance_bar(t) * Transposed(Ct(t)) + Qt(t), -1),
+        covariance_bar(t) * Transposed(Ci) * Pow(Ci * covariance_bar(t) * Transposed(Ci) + Qi, -1),
         title="Kalman gain",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 4",
         hint="The gain is the share of the predicted variance in the sum of predicted and sensor variance.",
         place=Place.BEYOND,
         misread={
-            VARIANCES_FOR_INVERSES: Qt(t) * Pow(covariance_bar(t) + Qt(t), -1),
+            VARIANCES_FOR_INVERSES: Qi * Pow(covariance_bar(t) + Qi, -1),
         },
     )
     GAIN_ON_PREDICTION = Misconception(
@@ -284,7 +284,7 @@ with evaluate(False):
     KALMAN_MEAN = Formula(
         "kalman-mean",
         mean(t),
-        mean_bar(t) + Kt(t) * (read(t) - Ct(t) * mean_bar(t)),
+        mean_bar(t) + Kt(t) * (read(t) - Ci * mean_bar(t)),
         title="Kalman: mean after measuring",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 5",
         hint="Go the share K of the way from the predicted mean to the measurement.",
@@ -296,7 +296,7 @@ with evaluate(False):
     KALMAN_COVARIANCE = Formula(
         "kalman-covariance",
         covariance(t),
-        (identity - Kt(t) * Ct(t)) * covariance_bar(t),
+        (identity - Kt(t) * Ci) * covariance_bar(t),
         title="Kalman: covariance after measuring",
         source="Thrun, Burgard & Fox 2005, table 3.1, line 6",
         hint="A measurement makes the belief narrower, by the share K.",
@@ -542,7 +542,7 @@ with evaluate(False):
 def without_command() -> Formula:
     """The mean after a motion where there are no commands."""
     with evaluate(False):
-        return replace(KALMAN_MOVE_MEAN, right=At(t) * mean(t - 1))
+        return replace(KALMAN_MOVE_MEAN, right=Ai * mean(t - 1))
 
 
 @cache

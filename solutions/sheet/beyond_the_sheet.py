@@ -145,6 +145,7 @@ a_link = quantity("alink", subscripted("a"))
 rotation = quantity("rotation", subscripted("R"), matrix=True)
 origin, point = quantity("origin", subscripted("o"), matrix=True), quantity("point", subscripted("p"), matrix=True)
 before, after = letter("before", "T", matrix=True), letter("after", Script(variable("T"), variable("i")), matrix=True)
+R_total = letter("Rtotal", "R", matrix=True)
 
 with evaluate(False):
     CRAIGS = Misconception(
@@ -189,6 +190,16 @@ with evaluate(False):
             WRONG_ORDER: after * before,
         },
     )
+    LINK_ORIGIN = Formula(
+        "link-origin",
+        origin(i),
+        Blocks(3, a_link(i) * cos(th(i)), a_link(i) * sin(th(i)), d(i)),
+        title="Origin of a link's frame",
+        source="Siciliano et al. 2009, section 2.8.2",
+        hint="Shift by d along z, and by a along the x that has been turned by θ.",
+        place=Place.WORKING,
+        misread={CRAIGS: Blocks(3, a_link(i), -sin(al(i)) * d(i), cos(al(i)) * d(i))},
+    )
     FORWARD_POINT = Formula(
         "frame-point",
         point(i - 1),
@@ -215,6 +226,28 @@ with evaluate(False):
             NOT_INVERTED: rotation(i) * point(i - 1) + origin(i),
         },
     )
+
+
+@cache
+def rotations() -> tuple[Formula, Formula]:
+    """The rotation in a link's transform, and the product of those of several links."""
+    with evaluate(False):
+        turned = Blocks(
+            3,
+            cos(th(i)), -sin(th(i)) * cos(al(i)), sin(th(i)) * sin(al(i)),
+            sin(th(i)), cos(th(i)) * cos(al(i)), -cos(th(i)) * sin(al(i)),
+            0, sin(al(i)), cos(al(i)),
+        )  # fmt: skip
+        as_craigs = Blocks(
+            3,
+            cos(th(i)), -sin(th(i)), 0,
+            sin(th(i)) * cos(al(i)), cos(th(i)) * cos(al(i)), -sin(al(i)),
+            sin(th(i)) * sin(al(i)), cos(th(i)) * sin(al(i)), cos(al(i)),
+        )  # fmt: skip
+        return (
+            replace(LINK_TRANSFORM, left=rotation(i), right=turned, misread={CRAIGS: as_craigs}),
+            replace(CHAIN, left=R_total, right=R_total * rotation(i), misread={WRONG_ORDER: rotation(i) * R_total}),
+        )
 
 
 # Meta-learning ---------------------------------------------------------------------------------------

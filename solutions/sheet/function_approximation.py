@@ -31,7 +31,7 @@ from rldrill.solutions.formula.notation import (
     subscripted,
     t,
 )
-from rldrill.solutions.sheet.policy_gradient import Qhat, delta, theta, theta_vector
+from rldrill.solutions.sheet.policy_gradient import Qhat, delta, f, f_vector, theta, theta_vector
 
 
 def _feature(index: Math, *arguments: Math) -> Math:
@@ -193,11 +193,11 @@ with evaluate(False):
     LINEAR_VALUE = Formula(
         "linear-value",
         Qhat(s, a),
-        SumOver(theta(i) * phi(i, s, a), i, Features),
+        SumOver(theta(i) * f(i, s, a), i, Features),
         title="Action value, linear in features",
         source="Sutton & Barto 2018, eq. 10.3",
         hint="Multiply each weight by its feature and add; the features of other actions' blocks are 0.",
-        also=(Transposed(theta_vector) * phi_vector(s, a),),
+        also=(Transposed(theta_vector) * f_vector(s, a),),
         place=Place.BEYOND,
     )
     GREEDY_LINEAR = Formula(
@@ -275,7 +275,7 @@ with evaluate(False):
     SEMI_GRADIENT_SARSA = Formula(
         "semi-gradient-sarsa",
         theta_vector,
-        theta_vector + alpha * delta(t) * phi_vector(S(t), A(t)),
+        theta_vector + alpha * delta(t) * f_vector(S(t), A(t)),
         title="Semi-gradient Sarsa",
         source="Sutton & Barto 2018, eq. 10.2",
         hint="Move the weights along the features of the pair of state and action that is left.",
@@ -283,7 +283,7 @@ with evaluate(False):
         place=Place.BEYOND,
         misread={
             SARSA_THROUGH_THE_TARGET: theta_vector
-            + alpha * delta(t) * (phi_vector(S(t), A(t)) - gamma * phi_vector(S(t + 1), A(t + 1))),
-            SARSA_FEATURES_OF_NEXT: theta_vector + alpha * delta(t) * phi_vector(S(t + 1), A(t + 1)),
+            + alpha * delta(t) * (f_vector(S(t), A(t)) - gamma * f_vector(S(t + 1), A(t + 1))),
+            SARSA_FEATURES_OF_NEXT: theta_vector + alpha * delta(t) * f_vector(S(t + 1), A(t + 1)),
         },
     )

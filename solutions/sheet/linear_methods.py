@@ -394,6 +394,7 @@ class Stationary(NamedTuple):
     """The formulas of the infinite horizon in the letters of one convention."""
 
     equation: Formula
+    scalar: Formula
     beta: Formula
     root: Formula
     gain: Formula
@@ -403,8 +404,9 @@ class Stationary(NamedTuple):
 @cache
 def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Stationary:
     """The infinite horizon as it is written in a convention; the sheet's own formulas, where nothing is added."""
+    scalar = _scalar(notation, discounted=discounted, crossed=crossed)
     if not (notation.costs or discounted or crossed):
-        return Stationary(LQR_STATIONARY, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
+        return Stationary(LQR_STATIONARY, scalar, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
     value, gain = letter(f"{notation.value}i", notation.value, matrix=True), letter(f"{notation.gain}i", notation.gain,
                                                                                     matrix=True)  # fmt: skip
     loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
@@ -422,7 +424,6 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
             beta_right = beta_right - Mul(2, *ahead, a1, b1, n1)
             product = product - n1**2
         root = beta + sqrt(beta**2 + Mul(4, *ahead, b1**2, product))
-        scalar = letter(f"{notation.value}k", notation.value)
         return Stationary(
             replace(
                 LQR_STATIONARY,
@@ -430,14 +431,27 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 right=(Qi if notation.costs else -Qi) + Mul(*ahead, Transposed(Ai), value, Ai) - turned * gain,
                 note="",
             ),
+            scalar,
             replace(LQR_BETA, right=beta_right, note=""),
             replace(
-                LQR_ROOT, left=scalar, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2), misread={},
-                note="",
+                LQR_ROOT, left=scalar.left, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2),
+                misread={}, note="",
             ),
             replace(LQR_STATIONARY_GAIN, left=gain, right=Pow(bracket, -1) * both, misread={}),
             replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
         )  # fmt: skip
+
+
+def _scalar(notation: Notation, *, discounted: bool, crossed: bool) -> Formula:
+    """The Riccati equation of a scalar system with the gain put in, in which only P is left."""
+    with evaluate(False):
+        ahead, value = (gamma,) if discounted else (), letter(f"{notation.value}k", notation.value)
+        price, turned = Mul(*ahead, b1**2, value), Mul(*ahead, a1, b1, value)
+        if crossed:
+            turned = turned + n1 if notation.costs else turned - n1
+        bracket, cost = (r1 + price, q1) if notation.costs else (price - r1, -q1)
+        right = cost + Mul(*ahead, a1**2, value) - Mul(turned**2, Pow(bracket, -1))
+    return replace(LQR_STATIONARY, left=value, right=right, note="")
 
 
 # Linearisation --------------------------------------------------------------------------------------
@@ -477,6 +491,7 @@ partial_s, partial_a = quantity("partialS", _by_entry("s")), quantity("partialA"
 Aij, Bij = quantity("Aij", _entry("A")), quantity("Bij", _entry("B"))
 f_value, f_point = (quantity(code, lambda component: row(Script(variable("f"), component), _POINT))
                     for code in ("fValue", "fPoint"))  # fmt: skip
+f_alone = quantity("fAlone", lambda _: row(variable("f"), _POINT))  # where f has one component only
 f_at = letter("fat", row(variable("f"), Fence(listed((variable("s"), variable("a"))))), matrix=True)
 f_bar = letter("fbar", row(variable("f"), _POINT), matrix=True)
 F_bar = letter("Fbar", row(variable("F"), _POINT), matrix=True)
@@ -708,7 +723,7 @@ f_iss, f_ias, f_iaa = (
 
 def _second(line: Math, first: Math, then: Math) -> Math:
     above = Script(variable("∂"), above=Glyph("2", "number"))
-    of = line if isinstance(line, Glyph) and line.text == "r" else Script(variable("f"), line)
+    of = variable(line.text) if isinstance(line, Glyph) and line.text in ("r", "f") else Script(variable("f"), line)
     if first == then:
         below: Math = row(variable("∂"), Script(_letter(first), above=Glyph("2", "number")))
     else:
@@ -716,7 +731,7 @@ def _second(line: Math, first: Math, then: Math) -> Math:
     return Fraction(row(above, of), below)
 
 
-#: ∂²f₁/∂θ² and the like; of the reward, with r in place of the number.
+#: ∂²f₁/∂θ² and the like; of the reward, or of an f of one component, with r or f in place of the number.
 second = quantity("secondD", _second)
 g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))

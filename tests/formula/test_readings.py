@@ -78,7 +78,7 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
     fixed |= {name: number() for name in ("mu_hat", "sigma2", "prior_mean", "prior_variance", "slope", "free")}
     fixed |= {"component": 1, "trajectories": (1, 2), "last": {1: 2, 2: 1}, "policy": "slow", "policies": ACTIONS}
     fixed |= {"violated": ACTIONS, "worth_expert": number(), "xi": number(), "step_length": number()}
-    names = ("mean", "mean_bar", "covariance", "covariance_bar", "moved", "read", "Ct", "Kt")
+    names = ("mean", "mean_bar", "covariance", "covariance_bar", "moved", "read", "Kt")
     fixed |= {name: Anything(matrix) for name in names} | {"identity": fmpq_mat(2, 2, [1, 0, 0, 1])}
     fixed |= {"share": fmpq(1, 4), "log_likelihood": sympy.log(2)}
     fixed |= {"components": (1, 2), "tasks": (1, 2), "pi": Anything(lambda _: abs(number()) + 1)}

@@ -79,7 +79,7 @@ def test_a_negative_logarithm_that_is_put_in_has_brackets() -> None:
 
 def test_a_1_that_multiplies_a_matrix_keeps_its_place_when_put_in_and_is_then_left_out() -> None:
     one, two = fmpq_mat(1, 1, [1]), fmpq_mat(1, 1, [2])
-    known = {"t": 1, "At": {1: one}, "covariance": {0: two}, "Rt": {1: one}}
+    known = {"t": 1, "Ai": one, "covariance": {0: two}, "Ri": one}
     written = put_in(KALMAN_MOVE_COVARIANCE.right, known)
     assert unicode(typeset(written)) == "1·2·1 + 1"
     assert unicode(typeset(reduced(written))) == "2 + 1"
@@ -234,7 +234,7 @@ def test_the_inverse_of_a_2_by_2_matrix_is_worked_out() -> None:
 
 def test_a_sum_that_leads_a_product_keeps_its_brackets() -> None:
     w, one = matrix([[7 + generator("w")]]), matrix([[fmpq(1)]])
-    known = {"t": 1, "covariance_bar": {1: w}, "Ct": {1: one}, "Qt": {1: matrix([[fmpq(6)]])}}
+    known = {"t": 1, "covariance_bar": {1: w}, "Ci": one, "Qi": matrix([[fmpq(6)]])}
     assert written(KALMAN_GAIN, **known) == "K₁ = (7 + w)·1·(1·(7 + w)·1 + 6)⁻¹ = (7 + w)·(13 + w)⁻¹ = (7 + w)/(13 + w)"
 
 

@@ -123,3 +123,37 @@ def test_a_value_that_cannot_be_read_off_is_one_sentence(given_: dict[str, Any],
 def test_a_name_that_cannot_be_chosen_is_one_sentence(shown: dict[str, Any], message: str) -> None:
     with pytest.raises(FileError, match=message):
         solved("backup-diagram-name", diagrams=[shown])
+
+
+CHANGED = {
+    "shows": "q-learning", "change": "no-arc", "options": ["expected-sarsa", "sarsa"], "target": "sarsa",
+    "changes": ["arc", "one-action", "all-states"],
+}  # fmt: skip
+
+
+def test_a_change_of_the_picture_makes_another_method_of_it() -> None:
+    """Q-learning without its arc is the mean of Expected Sarsa; with one action of it, it is Sarsa."""
+    exercise = rldrill.read({"family": "backup-diagram-name", "given": CHANGED})
+    assert exercise.solve() == {"a": "A", "b": "B"}
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"change": "to-the-end"}, "makes no diagram that has a name of 'q-learning'"),
+        ({"options": ["q-learning", "sarsa"]}, "'expected-sarsa', which is shown after the change, must be among"),
+        ({"changes": ["arc", "all-states"]}, "one of them, and no more, must make 'sarsa' of 'expected-sarsa'"),
+        ({"changes": ["sampled", "one-action"]}, "one of them, and no more, must make"),
+        ({"changes": ["arc", "arc", "one-action"]}, "one is given twice"),
+    ],
+)
+def test_a_change_that_leads_nowhere_is_one_sentence(wrong: dict[str, Any], message: str) -> None:
+    with pytest.raises(FileError, match=message):
+        solved("backup-diagram-name", **CHANGED | wrong)
+
+
+def test_no_draw_takes_a_change_that_can_be_understood_in_two_ways() -> None:
+    for seed in range(60):
+        given: Any = draw("backup-diagram-name", 3, seed).problem.given
+        if given.shows in ("expected-sarsa", "q-learning", "bellman-optimality-v", "bellman-optimality-q"):
+            assert given.change not in ("sampled", "everything")

@@ -3,6 +3,7 @@
 from fractions import Fraction
 from json import dumps, loads
 from math import comb
+from re import findall
 from typing import Any
 
 import pytest
@@ -355,3 +356,37 @@ def test_a_variance_by_the_other_divisor_is_recognised_both_ways() -> None:
     assert exercise.solve()["b"] == fmpq(14, 3)
     assert [m.name for m in exercise.check("7", "b").misconceptions] == ["n-minus-1-for-n"]
     assert [m.name for m in exercise.check("14/3", "c").misconceptions] == ["n-for-n-minus-1"]
+
+
+def test_no_measurement_is_as_it_was_predicted() -> None:
+    """Else the gain would not matter for the mean."""
+    for seed in range(40):
+        given_: Any = draw("kalman-filter", 3, seed).problem.given
+        if len(given_.mean) == 2:
+            (place,), (velocity,) = given_.mean
+            assert given_.steps[0].z[0][0] not in (place, place + velocity)
+
+
+def test_of_two_models_one_is_the_more_probable_of_three_the_most() -> None:
+    for seed in range(12):
+        for level in (1, 2, 3):
+            exercise = rldrill.draw("model-comparison", level, seed)
+            two = len(exercise.problem.given.models) == 2  # type: ignore[attr-defined]
+            said = " ".join([part.ask for part in exercise.parts] + [str(exercise.working())])
+            assert ("most probable model" if two else "more probable model") not in said
+
+
+def test_the_letters_of_the_tosses_are_in_the_question() -> None:
+    """n₁ and n₀ of the formulas are told where the tosses are."""
+    for name in ("model-comparison", "bic", "model-fitting"):
+        for seed in range(12):
+            exercise = rldrill.draw(name, 2, seed)
+            question, working = str(exercise.question()), str(exercise.working())
+            assert ("n₁" in working) <= ("n₁" in question or "n_(1,c)" in question), exercise.id
+
+
+def test_the_factorials_of_an_evidence_are_known_by_heart() -> None:
+    for seed in range(15):
+        for level in (2, 3):
+            working = str(rldrill.draw("model-comparison", level, seed).working("a"))
+            assert max(map(int, findall(r"\d+", working))) <= 720

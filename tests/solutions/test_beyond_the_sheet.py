@@ -1,5 +1,6 @@
 """Identities of kinematics and of meta-learning."""
 
+from statistics import median
 from typing import Any
 
 import pytest
@@ -9,8 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asking import solved
+from rldrill.audit.figures import largest
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.effort import points
 from rldrill.solutions.exact import to_sympy
 
 angles = st.sampled_from(["0", "pi/6", "pi/3", "pi/2", "2*pi/3", "-pi/2", "pi"])
@@ -99,3 +102,17 @@ def test_the_parameter_that_maml_leaves_alone_and_the_step_that_it_took() -> Non
     # First-order MAML adds 1·(1 − 0) and 3·(5 − 4) instead: 2 − 1/4·4 = 1.
     answers = solved("maml-step", theta=2, tasks=tasks, alpha="1/2", beta="1/4", first_order=True)
     assert (answers["b"], answers["c"]) == (fmpq(9, 4), 1)
+
+
+def test_the_rotation_and_the_origin_of_a_pose_are_worked_out_in_parts_of_their_own() -> None:
+    """Two links: two rotations and their product; two origins and the sum of one with the other turned."""
+    for seed in range(20):
+        solution = draw("denavit-hartenberg", 2, seed)
+        if solution.problem.given.asked == "pose":  # type: ignore[attr-defined]
+            rotation, origin = points(solution).values()
+            assert origin < rotation <= 2 * origin
+
+
+def test_the_numbers_of_a_maml_step_grow_with_the_level() -> None:
+    first, second = (median(largest(draw("maml-step", level, seed)) for seed in range(40)) for level in (1, 2))
+    assert first <= second

@@ -31,7 +31,7 @@ from rldrill.solutions.rational import generator
 from rldrill.solutions.work import Work
 
 x, y, z = letter("x"), letter("y"), letter("z")
-A = letter("A", matrix=True)
+A, B, C = (letter(name, matrix=True) for name in "ABC")
 Start = quantity("start", called("c"))
 After = quantity("after", called("n"))
 
@@ -98,6 +98,41 @@ def test_a_root_in_a_matrix_takes_longer_than_a_number() -> None:
     # √2 for 7: the root is drawn (3 s) from a number with the digits of 2 and of 1/2, and is looked up as two.
     root, seven = (of(A, A=matrix([[entry]])) for entry in (sqrt(2), fmpq(7)))
     assert root - seven == 3 + ((1 + 2) + 2 - (1 + 1)) * Fraction(3, 2)
+
+
+def test_an_equation_that_is_solved_takes_time_for_every_line() -> None:
+    work = Work()
+    p = generator("p")
+    work.equate("p", p * 3 + 1, fmpq(3))
+    # 1 + 3p = 3 is written down (8 s); then 3p = 2 and p = 2/3 are made of it (8 s, 2·3 s and 4.5 s each).
+    assert seconds(work) == 8 + 2 * (8 + 6 + Fraction(9, 2))
+
+
+@pytest.mark.parametrize(
+    ("right", "matrices", "operations", "digits"),
+    [
+        (A * B, 2, 2 * 8, 0),  # every entry of four: two products, each worked out and added or written
+        (A * B * C, 3, 2 * 8 + 2 * 8, 0),
+        (A + B, 2, 4, 0),
+        (2 * A, 1, 4, 1),
+        (Pow(A, -1), 1, 8, 1),
+    ],
+)
+def test_matrices_are_worked_out_entry_by_entry(right: Expr, matrices: int, operations: int, digits: int) -> None:
+    full = fmpq_mat(2, 2, [2, 3, 4, 5])
+    written = matrices * of(A, A=full) + digits * Fraction(3, 2)
+    assert of(right, A=full, B=full, C=full) == written + 3 * operations
+
+
+def test_zeros_in_a_matrix_are_not_multiplied() -> None:
+    matrices = (fmpq_mat(2, 2, entries) for entries in ([2, 3, 4, 5], [2, 0, 0, 5]))
+    full, diagonal = (of(A * B, A=matrix, B=matrix) for matrix in matrices)
+    # The same digits; 2·2 products instead of 8 in the diagonal one, each worked out and written.
+    assert full - diagonal == 3 * 2 * (8 - 2)
+
+
+def test_a_product_with_zero_is_seen_at_once() -> None:
+    assert of(x * y * z, x=fmpq(123, 45), y=fmpq(0), z=fmpq(67)) == 3
 
 
 def system(work: Work, discount: Any) -> None:

@@ -179,3 +179,12 @@ def test_features_that_fit_no_state_have_no_solution() -> None:
     # 2 away from 0 and 4 away from 4.
     with pytest.raises(FileError, match="exactly one state"):
         solved("piecewise-linear-rbf", centres=[[0], [4]], width=8, known={1: "3/4", 2: "1/2"})
+
+
+def test_features_of_states_and_actions_have_one_letter_everywhere() -> None:
+    """f of a state and an action, as on the sheet; φ of a state."""
+    for name in ("linear-policy", "linear-value", "semi-gradient-td", "softmax-policy"):
+        for seed in range(6):
+            for level in (1, 2, 3):
+                exercise = rldrill.draw(name, level, seed)
+                assert "φ(s, a)" not in f"{exercise.question()} {exercise.working()}", exercise.id

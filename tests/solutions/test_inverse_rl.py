@@ -8,6 +8,7 @@ from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.solutions.drawing import draw
@@ -167,3 +168,11 @@ def test_an_open_discount_gives_a_rational_function() -> None:
     forever = {"motion": {"go": {"a": {"a": 1}}}, "policy": {"a": "go"}, "features": {"a": [1]}, "start": {"a": 1}}
     answers = solved("feature-expectations-policy", **forever, gamma="gamma")
     assert answers["b"] == (1 / (1 - generator("gamma")),)
+
+
+def test_the_number_of_constraints_that_hold_is_told() -> None:
+    for seed in range(10):
+        exercise = rldrill.draw("max-margin", 2, seed)
+        told = str(exercise.working("b"))
+        holding = exercise.solve()["b"]
+        assert f"{holding or 'none'} of the {len(exercise.problem.given.policies)} constraints" in told  # type: ignore[attr-defined]

@@ -22,6 +22,7 @@ from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
 from rldrill.solutions.linear_methods.ddp_backward import _is_negative
+from rldrill.solutions.work import Step
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -411,3 +412,48 @@ def test_the_price_of_a_first_action_by_hand() -> None:
     # P₁ = −2; a₀ = −3·2/(2 + ρ) = −3/2 for ρ = 2; L₀ = 3/2 (from the state 1), and P₀ = −2 − 2·9 + 2·3·3/2 = −11.
     answers = solved("lqr-backward", A=3, B=1, Q=2, R="rho", start=[1], horizon=1, action="-3/2")
     assert [answers["a"], answers["b"][0, 0], answers["c"][0, 0]] == [2, fmpq(3, 2), -11]
+
+
+def test_the_scalar_riccati_equation_is_solved_with_its_numbers() -> None:
+    """The root of a value is the negative one."""
+    exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": [[1]], "B": [[1]], "Q": [[2]], "R": [[4]]}})
+    working = str(exercise.working("a"))
+    # −2 + P − P²/(P − 4), times P − 4: P² − 4P = −2P + 8 + P² − 4P − P², so P² + 2P − 8 = 0, whose roots are −4 and 2.
+    assert "P = −2 + 1²·P − (1·1·P)²/(1²·P − 4)" in working
+    assert "−8 + 2P + P² = 0" in working
+    assert exercise.solve()["a"][0, 0] == -4
+    assert exercise.parts[0].points >= 3
+
+
+def test_where_there_is_one_state_f_has_no_index() -> None:
+    for name in ("linearise", "linearise-affine", "ddp-backward"):
+        for seed in range(8):
+            exercise = rldrill.draw(name, 1 if name != "ddp-backward" else 2, seed)
+            if len(exercise.problem.given.state) == 1:  # type: ignore[attr-defined]
+                working = str(exercise.working())
+                assert "f₁" not in working
+                assert "f_f" not in working
+
+
+def test_the_first_line_has_a_place_for_every_second_derivative() -> None:
+    """Two components of f, one of them flat: both terms stand in Q_ss, Q_as and Q_aa, and leave with the next line."""
+    for seed in range(30):
+        exercise = rldrill.draw("ddp-backward", 3, seed)
+        if exercise.problem.given.second_order:  # type: ignore[attr-defined]
+            for label in "cde":
+                *_, step = exercise.solution.lines_of(label)
+                assert isinstance(step, Step)
+                assert len(step.put_in.args) == 4, exercise.id
+            return
+    raise AssertionError
+
+
+def test_matrices_that_are_not_asked_for_are_worked_out_where_they_are_needed() -> None:
+    for seed in range(40):
+        exercise = rldrill.draw("linearise", 3, seed)
+        given_: Any = exercise.problem.given
+        if not given_.entries.A:
+            assert "A_Δ" not in str(exercise.working("a"))
+            assert "A_Δ" in str(exercise.working("b"))
+            return
+    raise AssertionError

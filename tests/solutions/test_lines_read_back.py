@@ -33,6 +33,10 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
     """The sides of the equations that are solved in front of the reader, and what the unknowns in them are."""
     group: list[Equality] = []
     for line in solution.lines:
+        letters = {letter.name: letter for each in group for side in sides(each) for letter in side.free_symbols}
+        if isinstance(line, Step) and (letter := letters.get(unicode(line.equation().left))):  # P = −b − √… ends it
+            yield from ((sides(each), {letter: to_sympy(line.value)}) for each in group)
+            group = []
         if isinstance(line, Elimination):
             found = dict(zip(line.names.values(), map(to_sympy, line.values), strict=True))
             for each in line.lines():

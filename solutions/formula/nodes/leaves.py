@@ -90,11 +90,6 @@ class MatrixLeaf(Leaf):
         return self.scalar and bool(self.args[0][0].is_Add)
 
     @property
-    def operations(self) -> int:
-        """One for every entry."""
-        return len(self.args[0])
-
-    @property
     def numbers(self) -> Iterable[Expr]:
         """Its entries, though they are in its arguments: what is written down is first looked up."""
         return self.args[0]
@@ -132,6 +127,8 @@ def leaf(value: Any) -> Expr:
     if isinstance(value, Vector):
         return VectorLeaf(value.matrix())
     number_ = to_sympy(value)
+    if number_.is_Mul and number_.is_algebraic and not number_.could_extract_minus_sign():
+        return Factor(number_)
     return Slot(number_) if number_ in (0, 1) else computed(ordered(number_))
 
 
