@@ -79,8 +79,11 @@ _simplest.register(sympy.Rational, fraction)
 
 def tidy(value: Any) -> Any:
     """A number as one writes it: square roots (and π) multiplied out, no root below the line; logarithms of primes."""
-    if not isinstance(value, sympy.Expr):
-        return value
+    return _tidied(value) if isinstance(value, sympy.Expr) else value
+
+
+@lru_cache(maxsize=4096)  # the right way and its mistakes have most numbers in common
+def _tidied(value: sympy.Expr) -> Value:
     surd = surds.read(value)
     if surd is not None:
         return surds.write(surd)

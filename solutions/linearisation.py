@@ -88,7 +88,7 @@ def moved_point(given: System, work: Work, state: AnyMatrix, rates: AnyMatrix) -
 
 
 @kept
-def _rightly(given: System) -> list[AnyMatrix]:
+def rightly(given: System) -> list[AnyMatrix]:
     """The right matrices, with which those of both mistakes are compared."""
     return list(linearised(given, Work()))
 
@@ -125,7 +125,7 @@ def slips(solve: Callable[[Any, Work, Linearised], None]) -> tuple[Misconception
 def _changes(given: System, mistaken: Callable[[System], list[AnyMatrix]]) -> bool:
     """Whether a mistake can be made at this operating point, and leads to other derivatives."""
     try:
-        return _rightly(given) != mistaken(given)
+        return rightly(given) != mistaken(given)
     except (NoSolution, ZeroDivisionError):
         return False
 
