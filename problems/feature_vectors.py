@@ -40,11 +40,11 @@ def draw_features(rng: Draws, states: tuple[str, ...], count: int, most: int) ->
     while True:
         columns = [tuple([rng.below(most + 1) for _ in states]) for _ in range(count)]
         rows = list(zip(*columns, strict=True))
-        if all(len(set(column)) > 1 for column in columns) and _apart(rows) and _apart(columns):
+        if all(len(set(column)) > 1 for column in columns) and apart(rows) and apart(columns):
             return {state: tuple(map(Fraction, row)) for state, row in zip(states, rows, strict=True)}
 
 
-def _apart(vectors: Sequence[tuple[int, ...]]) -> bool:
+def apart(vectors: Sequence[tuple[int, ...]]) -> bool:
     """Whether none is a multiple of another, and none 0."""
     shapes = {tuple([value // gcd(*vector) for value in vector]) for vector in vectors if any(vector)}
     return len(shapes) == len(vectors)

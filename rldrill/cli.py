@@ -4,26 +4,12 @@ import os
 import signal
 import sys
 from codecs import register_error
+from importlib import import_module
 from io import TextIOWrapper
 from typing import IO
 
 import typer
 
-from rldrill.commands import (
-    audit,
-    fields,
-    gallery,
-    generate,
-    history,
-    list_,
-    quiz,
-    sheet,
-    show,
-    solve,
-    stats,
-    verify,
-    worksheet,
-)
 from rldrill.problems.errors import BrokenFamily, UserError
 
 INTERNAL_ERROR = 70
@@ -37,9 +23,12 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
-_COMMANDS = (quiz, stats, history, worksheet, verify, solve, show, sheet, list_, fields, gallery, generate, audit)
-_NAMED = [module for module in _COMMANDS if sys.argv[1:2] == [module.NAME]]
-for module in _NAMED or _COMMANDS:  # the others would only take time
+_COMMANDS = (
+    "quiz", "stats", "history", "worksheet", "verify", "solve", "show", "sheet", "list_", "fields", "gallery",
+    "generate", "audit",
+)  # fmt: skip
+_NAMED = [name for name in _COMMANDS if sys.argv[1:2] == [name.rstrip("_")]]
+for module in [import_module(f"rldrill.commands.{name}") for name in _NAMED or _COMMANDS]:  # others only take time
     app.command(module.NAME)(module.command)
 
 

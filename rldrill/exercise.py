@@ -9,9 +9,8 @@ from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rldrill.files import DATA_SUFFIXES
+from rldrill.files import DATA_SUFFIXES, MODEL_SUFFIXES
 from rldrill.graded import Graded, grade
-from rldrill.model_file import MODEL_SUFFIXES
 from rldrill.problem_file import FORMAT, read_problem
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Block, Equation, Heading, Paragraph

@@ -11,8 +11,9 @@ from typing import Any, NoReturn
 
 from rldrill.problems.errors import FileError
 
-#: What the names of files that hold data end in.
+#: What the names of files that hold data end in, and of those that hold a model.
 DATA_SUFFIXES = (".toml", ".json")
+MODEL_SUFFIXES = (".csv", ".tsv", ".json", ".toml", ".npz", ".pomdp", ".mdp")
 _LARGEST = 10 * 10**6  # bytes
 _DEEPEST = 32  # levels of brackets; a problem file needs six
 _DIGITS = 40

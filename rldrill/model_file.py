@@ -4,13 +4,11 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
-from rldrill.files import brief, kind_of, parse, read_bytes, read_text, shown
+from rldrill.files import MODEL_SUFFIXES, brief, kind_of, parse, read_bytes, read_text, shown
 from rldrill.problems.errors import FileError
 from rldrill.problems.pomdp_format import read_pomdp
 from rldrill.problems.transition_tables import read_records, read_transition_table
 
-#: What the names of files that hold a model end in.
-MODEL_SUFFIXES = (".csv", ".tsv", ".json", ".toml", ".npz", ".pomdp", ".mdp")
 _LARGEST = 10 * 10**6  # bytes of unpacked arrays
 
 

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 from rldrill.files import brief, kind_of, read_data, shown
-from rldrill.model_file import with_files
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 
@@ -60,6 +59,8 @@ def read_problem(path: str | Path) -> dict[str, Any]:
         raise FileError(f"{where}: {brief(unknown[0])} is not a field of a problem file; givens stand under 'given'.")
     problem = {key: data[key] for key in ("family", "given") if key in data}
     if "given" in problem:
+        from rldrill.model_file import with_files
+
         try:
             problem["given"] = with_files(problem["given"], Path(path).parent)
         except FileError as error:

@@ -82,8 +82,11 @@ def tidy(value: Any) -> Any:
 
     A logarithm under a root stays as it is: √(ln 8) does not get simpler.
     """
-    if not isinstance(value, sympy.Expr):
-        return value
+    return _tidied(value) if isinstance(value, sympy.Expr) else value
+
+
+@lru_cache(maxsize=4096)  # the right way and its mistakes have most numbers in common
+def _tidied(value: sympy.Expr) -> Value:
     surd = surds.read(value)
     if surd is not None:
         return surds.write(surd)

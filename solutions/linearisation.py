@@ -96,7 +96,7 @@ def moved_point(given: System, work: Work, state: AnyMatrix, rates: AnyMatrix) -
 
 
 @kept
-def _rightly(given: System) -> list[AnyMatrix]:
+def rightly(given: System) -> list[AnyMatrix]:
     """The right matrices, with which those of both mistakes are compared."""
     return list(linearised(given, Work()))
 
@@ -138,7 +138,7 @@ def _in_order(mistaken: Callable[[System], list[AnyMatrix]]) -> Linearised:
 def _changes(given: System, mistaken: Callable[[System], list[AnyMatrix]]) -> bool:
     """Whether a mistake can be made at this operating point, and leads to other derivatives."""
     try:
-        return _rightly(given) != mistaken(given)
+        return rightly(given) != mistaken(given)
     except (NoSolution, ZeroDivisionError):
         return False
 

@@ -1,8 +1,10 @@
 """The exact feature expectations of a policy in a small Markov decision process."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
+from functools import cache
+from itertools import product
 from operator import mul
-from typing import Self
+from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -11,7 +13,7 @@ from rldrill.problems.document import Block, Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Discount, Exact, Parameter, dot, shown
 from rldrill.problems.family import Givens, Question
-from rldrill.problems.feature_vectors import FeaturesField, check_features
+from rldrill.problems.feature_vectors import FeaturesField, apart, check_features
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import DistributionField, Names, PolicyField, check_chances, check_keys, policy_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
@@ -19,7 +21,7 @@ from rldrill.problems.phrases import discount, in_open
 
 TITLE = "Feature expectations of a policy"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
@@ -88,11 +90,8 @@ class Given(Givens):
         return {state: self.start.get(state, Fraction(0)) for state in self.states}
 
 
-#: The probability of every next state from every state, whatever is done, in so many parts of 1.
-Chain = Mapping[str, Mapping[str, int]]
-_CERTAIN = 48
-#: Feature expectations, and the features behind them, of every state.
-Found = tuple[dict[str, int], dict[str, int]]
+#: A number for every state, action or feature, in their order.
+Row = tuple[int, ...]
 #: The probabilities of two actions, in twelfths; and discounts, above and below the line.
 _CHANCES = ((6, 6), (3, 9), (9, 3), (4, 8), (8, 4))
 _GAMMAS = ((1, 2), (2, 3), (3, 4))
@@ -103,103 +102,109 @@ _STATES, _END, _ACTIONS = ("A", "B", "C"), "end", ("left", "right")
 _SIZES = {1: ((2, 1, 1),), 2: ((2, 2, 1), (2, 2, 2), (3, 1, 1), (2, 1, 2)), 3: ((2, 2, 1),)}
 
 
+class _State(NamedTuple):
+    """Of every action its probability in twelfths, and where it leads in quarters; and the features."""
+
+    chances: Row
+    outcomes: tuple[Row, ...]
+    features: Row
+
+    def leaves(self, number: int) -> bool:
+        """Whether the state of this number leads to another one."""
+        return any(part for row in self.outcomes for other, part in enumerate(row[:-1]) if other != number)
+
+
 def draw(level: int, rng: Draws) -> Given:
-    """One feature and one action; more of them, or of states; a policy with an open probability, or one to be found."""
+    """One feature and one action; more of them, or of states; a policy with an open probability, or one to be found.
+
+    At level 1 one equation is solved without the other; at level 2 none is.
+    """
     count, choices, size = rng.choice(_SIZES[level])
-    states, actions = _STATES[:count], _ACTIONS[:choices]
-    found = None
-    while found is None:
-        motion = {action: {state: _outcomes(rng, states) for state in states} for action in actions}
-        policy = {state: (12,) if choices == 1 else rng.choice(_CHANCES) for state in states}
-        above, below = rng.choice(_GAMMAS)
-        chain = {
-            state: _row(policy[state], [outcomes[state] for outcomes in motion.values()], states) for state in states
-        }
-        if _connected(chain) and _suits(level, chain):
-            later = [[above * chance for chance in row.values()] for row in chain.values()]
-            found = _expected(rng, later, below * _CERTAIN, size)
-        if found and choices > 1 and any(_alike([rows[state] for rows in motion.values()], found) for state in states):
-            found = None
-    start = dict(zip(states, rng.split(count, (3, 4) if count == 2 else (4, 5)), strict=True))
+    names, actions = _STATES[:count], _ACTIONS[:choices]
+    leaving = (True,) * count if level == 2 else rng.shuffled((True, level == 3 and rng.chance(Fraction(1, 2))))
+    gamma, mus, drawn = _whole(rng, leaving, choices, size)
+    states = dict(zip(names, drawn, strict=True))
+    start = dict(zip(names, rng.split(count, (3, 4) if count == 2 else (4, 5)), strict=True))
     given = Given(
-        motion={action: {state: _over(4, row) for state, row in rows.items()} for action, rows in motion.items()},
-        policy={state: _over(12, dict(zip(actions, chances, strict=True))) for state, chances in policy.items()},
-        features={state: tuple(Fraction(phi[state]) for _, phi in found) for state in states},
+        motion={
+            action: {name: _over(4, (*names, _END), state.outcomes[number]) for name, state in states.items()}
+            for number, action in enumerate(actions)
+        },
+        policy={name: _over(12, actions, state.chances) for name, state in states.items()},
+        features={name: tuple(map(Fraction, state.features)) for name, state in states.items()},
         start=start,
         terminal=(_END,),
-        gamma=Fraction(above, below),
+        gamma=Fraction(*gamma),
     )
     if level < 3:
         return given
-    opened = {**given.policy, rng.choice(states): {"left": Parameter("q"), "right": Parameter("1-q")}}
-    matched = dot(start.values(), map(Fraction, found[0][0].values())) if rng.chance(Fraction(2, 3)) else None
+    opened = {**given.policy, rng.choice(names): {"left": Parameter("q"), "right": Parameter("1-q")}}
+    matched = dot(start.values(), map(Fraction, mus[0])) if rng.chance(Fraction(2, 3)) else None
     return given.model_copy(update={"policy": opened, "matched": matched})
 
 
-def _over(below: int, row: Mapping[str, int]) -> dict[str, Fraction]:
-    return {name: Fraction(above, below) for name, above in row.items()}
+def _over(whole: int, names: Sequence[str], parts: Row) -> dict[str, Fraction]:
+    return {name: Fraction(part, whole) for name, part in zip(names, parts, strict=True) if part}
 
 
-def _outcomes(rng: Draws, states: tuple[str, ...]) -> dict[str, int]:
-    """Where an action leads, with what probabilities in quarters."""
-    targets = rng.sample((*states, _END), 1 + rng.below(2))
-    shares, whole = rng.shares(len(targets), (len(targets), 4)[: len(targets)])
-    return {target: share * 4 // whole for target, share in zip(targets, shares, strict=True)}
+@cache
+def _outcomes(count: int) -> tuple[Row, ...]:
+    """Where actions can lead: to one or two of so many states and the end."""
+    rows = product(range(5), repeat=count + 1)
+    return tuple(row for row in rows if sum(row) == 4 and row.count(0) >= count - 1)
 
 
-def _row(chances: Iterable[int], choices: Iterable[Mapping[str, int]], states: tuple[str, ...]) -> dict[str, int]:
-    """Where a state leads, whatever is done: of every action its probability, and where it leads."""
-    row = dict.fromkeys(states, 0)
-    for taken, outcomes in zip(chances, choices, strict=True):
-        for target, chance in outcomes.items():
-            if target in row:
-                row[target] += taken * chance
-    return row
+def _whole(
+    rng: Draws, leaving: Sequence[bool], choices: int, size: int
+) -> tuple[tuple[int, int], Sequence[Row], Sequence[_State]]:
+    """A discount, whole feature expectations, and states that have them."""
+    while True:
+        gamma = rng.choice(_GAMMAS)
+        unit = 1 if size == 1 else gamma[1]  # features of more than one such expectation are often whole together
+        mus = [tuple([unit * number for number in rng.integers(len(leaving), 1, 16 // unit)]) for _ in range(size)]
+        states = _states(rng, mus, gamma, leaving, choices)
+        if _suit(states):
+            return gamma, mus, states
 
 
-def _connected(chain: Chain) -> bool:
-    """Whether every state leads to one, is not left for itself alone, and the end is reached from somewhere."""
-    kept = {state: sum(row.values()) for state, row in chain.items()}
-    return min(kept.values()) < _CERTAIN and all(
-        chance and chance - chain[state][state] < _CERTAIN for state, chance in kept.items()
-    )
+def _states(
+    rng: Draws, mus: Sequence[Row], gamma: tuple[int, int], leaving: Sequence[bool], choices: int
+) -> list[_State]:
+    """States with these feature expectations, by their last action; none, where no last action fits."""
+    drawn: list[_State] = []
+    rows = _outcomes(len(leaving))
+    for number, leaves in enumerate(leaving):
+        chances = (12,) if choices == 1 else rng.choice(_CHANCES)
+        first = [rng.choice(rows) for _ in chances[1:]]
+        made = [_made(number, chances, (*first, last), mus, gamma) for last in rows]
+        fitting = [state for state in made if state and state.leaves(number) == leaves]
+        if not fitting:
+            return []
+        drawn.append(rng.choice(fitting))
+    return drawn
 
 
-def _suits(level: int, chain: Chain) -> bool:
-    """Two states: one equation is solved without the other at level 1, and neither is at level 2."""
-    coupled = all(chain[one][other] for one in chain for other in chain if one != other)
-    return level == 3 or len(chain) > 2 or coupled == (level == 2)
+def _made(
+    number: int, chances: Row, outcomes: tuple[Row, ...], mus: Sequence[Row], gamma: tuple[int, int]
+) -> _State | None:
+    """A state with the features that these expectations ask for; None if they are not small, or actions all alike."""
+    above, whole = gamma[0], gamma[1] * 48
+    features, differ = [], False
+    for mu in mus:
+        later = [sum(map(mul, row, mu)) for row in outcomes]
+        feature, rest = divmod(mu[number] * whole - above * sum(map(mul, chances, later)), whole)
+        if rest or not 0 < feature <= 9 or not any(later):
+            return None
+        features.append(feature)
+        differ = differ or len(set(later)) == len(later)
+    return _State(chances, outcomes, tuple(features)) if differ else None
 
 
-def _alike(rows: Sequence[Mapping[str, int]], found: Sequence[Found]) -> bool:
-    """Whether it makes no difference which of some actions is taken."""
-    worth = [[sum(chance * mu.get(state, 0) for state, chance in row.items()) for mu, _ in found] for row in rows]
-    return worth[0] == worth[1]
-
-
-def _expected(rng: Draws, later: Sequence[Sequence[int]], below: int, size: int) -> list[Found] | None:
-    """Different whole feature expectations whose features are small whole numbers; None where some tries find none."""
-    found: dict[tuple[int, ...], list[int]] = {}
-    for _ in range(20):
-        mu = rng.integers(len(later), 2, 16)
-        phi = _features(mu, later, below)
-        if len(phi) == len(mu) and len(set(phi)) > 1:
-            found[mu] = phi
-        if len(found) == size:
-            return [(dict(zip(_STATES, mu, strict=False)), dict(zip(_STATES, phi, strict=False)))
-                    for mu, phi in found.items()]  # fmt: skip
-    return None
-
-
-def _features(mu: Sequence[int], later: Sequence[Sequence[int]], below: int) -> list[int]:
-    """The features behind feature expectations, as far as they are small whole numbers."""
-    phi = []
-    for own, row in zip(mu, later, strict=True):
-        value, rest = divmod(own * below - sum(map(mul, row, mu)), below)
-        if rest or not 0 < value <= 9:
-            break
-        phi.append(value)
-    return phi
+def _suit(states: Sequence[_State]) -> bool:
+    """Whether episodes can end, states differ in every feature, and no feature is a multiple of another."""
+    features = list(zip(*[state.features for state in states], strict=True))
+    ends = any(row[-1] for state in states for row in state.outcomes)
+    return ends and all(len(set(column)) > 1 for column in features) and apart(features)
 
 
 def question(given: Given) -> Question:

@@ -1,19 +1,20 @@
 """Marks in a process of its own: whatever happens there, a crash, an endless search, costs one task only."""
 
-import multiprocessing
 import pickle
 import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from multiprocessing.connection import Connection
 from pathlib import Path
 from time import perf_counter
-from typing import Any, NoReturn, Protocol
+from typing import TYPE_CHECKING, Any, NoReturn, Protocol
 
 from rldrill.grading.marking import Desk, Marked, Rules, Task
 from rldrill.grading.report import Judged
 from rldrill.problems.errors import FileError, UserError
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 #: How long a problem may take to be solved, and the memory that there is for marking.
 LOADING = 60.0
@@ -106,9 +107,11 @@ class Apart:
             self._hopeless[task.ref] = says
         raise FileError(says)
 
-    def _open(self) -> Connection:
+    def _open(self) -> "Connection":
         if self._connection is None:
-            context: Any = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+            from multiprocessing import get_context
+
+            context: Any = get_context("fork" if sys.platform == "linux" else "spawn")
             self._connection, other = context.Pipe()
             self._process = context.Process(target=_work, args=(other, *self._arguments), daemon=True)
             self._process.start()
@@ -137,7 +140,7 @@ def marker(manifest: Path | None, rules: Rules, *, isolated: bool) -> Iterator[M
         apart.close()
 
 
-def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
+def _work(connection: "Connection", manifest: Path | None, rules: Rules) -> None:
     """The other process: for every task None once its problem is solved, then the marks, or a sentence."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who asked ends this process
     _bound_memory()

@@ -3,7 +3,6 @@
 from rldrill.problems.document import Beside, Block, Equation, Heading, Paragraph, Table
 from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.unicode import inline, unicode
-from rldrill.render.pictures.text import lines
 
 
 def unicode_text(block: Block) -> str:
@@ -20,6 +19,8 @@ def unicode_text(block: Block) -> str:
         case Beside(blocks):
             return "\n".join(map(unicode_text, blocks))
         case Picture():
+            from rldrill.render.pictures.text import lines
+
             return "\n".join(lines(block))
         case _:
             raise TypeError(f"{type(block).__name__} has no text")

@@ -2,73 +2,68 @@
 
 import keyword
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from math import factorial
 from typing import Any
 
 import sympy
 from flint import fmpq
 from sympy import Expr
-from sympy.printing.precedence import PRECEDENCE
-from sympy.printing.str import StrPrinter
 
 from rldrill.solutions.exact import ONE, NoSolution, NotGiven, Value, equal, largest, monomial, simplest
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.limits import rooted
 from rldrill.solutions.matrices import is_matrix
 
+#: So many expressions are kept: a problem of its own dynamics brings its own.
+_REMEMBERED = 4096
 
-class Compiler(StrPrinter):
-    """Prints a formula as Python; nodes print themselves, and name the functions that they call."""
 
-    printmethod = "_compiled"
+@lru_cache(maxsize=_REMEMBERED)
+def python(expression: Expr) -> str:
+    """An expression as Python; nodes write themselves.
 
-    def __init__(self) -> None:
-        super().__init__({"order": "none"})
-        self.names: dict[str, Any] = {}
-
-    def __call__(self, expression: Expr) -> str:
-        """An expression as Python."""
-        return self._print(expression)
-
-    def call(self, node: Node, *arguments: str) -> str:
-        """A call of a node's own function."""
-        name = type(node).__name__
-        self.names[name] = node.value
-        return f"{name}({', '.join(arguments)})"
-
-    def _print_Symbol(self, expression: Any) -> str:
+    It is kept: most parts of a formula are those of its misreadings, and of all that somebody may have made of it.
+    """
+    if isinstance(expression, Node):
+        return expression._compiled(python)
+    if expression.is_Symbol:
         return _checked(str(expression.name))
-
-    def _print_Rational(self, expression: Any) -> str:
+    if expression.is_Integer:
+        return str(expression)
+    if expression.is_Rational:
         return f"Rational({expression.p}, {expression.q})"
+    if expression.is_Add:
+        return " + ".join([_bracketed(term) if term.is_Add else python(term) for term in expression.args])
+    if expression.is_Mul:
+        return _product(expression.args)
+    if expression.is_Pow:
+        return _power(*expression.args)
+    function = "pi" if expression is sympy.pi else expression.func.__name__
+    if function not in _NAMES:
+        raise TypeError(f"{function!r} is not a function that is computed with")
+    return f"{function}({', '.join(map(python, expression.args))})" if expression.args else function
 
-    def _print_Add(self, expression: Any, order: Any = None) -> str:  # noqa: ARG002
-        return " + ".join(self.parenthesize(term, PRECEDENCE["Add"]) for term in expression.args)
 
-    def _print_Mul(self, expression: Any) -> str:
-        first, *others = expression.args
-        minus = first == -1 and len(others) > 0
-        factors = others if minus else expression.args
-        written = "*".join(self.parenthesize(factor, PRECEDENCE["Mul"], strict=True) for factor in factors)
-        return f"-{written}" if minus else written
+def _bracketed(expression: Expr) -> str:
+    return f"({python(expression)})"
 
-    def _print_Pow(self, expression: Any, rational: bool = False) -> str:  # noqa: ARG002
-        base, exponent = expression.args
-        if exponent == -1:
-            return f"inverse({self(base)})"
-        if exponent.is_Rational and exponent.q == 2:
-            root = f"root({self(base)})**{abs(exponent.p)}"
-            return f"inverse({root})" if exponent.is_negative else f"({root})"
-        if exponent.is_Integer and exponent.is_negative:
-            return f"inverse(({self(base)})**{-exponent})"
-        return f"(({self(base)})**({self(exponent)}))"
 
-    def _print_Function(self, expression: Any) -> str:
-        function = expression.func.__name__
-        if function not in _NAMES:
-            raise TypeError(f"{function!r} is not a function that is computed with")
-        return f"{function}({', '.join(map(self, expression.args))})"
+def _product(factors: Sequence[Expr]) -> str:
+    minus = factors[0] is sympy.S.NegativeOne and len(factors) > 1
+    written = [_bracketed(each) if each.is_Add or each.is_Mul else python(each) for each in factors[minus:]]
+    return f"{'-' if minus else ''}{'*'.join(written)}"
+
+
+def _power(base: Expr, exponent: Expr) -> str:
+    if exponent is sympy.S.NegativeOne:
+        return f"inverse({python(base)})"
+    if exponent.is_Rational and exponent.q == 2:
+        root = f"root({python(base)})**{abs(exponent.p)}"
+        return f"inverse({root})" if exponent.is_negative else f"({root})"
+    if exponent.is_Integer and exponent.is_negative:
+        return f"inverse(({python(base)})**{-exponent})"
+    return f"(({python(base)})**({python(exponent)}))"
 
 
 def _checked(name: str) -> str:
@@ -142,29 +137,42 @@ _NAMES = {
 }
 
 
-@cache
 def needs(expression: Expr) -> tuple[str, ...]:
     """The names that values must be given for, sorted."""
-    codes = {node.code for node in sympy.preorder_traversal(expression) if isinstance(node, Node) and node.code}
-    return tuple(sorted(codes | {symbol.name for symbol in expression.free_symbols}))
+    return tuple(sorted(_needs(expression)))
 
 
-@cache
+@lru_cache(maxsize=_REMEMBERED)
+def _needs(expression: Expr) -> frozenset[str]:
+    if expression.is_Symbol:
+        return frozenset((expression.name,))
+    if isinstance(expression, Node):
+        return expression._needs(_needs)
+    return frozenset().union(*map(_needs, expression.args))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _nodes(expression: Expr) -> frozenset[type[Node]]:
+    """What kinds of nodes there are in it."""
+    own = (type(expression),) if isinstance(expression, Node) else ()
+    return frozenset(own).union(*map(_nodes, expression.args))
+
+
+@lru_cache(maxsize=_REMEMBERED)
 def compiled(expression: Expr) -> Callable[[Mapping[str, Any]], Any]:
     """The expression as a Python function of what is known.
 
-    What is compiled is printed from a tree of our own node types. Of what a person types, only the letters of dynamics
+    What is compiled is written from a tree of our own node types. Of what a person types, only the letters of dynamics
     get here: they are names by ``problems.expressions.letter``, have a prefix of their own, are checked once more where
-    they are printed, and are looked up in what is known. Typed answers and the names of states never do.
+    they are written, and are looked up in what is known. Typed answers and the names of states never do.
     """
-    compiler = Compiler()
     names = "".join([f"{_checked(name)} := known['{name}'], " for name in needs(expression)])
-    source = f"lambda known: ({names}{compiler.doprint(expression)},)[-1]"
-    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | compiler.names)
+    source = f"lambda known: ({names}{python(expression)},)[-1]"
+    called = {kind.__name__: kind.value for kind in _nodes(expression) if hasattr(kind, "value")}
+    return eval(compile(source, f"<{expression.func.__name__}>", "eval"), _NAMES | called)
 
 
 #: The functions of expressions by their identity: to look for an expression itself takes as long as many a formula.
-_REMEMBERED = 4096
 _FUNCTIONS: dict[int, tuple[Expr, Callable[[Mapping[str, Any]], Any]]] = {}
 
 
@@ -178,7 +186,7 @@ def value_of(expression: Expr, known: Mapping[str, Any]) -> Any:
     try:
         found = _FUNCTIONS.get(id(expression))
         if found is None:
-            if len(_FUNCTIONS) == _REMEMBERED:  # a problem of its own dynamics brings its own expressions
+            if len(_FUNCTIONS) == _REMEMBERED:
                 _FUNCTIONS.clear()
             found = _FUNCTIONS[id(expression)] = expression, compiled(expression)
         return found[1](known)

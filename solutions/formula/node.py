@@ -9,10 +9,11 @@ from sympy import Expr
 from rldrill.problems.mathematics import Math
 
 if TYPE_CHECKING:
-    from rldrill.solutions.formula.compiling import Compiler
     from rldrill.solutions.formula.putting_in import PutIn
 
 Typeset: TypeAlias = Callable[[Expr], Math]
+Python: TypeAlias = Callable[[Expr], str]
+Needs: TypeAlias = Callable[[Expr], frozenset[str]]
 
 
 class Look(Enum):
@@ -71,8 +72,19 @@ class Node(Expr):
         """How it is written between commas or brackets of something else."""
         return typeset(self)
 
-    def _compiled(self, compiler: "Compiler") -> str:
-        return compiler.call(self, *map(compiler, self.args))
+    def _compiled(self, python: Python) -> str:
+        return self._called(*map(python, self.args))
+
+    def _called(self, *arguments: str) -> str:
+        """A call of what computes it."""
+        if not hasattr(self, "value"):
+            raise TypeError(f"{type(self).__name__} has no value")
+        return f"{type(self).__name__}({', '.join(arguments)})"
+
+    def _needs(self, needs: Needs) -> frozenset[str]:
+        """The names that values must be given for."""
+        own = (self.code,) if self.code else ()
+        return frozenset(own).union(*map(needs, self.args))
 
     def _put_in(self, put_in: "PutIn") -> Expr:
         return self.func(*map(put_in, self.args))

@@ -21,9 +21,8 @@ from rldrill.problems.mathematics import (
     row,
     variable,
 )
-from rldrill.solutions.formula.compiling import Compiler
 from rldrill.solutions.formula.letters import letter as letter
-from rldrill.solutions.formula.node import Look, Node, Typeset
+from rldrill.solutions.formula.node import Look, Node, Python, Typeset
 from rldrill.solutions.formula.nodes.choices import Clipped as Clipped
 from rldrill.solutions.formula.nodes.choices import Greatest as Greatest
 from rldrill.solutions.formula.nodes.choices import Least as Least
@@ -59,8 +58,8 @@ class Quantity(Node, sympy.Function):
     def _typeset(self, typeset: Typeset) -> Math:
         return self.layout(*map(typeset, self.args))
 
-    def _compiled(self, compiler: Compiler) -> str:
-        return f"{self.code}[{', '.join(map(compiler, self.args))}]"
+    def _compiled(self, python: Python) -> str:
+        return f"{self.code}[{', '.join(map(python, self.args))}]"
 
     def _put_in(self, put_in: PutIn) -> Expr:
         if self.code in put_in.known:

@@ -47,10 +47,8 @@ class _Typesetter(Printer):
     printmethod = "_typeset"
 
     def __call__(self, expression: Expr) -> Math:
-        """An expression as mathematics; the same letters and numbers stand in it again and again."""
-        if isinstance(expression, Node):
-            return expression._typeset(self)
-        return self._print(expression) if expression.args else _atom(expression)
+        """An expression as mathematics; the same parts stand in the steps of a working again and again."""
+        return _written(expression)
 
     def _print_Symbol(self, expression: Any) -> Math:
         return GLYPHS.get(expression) or variable(PARAMETERS.get(expression.name, expression.name))
@@ -123,8 +121,8 @@ _TYPESETTER = _Typesetter()
 
 
 @lru_cache(maxsize=4096, typed=True)
-def _atom(expression: Expr) -> Math:
-    return _TYPESETTER._print(expression)
+def _written(expression: Expr) -> Math:
+    return expression._typeset(_TYPESETTER) if isinstance(expression, Node) else _TYPESETTER._print(expression)
 
 
 def typeset(expression: Expr) -> Math:

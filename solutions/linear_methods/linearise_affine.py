@@ -12,6 +12,7 @@ from rldrill.solutions.linearisation import (
     linearised,
     moved_point,
     rates,
+    rightly,
     slips,
 )
 from rldrill.solutions.matrices import AnyMatrix
@@ -46,7 +47,7 @@ def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatri
 )
 def rates_for_c(given: Given, work: Work) -> None:
     """The rates in the place of C."""
-    A, B = linearised(given, work)
+    A, B = rightly(given)
     _augmented(given, work, A, B, rates(work, given))
 
 

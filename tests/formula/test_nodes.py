@@ -85,12 +85,14 @@ def test_a_new_node_is_one_class() -> None:
     assert seconds_of(work.lines) == 8 + (1 + 3 + 1 + 1) * 3 + 6 * Fraction(3, 2)
 
 
-def test_a_node_that_does_not_say_how_it_is_written_is_refused() -> None:
+def test_a_node_that_does_not_say_how_it_is_written_or_computed_is_refused() -> None:
     class Unwritten(Node):
         pass
 
     with pytest.raises(TypeError, match="Unwritten has no typesetting"):
         typeset(Unwritten(x))
+    with pytest.raises(TypeError, match="Unwritten has no value"):
+        value_of(Unwritten(x), {"x": 1})
 
 
 def test_a_compiled_formula_calls_what_its_nodes_name_and_nothing_else() -> None:

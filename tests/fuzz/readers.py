@@ -18,11 +18,11 @@ with atheris.instrument_imports(include=["rldrill", "problems", "solutions", "to
     from rldrill.exam.manifest import printed
     from rldrill.exam.roster import read_roster
     from rldrill.exercise import load
-    from rldrill.files import read_data
+    from rldrill.files import MODEL_SUFFIXES, read_data
     from rldrill.grading.answers_file import read_answers
     from rldrill.grading.assignment import Assignment
     from rldrill.grading.verification import Settings, verify
-    from rldrill.model_file import MODEL_SUFFIXES, read_model
+    from rldrill.model_file import read_model
     from rldrill.problems.errors import UserError
 
 CORPUS = Path(__file__).parent / "corpus"

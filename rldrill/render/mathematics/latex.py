@@ -1,5 +1,7 @@
 """Mathematics as LaTeX, for Markdown, notebooks and flash cards."""
 
+from functools import lru_cache
+
 from rldrill.problems.mathematics import (
     Accent,
     Big,
@@ -94,6 +96,7 @@ def _fence(sign: str) -> str:
     return {"": ".", "|": "|"}.get(sign) or _COMMANDS.get(sign, sign)
 
 
+@lru_cache(maxsize=1024)  # the same letters stand everywhere
 def _glyph(text: str, style: str) -> str:
     stem = text.rstrip("′")
     primes = "'" * (len(text) - len(stem))

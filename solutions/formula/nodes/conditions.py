@@ -6,8 +6,7 @@ import sympy
 from sympy import Expr
 
 from rldrill.problems.mathematics import Fence, Glyph, Math, Tabular, listed, relation, row, word
-from rldrill.solutions.formula.compiling import Compiler
-from rldrill.solutions.formula.node import Node, Typeset
+from rldrill.solutions.formula.node import Node, Python, Typeset
 from rldrill.solutions.formula.nodes.leaves import Slot
 from rldrill.solutions.formula.putting_in import PutIn
 
@@ -62,8 +61,8 @@ class Cases(Node):
         holds = row(word("if"), Condition._typeset(condition, typeset))
         return Tabular(((typeset(then), holds), (typeset(otherwise), word("otherwise"))), "{", "")
 
-    def _compiled(self, compiler: Compiler) -> str:
-        condition, then, otherwise = map(compiler, self.args)
+    def _compiled(self, python: Python) -> str:
+        condition, then, otherwise = map(python, self.args)
         return f"(({then}) if {condition} else ({otherwise}))"  # only what holds has to have a value
 
     def _put_in(self, put_in: PutIn) -> Expr:

@@ -9,8 +9,8 @@ from sympy import Expr, Integer
 
 from rldrill.problems.mathematics import Big, Fence, Math, Script, listed, operator, relation, row, variable, word
 from rldrill.solutions.exact import ONE, ZERO, NotGiven, is_rational, largest, to_sympy
-from rldrill.solutions.formula.compiling import Compiler, arg_max
-from rldrill.solutions.formula.node import Look, Node, Typeset
+from rldrill.solutions.formula.compiling import arg_max
+from rldrill.solutions.formula.node import Look, Needs, Node, Python, Typeset
 from rldrill.solutions.formula.nodes.choices import Greatest
 from rldrill.solutions.formula.nodes.leaves import PutInName, computed
 from rldrill.solutions.formula.putting_in import PutIn, power_of, product_of, reduced, sum_of
@@ -32,8 +32,11 @@ class Counting(Node):
         """The upper limit as printed is not computed with."""
         return self.args[0].free_symbols | self.args[1].free_symbols
 
-    def _compiled(self, compiler: Compiler) -> str:
-        return compiler.call(self, *map(compiler, self.args[:2]))
+    def _compiled(self, python: Python) -> str:
+        return self._called(*map(python, self.args[:2]))
+
+    def _needs(self, needs: Needs) -> frozenset[str]:
+        return needs(self.args[0]) | needs(self.args[1])
 
 
 class Size(Node):
@@ -99,11 +102,14 @@ class Over(Node):
     def _written_body(self, typeset: Typeset) -> Math:
         return Fence(typeset(self.body)) if self.body.is_Add else typeset(self.body)
 
-    def _compiled(self, compiler: Compiler) -> str:
-        return compiler.call(self, self._values(compiler))
+    def _compiled(self, python: Python) -> str:
+        return self._called(self._values(python))
 
-    def _values(self, compiler: Compiler) -> str:
-        return f"[{compiler(self.body)} for {compiler(self.index)} in {compiler(self.domain)}]"
+    def _needs(self, needs: Needs) -> frozenset[str]:
+        return (needs(self.body) - {self.index.name}) | needs(self.domain)
+
+    def _values(self, python: Python) -> str:
+        return f"[{python(self.body)} for {python(self.index)} in {python(self.domain)}]"
 
     def _put_in(self, put_in: PutIn) -> Expr:
         return self.written_out(self._terms(put_in))
@@ -208,8 +214,8 @@ class ArgMaxOver(Over):
             return row(Big(self.sign, typeset(self.index)), self.body.braces())
         return super()._typeset(typeset)
 
-    def _compiled(self, compiler: Compiler) -> str:
-        return compiler.call(self, compiler(self.domain), self._values(compiler))
+    def _compiled(self, python: Python) -> str:
+        return self._called(python(self.domain), self._values(python))
 
     def _put_in(self, put_in: PutIn) -> Expr:
         return ArgMaxOver(MaxOf(*self._terms(put_in)), self.index, self.domain)
