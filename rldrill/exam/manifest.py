@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -24,6 +24,8 @@ from rldrill.solutions.effort import minutes_of as part_minutes
 #: The version of the manifest's form.
 FORMAT = 2
 _FORMATS = (1, FORMAT)
+#: As many bytes as the largest exam has: a problem takes a thousand or two.
+LARGEST = 250 * 10**6
 
 
 def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
@@ -89,9 +91,12 @@ def _problem(number: int, slot: int, exercise: Exercise, rules: Mapping[str, str
 def is_manifest(path: Path) -> bool:
     """Whether a file is the manifest of an exam."""
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        return _is_exam(read_data(path, LARGEST))
+    except FileError:
         return False
+
+
+def _is_exam(data: object) -> TypeGuard[dict[str, Any]]:
     return isinstance(data, dict) and "rldrill" in data and "versions" in data
 
 
@@ -227,8 +232,8 @@ def typst_of(path: str | Path) -> str | None:
 
 
 def _checked(path: str | Path) -> _Manifest:
-    data, where = read_data(path), shown(path)
-    if not isinstance(data, dict) or "rldrill" not in data or "versions" not in data:
+    data, where = read_data(path, LARGEST), shown(path)
+    if not _is_exam(data):
         raise FileError(
             f"{where}: this is no manifest of an exam; name the .json file that was written beside the PDFs."
         )

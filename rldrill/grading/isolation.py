@@ -65,13 +65,13 @@ class Apart:
         """
         if said := self._hopeless.get(task.ref):
             raise FileError(said)
-        connection = self._open()
-        connection.send(task)
+        fresh = self._connection is None
         problem, stage = f"solving {task.name}", "loading"
         # Everybody has the problems of an exam; what else somebody names is solved in their own time.
         most = LOADING if isinstance(task.ref, tuple) else min(LOADING, seconds)
         begun = perf_counter()
         try:
+            self._open().send(task)
             said = self._received(most)
             self.loading += perf_counter() - begun
             if said is None:
@@ -80,6 +80,9 @@ class Apart:
         except TimeoutError as error:
             self._give_up(task, f"{problem} took more than {error} seconds", stage == "loading" and most == LOADING)
         except (EOFError, OSError):
+            if not fresh:  # what broke it down may have come before, once that was marked
+                self.close()
+                return self.mark(task, seconds)
             self._give_up(task, f"{problem} broke the interpreter down", stage == "loading")
         if isinstance(said, str):
             raise FileError(said)

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
-from rldrill.grading.assignment import Assignment, Sitting, folded
+from rldrill.grading.assignment import Assignment, Sitting
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
 from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id, split_id
+from rldrill.spreadsheet import folded
 
 if TYPE_CHECKING:
     from rldrill.exam.manifest import Printed

@@ -58,6 +58,20 @@ def test_a_crash_of_the_interpreter_is_that_students_alone(tmp_path: Path, monke
     assert "line 3: grading what was answered to td-zero/1/7@3 broke the interpreter down" in says
 
 
+def test_what_breaks_the_process_down_afterwards_costs_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    marked = isolation.Apart.mark
+
+    def killed(self: isolation.Apart, *task: Any) -> Any:
+        try:
+            return marked(self, *task)
+        finally:
+            self._process.kill()
+            self._process.join()
+
+    monkeypatch.setattr(isolation.Apart, "mark", killed)
+    assert graded(tmp_path, RIGHT, RIGHT, RIGHT) == ({"A": 1, "B": 1, "C": 1}, [])
+
+
 def test_an_endless_search_ends_with_that_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     hostile(monkeypatch, lambda: time.sleep(60))
     begun = time.perf_counter()
