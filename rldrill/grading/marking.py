@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rldrill.diagnosis import IN_A_FILE, Diagnosis
+from rldrill.diagnosis import Diagnosis
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 Ref: TypeAlias = str | tuple[str, int]
 #: The label of a part, what was typed, and the earlier answers that it may go on from.
 _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
-#: So many seconds are spent in all on what can be done wrongly in one problem; what is found by then is looked up.
-_SEARCH = 4.0
+#: So many seconds of the processor are spent in all on what can be done wrongly in one problem, and in a whole run;
+#: what is found by then is looked up. In four times as long hardly more of what students do is found.
+SEARCH, ALL_SEARCHES = 1.0, 300.0
 #: So many judgements are kept.
 _KEPT = 50_000
 #: Entries that are the same in so many other draws are the same in every draw.
@@ -94,6 +95,7 @@ class Desk:
         self._manifest, self._rules = manifest, rules
         self._problems: dict[Ref, _Problem] = {}
         self._versions: dict[str, Version] = {}
+        self._searches = _Time(ALL_SEARCHES)
 
     def problem(self, ref: Ref) -> "_Problem":
         """A problem, solved.
@@ -111,7 +113,7 @@ class Desk:
                     self._versions[code] = self._makes[code]()
                 exercise = self._versions[code].exercises[number]
                 rules = self._versions[code].partial[number]
-            self._problems[ref] = _Problem(exercise, self._rules, rules)
+            self._problems[ref] = _Problem(exercise, self._rules, rules, self._searches)
         return self._problems[ref]
 
     @cached_property
@@ -160,15 +162,25 @@ def refusal(entry: Entry, says: str, problem: str) -> Refusal:
     return Refusal(shown(entry.path), entry.line, entry.student, f"{entry.where}: {says}", problem=problem)
 
 
+@dataclass(slots=True)
+class _Time:
+    """Seconds that are left."""
+
+    left: float
+
+    def spend(self, seconds: float) -> None:
+        self.left = max(0.0, self.left - seconds)
+
+
 class _Problem:
     """A problem and the answers to it that were judged."""
 
-    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str]) -> None:
+    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str], searches: _Time) -> None:
         self.exercise, self._rules, self._partial = exercise, rules, partial
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
-        self._seconds = _SEARCH
+        self._times = (_Time(SEARCH), searches)
         self._same: dict[str, frozenset[str]] = {}
 
     def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
@@ -234,9 +246,11 @@ class _Problem:
 
     def _diagnosed(self, label: str, text: str, verdict: Verdict, wrong: Mapping[str, Verdict]) -> Diagnosis:
         """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""
-        begun = perf_counter()
-        found = self.exercise.diagnosed(label, text, verdict, wrong, min(IN_A_FILE, self._seconds))
-        self._seconds = max(0.0, self._seconds - (perf_counter() - begun))
+        begun = process_time()
+        left = min(time.left for time in self._times)
+        found = self.exercise.diagnosed(label, text, verdict, wrong, left)
+        for time in self._times:
+            time.spend(process_time() - begun)
         return found if self._rules.keys else found.without_lines()
 
     def _credit(self, part: Part, verdict: Verdict) -> Fraction:

@@ -182,4 +182,5 @@ def test_the_bounds_are_those_that_are_told() -> None:
     assert f"| solving one problem | {isolation.LOADING:g} s;" in told
     assert f"| grading one student | `--seconds`, {verification.STUDENT:g};" in told
     assert (verification.RUN, "| the whole run | one hour;" in told) == (3600, True)
+    assert f"come from | {marking.SEARCH:g} s a problem, {marking.ALL_SEARCHES:g} s in all;" in told
     assert f"| memory of marking | {isolation.MEMORY // 2**30} GB," in told
