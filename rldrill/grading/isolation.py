@@ -18,6 +18,8 @@ from rldrill.problems.errors import FileError, UserError
 #: How long a problem may take to be solved, and the memory that there is for marking.
 LOADING = 60.0
 MEMORY = 4 * 2**30
+#: So many judgements are kept as they are sent.
+_BLOBS = 10_000
 
 
 class Marker(Protocol):
@@ -148,6 +150,8 @@ def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
     blobs: dict[int, tuple[Judged, bytes]] = {}
 
     def blob(judged: Judged) -> bytes:
+        if len(blobs) > _BLOBS:
+            blobs.clear()
         if id(judged) not in blobs:
             blobs[id(judged)] = (judged, pickle.dumps(judged))  # with the object, so that its id stays its own
         return blobs[id(judged)][1]

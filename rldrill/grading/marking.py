@@ -13,7 +13,7 @@ from rldrill.diagnosis import Diagnosis
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
-from rldrill.grading.report import MISSING, Judged, Score
+from rldrill.grading.report import Judged, Score, missing
 from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
@@ -30,6 +30,8 @@ _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
 SEARCH, ALL_SEARCHES = 1.0, 300.0
 #: So many judgements are kept.
 _KEPT = 50_000
+#: So many problems that somebody names are kept, solved.
+_PROBLEMS = 200
 #: Entries that are the same in so many other draws are the same in every draw.
 _OTHER_DRAWS = 4
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
@@ -104,6 +106,7 @@ class Desk:
             UserError: it does not exist or is broken.
         """
         if ref not in self._problems:
+            self._make_room(ref)
             rules: Mapping[str, str] = {}
             if isinstance(ref, str):
                 exercise = load(ref)
@@ -115,6 +118,12 @@ class Desk:
                 rules = self._versions[code].partial[number]
             self._problems[ref] = _Problem(exercise, self._rules, rules, self._searches)
         return self._problems[ref]
+
+    def _make_room(self, ref: Ref) -> None:
+        """Whose versions are marked one after the other, the last one's problems are not needed any more."""
+        if len(self._problems) >= _PROBLEMS or (isinstance(ref, tuple) and ref[0] not in self._versions):
+            self._problems.clear()
+            self._versions.clear()
 
     @cached_property
     def _makes(self) -> Mapping[str, "Callable[[], Version]"]:
@@ -290,7 +299,10 @@ class _Problem:
         return self._keys[part.label]
 
     def _missing(self, part: Part) -> Judged:
-        return self._nothing(part, MISSING, "Not answered.")
+        key = (part.label, "", ())
+        if key not in self._judged:
+            self._judged[key] = missing(part.points, self._key(part))
+        return self._judged[key]
 
     def _date(self, part: Part, text: str) -> Judged:
         says = (

@@ -66,6 +66,11 @@ class Judged:
     mistake: str = ""
 
 
+def missing(of: int, key: str = "") -> Judged:
+    """What is said of a part of so many points that was not answered."""
+    return Judged("", MISSING, False, "Not answered.", Score(Fraction(0), of), key)
+
+
 @dataclass(frozen=True, slots=True)
 class MarkedPart:
     """The judgement of one part of one problem.

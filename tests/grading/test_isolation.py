@@ -177,6 +177,28 @@ def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert "the run took more than 1 seconds; grade the rest in another one" in report.refused[0].says
 
 
+def test_only_the_problems_of_one_version_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    exam = plan(Blueprint(problems=(Asked(family="return", level=1, count=2),), versions=3, seed=5))
+    path = tmp_path / "exam.json"
+    path.write_bytes(written(manifest(exam)))
+    (tmp_path / "roster.csv").write_text("student,version\nA,C\nB,A\nC,C\nD,B\n")
+    answers = tmp_path / "a.csv"
+    answers.write_text(HEAD + "".join(f"{student},1,a,1\n" for student in "ABCD"))
+    loaded: list[tuple[str, int]] = []
+    make_room = Desk._make_room
+
+    def counted(desk: Desk, ref: tuple[str, int]) -> None:
+        loaded.append(ref)
+        make_room(desk, ref)
+        assert len(desk._problems) < 2
+        assert len(desk._versions) <= 1
+
+    monkeypatch.setattr(Desk, "_make_room", counted)
+    report = verify([answers], Settings(assignment=Assignment(path, roster=tmp_path / "roster.csv")))
+    assert [student.student for student in report.students] == ["A", "B", "C", "D"]
+    assert loaded == [("A", 0), ("B", 0), ("C", 0)]  # each version once, and nothing that nobody answered
+
+
 def test_the_bounds_are_those_that_are_told() -> None:
     told = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
     assert f"| solving one problem | {isolation.LOADING:g} s;" in told
