@@ -1,7 +1,7 @@
 """The manifest of an exam: all that was printed, as JSON, from which it is graded and printed again years later."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -180,6 +180,21 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
 
+def read_problems(path: str | Path) -> Mapping[str, tuple[Callable[[], tuple[Exercise, Mapping[str, Partial]]], ...]]:
+    """For every version and each of its problems what makes it, with the rules of parts that have one of their own.
+
+    So a problem that cannot be made takes no other with it.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest; a problem that cannot be made is told with its place.
+    """
+    data, where = _checked(path), shown(path)
+    return {
+        version.code: tuple(partial(_ruled, problem, here) for problem, here in _placed(version, where))
+        for version in data.versions
+    }
+
+
 def codes(path: str | Path) -> tuple[str, ...]:
     """The codes of a manifest's versions; nothing is solved for it.
 
@@ -259,16 +274,21 @@ def _checked(path: str | Path) -> _Manifest:
 
 
 def _made(version: _Version, where: str) -> Version:
-    exercises = tuple(
-        _exercise(problem, f"{where}, version {version.code}, problem {number}")
-        for number, problem in enumerate(version.problems, 1)
-    )
-    slots = _slots(version)
+    made = [_ruled(problem, here) for problem, here in _placed(version, where)]
     person = None if version.person is None else Person(version.person.name, version.person.number)
-    rules = tuple(
-        {part.part: part.partial for part in problem.parts if part.partial is not None} for problem in version.problems
-    )
-    return Version(version.code, exercises, slots, person, rules)
+    exercises, rules = zip(*made, strict=True)
+    return Version(version.code, exercises, _slots(version), person, rules)
+
+
+def _placed(version: _Version, where: str) -> Iterator[tuple[_Problem, str]]:
+    """The problems of a version, each with how complaints call its place."""
+    for number, problem in enumerate(version.problems, 1):
+        yield problem, f"{where}, version {version.code}, problem {number}"
+
+
+def _ruled(problem: _Problem, where: str) -> tuple[Exercise, Mapping[str, Partial]]:
+    rules = {part.part: part.partial for part in problem.parts if part.partial is not None}
+    return _exercise(problem, where), rules
 
 
 def _slots(version: _Version) -> tuple[int, ...]:

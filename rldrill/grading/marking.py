@@ -19,7 +19,7 @@ from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, r
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 if TYPE_CHECKING:
-    from rldrill.exam.exam import Version
+    from rldrill.exam.choices import Partial
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
 Ref: TypeAlias = str | tuple[str, int]
@@ -96,7 +96,7 @@ class Desk:
     def __init__(self, manifest: Path | None, rules: Rules) -> None:
         self._manifest, self._rules = manifest, rules
         self._problems: dict[Ref, _Problem] = {}
-        self._versions: dict[str, Version] = {}
+        self._version = ""
         self._searches = _Time(ALL_SEARCHES)
 
     def problem(self, ref: Ref) -> "_Problem":
@@ -112,25 +112,23 @@ class Desk:
                 exercise = load(ref)
             else:
                 code, number = ref
-                if code not in self._versions:
-                    self._versions[code] = self._makes[code]()
-                exercise = self._versions[code].exercises[number]
-                rules = self._versions[code].partial[number]
+                exercise, rules = self._makes[code][number]()
             self._problems[ref] = _Problem(exercise, self._rules, rules, self._searches)
         return self._problems[ref]
 
     def _make_room(self, ref: Ref) -> None:
         """Whose versions are marked one after the other, the last one's problems are not needed any more."""
-        if len(self._problems) >= _PROBLEMS or (isinstance(ref, tuple) and ref[0] not in self._versions):
+        version = "" if isinstance(ref, str) else ref[0]
+        if version != self._version or len(self._problems) >= _PROBLEMS:
             self._problems.clear()
-            self._versions.clear()
+        self._version = version
 
     @cached_property
-    def _makes(self) -> Mapping[str, "Callable[[], Version]"]:
-        from rldrill.exam.manifest import codes, read_exam
+    def _makes(self) -> "Mapping[str, tuple[Callable[[], tuple[Exercise, Mapping[str, Partial]]], ...]]":
+        from rldrill.exam.manifest import read_problems
 
         assert self._manifest is not None, "a number in a version needs an exam"
-        return dict(zip(codes(self._manifest), read_exam(self._manifest)[1], strict=True))
+        return read_problems(self._manifest)
 
     def mark(self, task: Task) -> Marked:
         """Mark every part of a problem, answered or not.

@@ -15,7 +15,7 @@ from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
 from rldrill.grading import isolation, marking, verification
 from rldrill.grading.assignment import Assignment
-from rldrill.grading.marking import Desk
+from rldrill.grading.marking import Desk, Rules
 from rldrill.grading.report import Score
 from rldrill.grading.verification import Settings, verify
 from rldrill.solutions.answers.judging import Verdict, judge
@@ -171,7 +171,7 @@ def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     path.write_text(HEAD + "".join(f"{number},td-zero/1/7,a,{13}\n" for number in range(3)))
     monkeypatch.setattr(marking, "_KEPT", -1)  # nothing is remembered, so that every answer takes its time
     begun = time.perf_counter()
-    report = verify([path], Settings(isolated=True))
+    report = verify([path], Settings(isolated=True, rules=Rules(causes=False)))
     assert time.perf_counter() - begun < 4
     assert len(report.students) == 2
     assert "the run took more than 1 seconds; grade the rest in another one" in report.refused[0].says
@@ -191,12 +191,23 @@ def test_only_the_problems_of_one_version_are_kept(tmp_path: Path, monkeypatch: 
         loaded.append(ref)
         make_room(desk, ref)
         assert len(desk._problems) < 2
-        assert len(desk._versions) <= 1
 
     monkeypatch.setattr(Desk, "_make_room", counted)
     report = verify([answers], Settings(assignment=Assignment(path, roster=tmp_path / "roster.csv")))
     assert [student.student for student in report.students] == ["A", "B", "C", "D"]
     assert loaded == [("A", 0), ("B", 0), ("C", 0)]  # each version once, and nothing that nobody answered
+
+
+def test_a_problem_of_the_exam_that_cannot_be_made_takes_no_other_with_it(tmp_path: Path) -> None:
+    data = manifest(plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(family="return", level=1)), seed=5)))
+    data["versions"][0]["problems"][1]["problem"]["family"] = "of-another-package"
+    path, answers = tmp_path / "exam.json", tmp_path / "a.csv"
+    path.write_bytes(written(data))
+    answers.write_text(f"{HEAD}A,1,a,{RIGHT}\nA,2,a,1\n")
+    report = verify([answers], Settings(assignment=Assignment(path), isolated=True))
+    assert [part.judged.verdict for part in report.parts][:2] == ["right", "not graded"]
+    (refused,) = report.refused
+    assert "version A, problem 2: There is no family 'of-another-package'" in refused.says
 
 
 def test_the_bounds_are_those_that_are_told() -> None:

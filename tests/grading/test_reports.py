@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+from fractions import Fraction
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,7 +17,7 @@ from typer.testing import CliRunner
 
 from rldrill.cli import app
 from rldrill.grading.marking import Rules
-from rldrill.grading.report import FEEDBACK, Report
+from rldrill.grading.report import FEEDBACK, Report, Score
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables
 from rldrill.grading.reports import text as text_report
 from rldrill.grading.verification import Settings, verify
@@ -123,6 +124,17 @@ def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: 
     table = github.summary(report, "reason")
     assert "<script" not in table
     assert table.count("\n| ") == 1 + len(report.students) + 1 + len(report.parts)
+
+
+def test_a_share_that_is_not_enough_is_never_shown_as_if_it_were() -> None:
+    shares = {
+        Fraction(1, 3): "33.3",
+        Fraction(5997, 10000): "59.97",
+        Fraction(1): "100",
+        Fraction(999999, 10**6): "99.9999",
+    }
+    assert {share: Score(60 * share, 60).percent() for share in shares} == shares
+    assert Score(Fraction(0), 0).percent() == "0"
 
 
 def test_no_cell_of_a_table_is_a_formula(report: Report) -> None:
