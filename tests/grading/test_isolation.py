@@ -165,9 +165,11 @@ def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeyp
 
 
 def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(f"{HEAD}A,td-zero/1/7,a,{RIGHT}\n")
+    assert verify([path]).exit_code == 0  # what is imported for it is there now
     monkeypatch.setattr("rldrill.grading.verification.RUN", 1.3)
     hostile(monkeypatch, lambda: time.sleep(0.7))
-    path = tmp_path / "a.csv"
     path.write_text(HEAD + "".join(f"{number},td-zero/1/7,a,{13}\n" for number in range(3)))
     monkeypatch.setattr(marking, "_KEPT", -1)  # nothing is remembered, so that every answer takes its time
     begun = time.perf_counter()
