@@ -57,10 +57,12 @@ def _part(exercise: Exercise, part: Part, answers: Sequence[str]) -> Iterator[st
 def json_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> str:
     """All versions as JSON; for practice with answers, steps and wrong answers."""
     versions = []
+    hidden = set() if practice or exam.layout.ids else {"id"}  # an ID is its key
     for version in exam.versions:
-        problems = [
+        told = (
             exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0) for exercise in version.exercises
-        ]
+        )
+        problems = [{name: value for name, value in data.items() if name not in hidden} for data in told]
         versions.append({"code": version.code, "problems": problems})
         advance()
     data = {"title": exam.head.title, "versions": versions}

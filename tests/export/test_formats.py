@@ -185,6 +185,7 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert b"<details>" not in written("markdown", tmp_path, practice=False)
     problems = json.loads(written("json", tmp_path, practice=False))["versions"][0]["problems"]
     assert not any("answer" in part or "mistakes" in part for problem in problems for part in problem["parts"])
+    assert not any("id" in problem for problem in problems)  # whoever has the ID has the key
     (first, *_) = json.loads(written("json", tmp_path))["versions"][0]["problems"]
     assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
 
