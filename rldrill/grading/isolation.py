@@ -18,6 +18,8 @@ from rldrill.problems.errors import FileError, UserError
 #: How long a problem may take to be solved, and the memory that there is for marking.
 LOADING = 60.0
 MEMORY = 4 * 2**30
+#: What Linux calls the signal that a process is sent when the one that started it has ended (linux/prctl.h).
+_PR_SET_PDEATHSIG = 1
 #: So many judgements are kept as they are sent.
 _BLOBS = 10_000
 
@@ -113,9 +115,11 @@ class Apart:
 
     def _open(self) -> Connection:
         if self._connection is None:
-            context: Any = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+            forks = sys.platform == "linux"
+            context: Any = multiprocessing.get_context("fork" if forks else "spawn")
             self._connection, other = context.Pipe()
-            self._process = context.Process(target=_work, args=(other, *self._arguments), daemon=True)
+            inherited = self._connection if forks else None
+            self._process = context.Process(target=_work, args=(other, inherited, *self._arguments), daemon=True)
             self._process.start()
             other.close()
         return self._connection
@@ -142,9 +146,12 @@ def marker(manifest: Path | None, rules: Rules, *, isolated: bool) -> Iterator[M
         apart.close()
 
 
-def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
+def _work(connection: Connection, inherited: Connection | None, manifest: Path | None, rules: Rules) -> None:
     """The other process: for every task None once its problem is solved, then the marks, or a sentence."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who asked ends this process
+    if inherited is not None:
+        inherited.close()  # while it is open here, nobody hears that the one who asks has ended
+        _end_with_parent()
     _bound_memory()
     desk = Desk(manifest, rules)
     blobs: dict[int, tuple[Judged, bytes]] = {}
@@ -172,6 +179,14 @@ def _work(connection: Connection, manifest: Path | None, rules: Rules) -> None:
                 connection.send(f"{task.name} needs more than {MEMORY // 2**30} GB of memory; it is not graded.")
             except Exception as error:  # one student's answer must not end the run
                 connection.send(f"rldrill itself failed on it ({type(error).__name__}: {str(error)[:200]}); report it.")
+
+
+def _end_with_parent() -> None:
+    """Be ended by the system with whoever asks, also in the midst of marking: a pipeline must not be held up by it."""
+    with suppress(ImportError, OSError, AttributeError):
+        import ctypes
+
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _bound_memory() -> None:

@@ -2,6 +2,8 @@
 
 import mmap
 import os
+import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -210,6 +212,23 @@ def test_a_problem_of_the_exam_that_cannot_be_made_takes_no_other_with_it(tmp_pa
     assert [part.judged.verdict for part in report.parts][:2] == ["right", "not graded"]
     (refused,) = report.refused
     assert "version A, problem 2: There is no family 'of-another-package'" in refused.says
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere another judge is not inherited")
+def test_whoever_ends_the_grading_ends_its_marking_too(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"{HEAD}A,td-zero/1/7,a,13\n")
+    program = (
+        "import os, signal, sys, time\n"
+        "from rldrill.grading import marking, verification\n"
+        "def judge(*_):\n"
+        "    os.kill(os.getppid(), signal.SIGTERM)\n"
+        "    time.sleep(60)\n"
+        "marking.judge = judge\n"
+        "verification.verify([sys.argv[1]], verification.Settings(isolated=True))\n"
+    )
+    run = [sys.executable, "-c", program, str(tmp_path / "a.csv")]
+    done = subprocess.run(run, capture_output=True, timeout=30, check=False)  # the pipes close with the last process
+    assert done.returncode == -signal.SIGTERM
 
 
 def test_the_bounds_are_those_that_are_told() -> None:
