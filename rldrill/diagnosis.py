@@ -30,8 +30,8 @@ from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import Solution
 from rldrill.solutions.work import Step
 
-#: The time that there is for one answer, in seconds: at a prompt, and in a file of answers.
-AT_THE_PROMPT, IN_A_FILE = 0.15, 1.5
+#: The time that there is for one answer at a prompt, in seconds.
+AT_THE_PROMPT = 0.15
 #: Before anything is searched ahead the prompt is shown, for which there are so many seconds.
 _SHOWN = 0.05
 #: What is close to the key is wrong where it is so sure that something likely was done, and no slip of arithmetic.

@@ -14,7 +14,8 @@ from rldrill.problems.errors import FileError
 #: What the names of files that hold data end in, and of those that hold a model.
 DATA_SUFFIXES = (".toml", ".json")
 MODEL_SUFFIXES = (".csv", ".tsv", ".json", ".toml", ".npz", ".pomdp", ".mdp")
-_LARGEST = 10 * 10**6  # bytes
+#: No file that somebody hands in has more bytes.
+LARGEST = 10 * 10**6
 _DEEPEST = 32  # levels of brackets; a problem file needs six
 _DIGITS = 40
 _TOO_DEEP = f"it nests deeper than {_DEEPEST} brackets; write it flatter."
@@ -26,28 +27,28 @@ _DOTTED = re.compile(rf"(?<![^\s.\[{{,])(?:{_KEY}\.[ \t]*+){{{_DEEPEST}}}", re.A
 _NO_NUMBER = re.compile(r"[+-]?(?:inf|nan)")
 
 
-def read_data(path: str | Path) -> object:
-    """What a TOML or JSON file holds; numbers with a point or an exponent come as text, to stay exact.
+def read_data(path: str | Path, largest: int = LARGEST) -> object:
+    """What a TOML or JSON file of at most so many bytes holds; what has a point or an exponent comes as exact text.
 
     Raises:
         FileError: the file cannot be read, is empty, or its syntax is broken.
     """
-    text = read_text(path, DATA_SUFFIXES)
+    text = read_text(path, DATA_SUFFIXES, largest)
     if not text.strip():
         raise FileError(f"{shown(path)}: the file is empty; write something into it, or name another.")
     return parse(text, path)
 
 
-def read_text(path: str | Path, suffixes: Sequence[str]) -> str:
+def read_text(path: str | Path, suffixes: Sequence[str], largest: int = LARGEST) -> str:
     """The text of a file whose name ends as one of the suffixes says.
 
     Raises:
         FileError: it does not exist, cannot be read, ends otherwise, is too large or is not text.
     """
-    return _decoded(read_bytes(path, suffixes), shown(path))
+    return _decoded(read_bytes(path, suffixes, largest), shown(path))
 
 
-def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
+def read_bytes(path: str | Path, suffixes: Sequence[str], largest: int = LARGEST) -> bytes:
     """What a file holds whose name ends as one of the suffixes says.
 
     Raises:
@@ -64,7 +65,7 @@ def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
             endings = f"{', '.join(others)} or {last}"
             raise FileError(f"{where}: the name must end in {endings}; rename or convert the file.")
         with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+            content = file.read(largest + 1)
     except (FileNotFoundError, NotADirectoryError):
         raise FileError(f"{where}: there is no such file; check its name and folder.") from None
     except PermissionError:
@@ -72,8 +73,8 @@ def read_bytes(path: str | Path, suffixes: Sequence[str]) -> bytes:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise FileError(f"{where}: it cannot be read ({reason.lower()}); name another file.") from None
-    if len(content) > _LARGEST:
-        raise FileError(f"{where}: the file is larger than {_LARGEST // 10**6} MB; split it.")
+    if len(content) > largest:
+        raise FileError(f"{where}: the file is larger than {largest // 10**6} MB; split it.")
     return content
 
 

@@ -333,7 +333,7 @@ NOW = f"td-zero/1/7@{family('td-zero').revision}"
 FAULTY = [
     ("a.toml", 'td-zero/1/7 = "1"', "Problem IDs stand in quotes"),
     ("a.toml", '[td-zero/1/7]\na = "1"', "Problem IDs stand in quotes"),
-    ("a.toml", 'colour = "red"', "'colour' is neither a problem ID nor a problem file"),
+    ("a.toml", 'colour = "red"', "'colour' is neither a problem ID"),
     ("a.toml", 'colour = "red"\n[answers]\n"td.toml" = 1', "'colour' stands outside 'answers'"),
     ("a.toml", 'answers = 3', "'answers' must be a table"),
     ("a.toml", 'student = ["Ann"]\n"td.toml" = 1', "'student' must be a text"),
@@ -524,10 +524,32 @@ def test_a_share_of_the_points_is_enough(folder: Path, enough: str, code: int) -
     assert run(path, "--pass", enough)[0] == code
 
 
-@pytest.mark.parametrize("enough", ["half", "101%", "1/0", "-1%", "1.01"])
-def test_what_is_no_share_of_the_points_is_refused(folder: Path, enough: str) -> None:
+@pytest.mark.parametrize("share", ["half", "1.01", "1e999999999", "1e-999999999", "nan", "1/0", "101%", "-1%", "%"])
+def test_what_is_no_share_is_refused_at_once(folder: Path, share: str) -> None:
     with pytest.raises(UsageError, match="no share of the points"):
-        CliRunner().invoke(app, ["--pass", enough, str(folder / "td.toml")], catch_exceptions=False)
+        verify_command.command([folder / "a.toml"], enough=share)
+
+
+def test_no_report_takes_the_place_of_what_is_read_or_of_another(folder: Path) -> None:
+    path = write(folder, "a.csv", "problem,part,answer\ntd.toml,a,1\n")
+    for reports, sentence in (
+        ([f"json={folder / '.' / 'a.csv'}"], "is read here"),
+        (["text=both", "json=both"], "Two reports"),
+        ([f"text={folder / 'b-totals.csv'}", f"csv={folder / 'b.csv'}"], "Two reports"),
+        (["csv=/"], "is no report"),
+    ):
+        with pytest.raises(UsageError, match=sentence):
+            verify_command.command([path], reports=reports)
+    assert path.read_text(encoding="utf-8").startswith("problem,part")
+
+
+def test_a_report_that_cannot_be_written_does_not_keep_others_from_it(folder: Path) -> None:
+    path = write(folder, "a.csv", "problem,part,answer\ntd.toml,a,6.8\n")
+    with pytest.raises(FileError, match="is a directory"):
+        verify_command.command(
+            [path], reports=[f"text={folder}", f"json={folder / 'report.json'}"], allow_files=True, feedback="none"
+        )
+    assert json.loads((folder / "report.json").read_text())["exit_code"] == 0
 
 
 @pytest.mark.parametrize("columns", ["40", "60", "80"])

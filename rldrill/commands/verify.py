@@ -1,6 +1,7 @@
 """``rldrill verify``."""
 
 import gc
+import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 NAME = "verify"
 _COLOURS = {"right": "green", "follow-through": "green", "close": "yellow", "misconception": "yellow"}
+#: A share: 60%, 0.6 or 3/5.
+_SHARE = re.compile(r"([0-9]{1,9}(?:\.[0-9]{1,9})?|[0-9]{1,9}/[1-9][0-9]{0,8})\s*(%)?")
 #: So many things that could not be graded are told one by one.
 _TOLD = 50
 #: Of more students than this the terminal shows the totals only.
@@ -102,7 +105,7 @@ def command(
     from rldrill.grading.assignment import Assignment
     from rldrill.grading.marking import Rules
     from rldrill.grading.verification import Settings, verify
-    from rldrill.problems.errors import UsageError
+    from rldrill.problems.errors import FileError, UsageError
     from rldrill.render.encodable import shows_all
 
     if not files:
@@ -111,6 +114,7 @@ def command(
         raise UsageError("A version is one of an exam; name its manifest, --for exam.json.")
     told = "key" if show_key else feedback
     wanted = [_wanted(each) for each in reports or ()]
+    _keep_apart(wanted, [*files, *filter(None, (exam, roster))])
     settings = Settings(
         assignment=None if exam is None else Assignment(exam, version, roster),
         allow_files=allow_files,
@@ -126,8 +130,7 @@ def command(
     gc.enable()
     with _progress() as advance:
         report = verify(files, settings, advance)
-    for form, path in wanted:
-        _write(report, form, path, told)
+    unwritten = [said for form, path in wanted if (said := _unwritten(report, form, path, told))]
     _complain(report)
     if json:
         from rldrill.grading.reports.data import written
@@ -140,6 +143,8 @@ def command(
             typer.echo(totals(report), nl=False)
         else:
             _print(report, told)
+    if unwritten:
+        raise FileError(" ".join(unwritten))
     raise typer.Exit(report.exit_code)
 
 
@@ -178,7 +183,7 @@ def _wanted(text: str) -> tuple[str, str]:
     from rldrill.problems.errors import UsageError
 
     form, _, path = text.partition("=")
-    if form not in _FORMS or (not path and form != "github"):
+    if form not in _FORMS or not (Path(path).name or (form == "github" and not path)):
         raise UsageError(f"{text[:60]!r} is no report; say FORM=PATH, with one of {', '.join(_FORMS)} as the form.")
     return form, path or "-"
 
@@ -186,13 +191,47 @@ def _wanted(text: str) -> tuple[str, str]:
 def _share(text: str) -> Fraction:
     from rldrill.problems.errors import UsageError
 
-    try:
-        share = Fraction(text.removesuffix("%").strip()) / (100 if text.endswith("%") else 1)
-    except (ValueError, ZeroDivisionError):
-        share = Fraction(-1)
-    if not 0 <= share <= 1:
+    found = _SHARE.fullmatch(text.strip())
+    share = None if found is None else Fraction(found[1]) / (100 if found[2] else 1)
+    if share is None or share > 1:
         raise UsageError(f"{text[:20]!r} is no share of the points; write one as 60%.")
     return share
+
+
+def _keep_apart(reports: list[tuple[str, str]], read: list[Path]) -> None:
+    """No report takes the place of what is read, or of another one.
+
+    Raises:
+        UsageError: one would.
+    """
+    from rldrill.problems.errors import UsageError
+
+    named = [Path(path) for _, path in reports if path != "-"]
+    named += [_totals(Path(path)) for form, path in reports if form == "csv" and path != "-"]
+    for number, path in enumerate(named):
+        if any(_same(path, other) for other in read):
+            raise UsageError(f"{path} is read here, so no report can go there; choose another name.")
+        if any(_same(path, other) for other in named[:number]):
+            raise UsageError(f"Two reports cannot both go to {path}; choose another name for one.")
+
+
+def _same(path: Path, other: Path) -> bool:
+    """Whether two names are those of one file; pipes and devices take whatever comes."""
+    try:
+        return path.resolve() == other.resolve() and (path.is_file() or not path.exists())
+    except (OSError, RuntimeError, ValueError):
+        return False
+
+
+def _unwritten(report: "Report", form: str, path: str, feedback: str) -> str:
+    """Write a report; why it cannot be, so that the others are written all the same."""
+    from rldrill.problems.errors import FileError
+
+    try:
+        _write(report, form, path, feedback)
+    except FileError as error:
+        return str(error)
+    return ""
 
 
 def _write(report: "Report", form: str, path: str, feedback: str) -> None:
@@ -204,24 +243,28 @@ def _write(report: "Report", form: str, path: str, feedback: str) -> None:
     module = import_module(f"rldrill.grading.reports.{modules.get(form, form)}")
     text = module.written(report, feedback)
     if form == "csv" and path != "-":
-        file = Path(path)
-        _put(module.totals(report), file.with_name(f"{file.stem}-totals{file.suffix}"))
+        _put(module.totals(report), _totals(Path(path)))
     if form == "github" and (summary := os.environ.get("GITHUB_STEP_SUMMARY")):
-        with Path(summary).open("a", encoding="utf-8") as page:
-            page.write(module.summary(report, feedback))
+        _put(module.summary(report, feedback), Path(summary), "a")
     if path == "-":
         typer.echo(text, nl=False)
     else:
         _put(text, Path(path))
 
 
-def _put(text: str, path: Path) -> None:
+def _totals(path: Path) -> Path:
+    """Where the totals go beside a table of points."""
+    return path.with_name(f"{path.stem}-totals{path.suffix}")
+
+
+def _put(text: str, path: Path, mode: str = "w") -> None:
     from rldrill.files import shown
     from rldrill.problems.errors import FileError
 
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="")
+        with path.open(mode, encoding="utf-8", newline="") as file:
+            file.write(text)
     except OSError as error:
         raise FileError(f"{shown(path)}: it cannot be written ({(error.strerror or str(error)).lower()}).") from None
 

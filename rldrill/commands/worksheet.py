@@ -276,7 +276,8 @@ def _reprinted(
     import json
     from dataclasses import asdict, replace
 
-    from rldrill.exam.manifest import codes, read_exam, typst_of, written
+    from rldrill.exam.manifest import LARGEST, codes, read_exam, typst_of, written
+    from rldrill.files import read_text
     from rldrill.print.exam_files import Files, check_output, make_room, print_from, write
     from rldrill.print.paper import typst_version
     from rldrill.problems.errors import UsageError
@@ -302,7 +303,7 @@ def _reprinted(
         return _counted(files, number, lambda advance: print_from(source, files, advance))
     make_room(files, force=force)
     how = {"layout": asdict(layout), "typst": now}
-    data = written(json.loads(source.read_text(encoding="utf-8")) | how)
+    data = written(json.loads(read_text(source, (".json",), LARGEST)) | how)
     return _counted(files, number, lambda advance: write(files, data, advance))
 
 

@@ -1,11 +1,11 @@
 """The manifest of an exam: all that was printed, as JSON, from which it is graded and printed again years later."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -24,6 +24,8 @@ from rldrill.solutions.effort import minutes_of as part_minutes
 #: The version of the manifest's form.
 FORMAT = 2
 _FORMATS = (1, FORMAT)
+#: As many bytes as the largest exam has: a problem takes a thousand or two.
+LARGEST = 250 * 10**6
 
 
 def manifest(exam: Exam, printed_with: str | None = None) -> dict[str, Any]:
@@ -89,9 +91,12 @@ def _problem(number: int, slot: int, exercise: Exercise, rules: Mapping[str, str
 def is_manifest(path: Path) -> bool:
     """Whether a file is the manifest of an exam."""
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        return _is_exam(read_data(path, LARGEST))
+    except FileError:
         return False
+
+
+def _is_exam(data: object) -> TypeGuard[dict[str, Any]]:
     return isinstance(data, dict) and "rldrill" in data and "versions" in data
 
 
@@ -175,6 +180,21 @@ def read_exam(path: str | Path) -> tuple[Exam, tuple[Callable[[], Version], ...]
     return Exam(head, data.seed, (), data.partial, layout, data.sealed, data.scale), makes
 
 
+def read_problems(path: str | Path) -> Mapping[str, tuple[Callable[[], tuple[Exercise, Mapping[str, Partial]]], ...]]:
+    """For every version and each of its problems what makes it, with the rules of parts that have one of their own.
+
+    So a problem that cannot be made takes no other with it.
+
+    Raises:
+        FileError: the file cannot be read, or is no manifest; a problem that cannot be made is told with its place.
+    """
+    data, where = _checked(path), shown(path)
+    return {
+        version.code: tuple(partial(_ruled, problem, here) for problem, here in _placed(version, where))
+        for version in data.versions
+    }
+
+
 def codes(path: str | Path) -> tuple[str, ...]:
     """The codes of a manifest's versions; nothing is solved for it.
 
@@ -227,8 +247,8 @@ def typst_of(path: str | Path) -> str | None:
 
 
 def _checked(path: str | Path) -> _Manifest:
-    data, where = read_data(path), shown(path)
-    if not isinstance(data, dict) or "rldrill" not in data or "versions" not in data:
+    data, where = read_data(path, LARGEST), shown(path)
+    if not _is_exam(data):
         raise FileError(
             f"{where}: this is no manifest of an exam; name the .json file that was written beside the PDFs."
         )
@@ -254,16 +274,21 @@ def _checked(path: str | Path) -> _Manifest:
 
 
 def _made(version: _Version, where: str) -> Version:
-    exercises = tuple(
-        _exercise(problem, f"{where}, version {version.code}, problem {number}")
-        for number, problem in enumerate(version.problems, 1)
-    )
-    slots = _slots(version)
+    made = [_ruled(problem, here) for problem, here in _placed(version, where)]
     person = None if version.person is None else Person(version.person.name, version.person.number)
-    rules = tuple(
-        {part.part: part.partial for part in problem.parts if part.partial is not None} for problem in version.problems
-    )
-    return Version(version.code, exercises, slots, person, rules)
+    exercises, rules = zip(*made, strict=True)
+    return Version(version.code, exercises, _slots(version), person, rules)
+
+
+def _placed(version: _Version, where: str) -> Iterator[tuple[_Problem, str]]:
+    """The problems of a version, each with how complaints call its place."""
+    for number, problem in enumerate(version.problems, 1):
+        yield problem, f"{where}, version {version.code}, problem {number}"
+
+
+def _ruled(problem: _Problem, where: str) -> tuple[Exercise, Mapping[str, Partial]]:
+    rules = {part.part: part.partial for part in problem.parts if part.partial is not None}
+    return _exercise(problem, where), rules
 
 
 def _slots(version: _Version) -> tuple[int, ...]:

@@ -1,15 +1,18 @@
-"""An exam for Word: its Markdown, converted by pandoc where that is installed."""
+"""An exam for Word: its Markdown, converted by pandoc, the computer's own or the one that pypandoc brings along."""
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rldrill.exam.exam import Exam, Version
-from rldrill.export.text import markdown_exam
+from rldrill.export.text import BELOW, markdown_exam
 from rldrill.problems.errors import UsageError
 
 _SECONDS = 120
+#: A document tells when it was written; the same exam shall be the same document. No zip file is older than that.
+_WRITTEN = {"SOURCE_DATE_EPOCH": "315532800"}
 
 
 def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
@@ -18,18 +21,39 @@ def docx_exam(exam: Exam, version: Version, *, practice: bool) -> bytes:
     Raises:
         UsageError: pandoc is not installed, refuses the text, or takes too long.
     """
-    program = shutil.which("pandoc")
+    program = shutil.which("pandoc") or _brought_along()
     if program is None:
-        raise UsageError("Documents of Word are made by pandoc, which is not installed: see https://pandoc.org.")
-    source = markdown_exam(exam, version, practice=practice)
+        raise UsageError(
+            "Documents of Word are made by pandoc, which is not installed; get it with pip install 'rldrill[docx]', or "
+            "from https://pandoc.org."
+        )
+    source = markdown_exam(exam, version, practice=practice, answers=BELOW)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "exam.docx"
-        run = [program, "--from=gfm", "--to=docx", f"--output={path}"]
+        # The first heading becomes the title, as Word knows it, and those of the problems the first of all.
+        told = ["--shift-heading-level-by=-1", f"--metadata=lang:{exam.head.language}"]
+        run = [program, "--from=gfm", "--to=docx", *told, f"--output={path}"]
         try:
-            done = subprocess.run(run, input=source.encode(), capture_output=True, timeout=_SECONDS, check=False)
+            done = subprocess.run(
+                run,
+                input=source.encode(),
+                env=os.environ | _WRITTEN,
+                capture_output=True,
+                timeout=_SECONDS,
+                check=False,
+            )
         except subprocess.TimeoutExpired:
             raise UsageError(f"pandoc is not done after {_SECONDS} seconds; ask for fewer problems.") from None
         if done.returncode or not path.exists():
             said = done.stderr.decode(errors="replace").strip().partition("\n")[0][:200]
             raise UsageError(f"pandoc refuses the text ({said}); a newer release of it may not.")
         return path.read_bytes()
+
+
+def _brought_along() -> str | None:
+    try:
+        from pypandoc import get_pandoc_path
+
+        return str(get_pandoc_path())
+    except (ImportError, OSError):
+        return None

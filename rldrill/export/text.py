@@ -1,10 +1,11 @@
 """An exam as Markdown, with GitHub's mathematics, and as JSON."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
+from rldrill.export.words import page_words
 from rldrill.print.words import words, written_points
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.markdown import markdown, markdown_text
@@ -12,12 +13,16 @@ from rldrill.render.markdown import markdown, markdown_text
 _MISTAKES = 8
 
 
-def markdown_exam(exam: Exam, version: Version, *, practice: bool) -> str:
-    """A version as Markdown; for practice with answer and working folded away behind each part."""
-    return "\n\n".join(_lines(exam, version, practice=practice)) + "\n"
+#: What stands before and after the answer to a part: folded away on the web, below a line in bold letters elsewhere.
+FOLDED, BELOW = ("<details><summary>{}</summary>", "</details>"), ("**{}**",)
 
 
-def _lines(exam: Exam, version: Version, *, practice: bool) -> Iterator[str]:
+def markdown_exam(exam: Exam, version: Version, *, practice: bool, answers: Sequence[str] = FOLDED) -> str:
+    """A version as Markdown; for practice with answer and working behind each part."""
+    return "\n\n".join(_lines(exam, version, answers if practice else ())) + "\n"
+
+
+def _lines(exam: Exam, version: Version, answers: Sequence[str]) -> Iterator[str]:
     told, head = words(exam.head.language), exam.head
     code = f" ({told.version} {version.code})" if len(exam.versions) > 1 else ""
     yield f"# {_plain(head.title)}{code}"
@@ -31,7 +36,7 @@ def _lines(exam: Exam, version: Version, *, practice: bool) -> Iterator[str]:
         yield f"## {told.problem} {number}: {markdown_text(exercise.problem.family.title)} ({worth})"
         yield markdown(exercise.question())
         for part in exercise.parts:
-            yield from _part(exercise, part, practice=practice)
+            yield from _part(exercise, part, [each.format(page_words(head.language).working) for each in answers])
 
 
 def _plain(text: str) -> str:
@@ -39,23 +44,25 @@ def _plain(text: str) -> str:
     return r"\$".join(map(markdown_text, text.split("$")))
 
 
-def _part(exercise: Exercise, part: Part, *, practice: bool) -> Iterator[str]:
+def _part(exercise: Exercise, part: Part, answers: Sequence[str]) -> Iterator[str]:
     yield f"**({part.label})** {markdown_text(part.ask)}"
     if isinstance(part.kind, Choice):
         yield "\n".join(f"- ({letter}) {markdown_text(text)}" for letter, text in part.kind.options.items())
-    if practice:
-        yield "<details><summary>Answer and working</summary>"
+    if answers:
+        yield answers[0]
         yield markdown((exercise.answer(part), *exercise.working(part.label)))
-        yield "</details>"
+        yield from answers[1:]
 
 
 def json_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda: None) -> str:
     """All versions as JSON; for practice with answers, steps and wrong answers."""
     versions = []
+    hidden = set() if practice or exam.layout.ids else {"id"}  # an ID is its key
     for version in exam.versions:
-        problems = [
+        told = (
             exercise.data(answers=practice, mistakes=_MISTAKES if practice else 0) for exercise in version.exercises
-        ]
+        )
+        problems = [{name: value for name, value in data.items() if name not in hidden} for data in told]
         versions.append({"code": version.code, "problems": problems})
         advance()
     data = {"title": exam.head.title, "versions": versions}

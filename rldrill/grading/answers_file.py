@@ -3,11 +3,8 @@
 What is wrong with one answer is refused with its line, and costs only that answer.
 """
 
-import csv
-import io
 import re
-import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
@@ -16,6 +13,7 @@ from rldrill.files import DATA_SUFFIXES, parse, parse_line, read_text, shown
 from rldrill.grading.places import places
 from rldrill.problems.errors import FileError, NothingToGrade, UsageError
 from rldrill.problems.identity import looks_like_id
+from rldrill.spreadsheet import JOINERS, name_of, table
 from rldrill.typed import typed
 
 #: What the names of files of answers end in.
@@ -24,27 +22,9 @@ _NAMED = ("student", "number", "problem", "part")
 _COLUMNS = ("student", "problem", "part", "answer")
 _KNOWN = (*_NAMED, "answer")
 _NEEDED = ("problem", "answer")
-#: What other programs call the columns, and the two halves of a name.
-_ALSO = {
-    "problem id": "problem", "id": "problem", "question": "problem", "problem part": "part", "response": "answer",
-    "name": "student", "student name": "student", "full name": "student", "student id": "number", "sid": "number",
-    "student number": "number", "matriculation number": "number", "matrikelnummer": "number", "matriculation": "number",
-}  # fmt: skip
-_FIRST = ("first name", "firstname", "given name", "vorname")
-_LAST = ("last name", "lastname", "surname", "family name", "nachname")
-_AS_TEXT = re.compile(r'="(.*)"', re.DOTALL)  # so a spreadsheet keeps 0.25 from becoming a date
-#: A file has no more bytes, so neither has a field: an answer that is too long is judged, and costs only itself.
-csv.field_size_limit(10**7)
-_SEPARATED = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
 _POINT = re.compile(r"[0-9]\.[0-9]|(?<![0-9A-Za-z])\.[0-9]")
-#: What joins letters in Persian, Hindi and other scripts, and is not seen itself.
-JOINERS = "\u200c\u200d"
-#: No name has more characters.
-_LONGEST = 200
 #: A table from problems to answers is one student's; it has no more characters.
 _LARGEST = 10**6
-#: After so many rows with broken quotes the rest of a file is given up: its quotes mean nothing any more.
-_MOST_BROKEN = 20
 #: A problem's number in an exam.
 PLACE = re.compile(r"[1-9][0-9]{0,2}")
 _BARE_ID = re.compile(r"^[ \t]*+\[?[ \t]*+(?:answers\.)?[a-z-]+/[1-3]/\d", re.MULTILINE)
@@ -179,8 +159,8 @@ def _entry(fields: Mapping[str, object], line: int | None, column: int | None, p
         and Path(problem).suffix.lower() not in DATA_SUFFIXES
     ):
         raise FileError(
-            f"{place}: {_quoted(problem)} is neither a problem ID nor a problem file; "
-            "IDs look like value-iteration/2/7 (family/level 1-3/seed)."
+            f"{place}: {_quoted(problem)} is neither a problem ID, such as value-iteration/2/7 "
+            "(family/level 1-3/seed), nor a problem's number in an exam, nor a problem file."
         )
     try:
         text = typed(fields.get("answer"), f"{place}: the answer to {problem}")
@@ -195,13 +175,7 @@ def _word(value: object, name: str, place: str) -> str:
         return ""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise FileError(f"{place}: '{name}' must be a text; write it in quotes.")
-    word = " ".join(str(value)[: 10 * _LONGEST].split())  # normal forms of long texts take long
-    word = unicodedata.normalize("NFC", word)
-    if len(word) > _LONGEST:
-        raise FileError(f"{place}: '{name}' has more than {_LONGEST} characters; shorten it.")
-    if not all(sign.isprintable() or sign in JOINERS for sign in word):
-        raise FileError(f"{place}: '{name}' holds a character that cannot be printed; retype it.")
-    return word
+    return name_of(str(value), name, place)
 
 
 def _in_one_line(text: str) -> str:
@@ -277,111 +251,6 @@ def _csv(text: str, path: Path) -> Iterator[Row]:
 
 def _whose(found: Mapping[str, str]) -> str:
     return _in_one_line(found.get("student") or found.get("number") or "")
-
-
-def table(
-    text: str, path: Path, wanted: Sequence[str], needed: Sequence[str]
-) -> tuple[str, Sequence[str], Iterator[tuple[int, dict[str, str]]]]:
-    """What separates the columns of a CSV file, their names, and its rows with their lines.
-
-    First and last name become the student. A row that cannot be read has what is wrong with it under ``says``.
-
-    Args:
-        text: what the file holds.
-        path: the file, for complaints.
-        wanted: the columns as they are told.
-        needed: those of them that must be there.
-
-    Raises:
-        FileError: a needed column is missing, or one stands twice.
-    """
-    where = shown(path)
-    separator, first, text = _separator(text, wanted)
-    records = _numbered(text, separator, first, where)
-    line, named = next(((line, fields) for line, fields in records if any(map(str.strip, fields))), (1, []))
-    if isinstance(named, str):
-        raise FileError(named)
-    header = _names(named)
-    while header and not header[-1]:
-        del header[-1]
-    missing = [column for column in needed if column not in header]
-    if missing:
-        raise FileError(
-            f"{where}, line {line}: the column '{missing[0]}' is missing; "
-            f"the first line names the columns: {','.join(wanted)}."
-        )
-    for column in {*_KNOWN, *wanted}:
-        if header.count(column) > 1:
-            raise FileError(f"{where}, line {line}: the column '{column}' stands twice; keep one of them.")
-    rows = (
-        (line, {"says": fields} if isinstance(fields, str) else _record(header, fields, f"{where}, line {line}"))
-        for line, fields in records
-        if isinstance(fields, str) or any(map(str.strip, fields))
-    )
-    return separator, header, rows
-
-
-def _record(header: Sequence[str], fields: Sequence[str], where: str) -> dict[str, str]:
-    """A line of a CSV file; spreadsheets leave blank fields at its end."""
-    fields = list(fields)
-    while len(fields) > len(header) and not fields[-1].strip():
-        del fields[-1]
-    named = zip(header, fields, strict=False)
-    found = {name: _AS_TEXT.sub(r"\1", field.strip()) for name, field in named if name and name != "says"}
-    whole = " ".join(filter(None, (_half(found, _FIRST), _half(found, _LAST))))
-    found = {"student": whole} | found if whole else found
-    if len(fields) != len(header):
-        found["says"] = (
-            f"{where}: {len(fields)} fields where the first line names {len(header)}; "
-            "put an answer that holds the separator in double quotes."
-        )
-    return found
-
-
-def _half(found: Mapping[str, str], names: Sequence[str]) -> str:
-    return next((found[name].strip() for name in names if name in found), "")
-
-
-def _separator(text: str, wanted: Sequence[str]) -> tuple[str, int, str]:
-    """What separates the columns, how many lines come before the header, and the text from there on.
-
-    Spreadsheets may say it in a line of its own, ``sep=;``; else the header decides.
-    """
-    if told := _SEPARATED.match(text):
-        return told[1], text.count("\n", 0, told.end()), text[told.end() :]
-    first = text.lstrip("\r\n").partition("\n")[0]
-    return max(",;\t", key=lambda sign: len(set(wanted) & set(_names(first.split(sign))))), 0, text
-
-
-def _names(fields: Sequence[str]) -> list[str]:
-    names = [" ".join(field.replace("_", " ").replace('"', " ").lower().split()) for field in fields]
-    there = {None, *names}
-    return [_ALSO[name] if _ALSO.get(name) not in there else name for name in names]
-
-
-def _numbered(text: str, separator: str, before: int, where: str) -> Iterator[tuple[int, list[str] | str]]:
-    """The records with the lines where they begin, or a sentence where the quotes of one are broken.
-
-    Reading goes on in the line after that where such a record begins: an unclosed quote takes no other rows with it.
-    """
-    lines = io.StringIO(text, newline="").readlines()
-    start = 0
-    for _ in range(_MOST_BROKEN):
-        reader = csv.reader(lines[start:], delimiter=separator, strict=True)
-        begun = start
-        try:
-            for fields in reader:
-                yield begun + before + 1, fields
-                begun = start + reader.line_num
-            return
-        except csv.Error as error:
-            line = begun + before + 1
-            yield line, f"{where}, line {line}: its quotes are broken ({error}); fix them."
-            start = begun + 1
-    yield (
-        start + before + 1,
-        f"{where}, line {start + before + 1}: {_MOST_BROKEN} rows before have broken quotes; the rest is not read.",
-    )
 
 
 def _quoted(text: str) -> str:

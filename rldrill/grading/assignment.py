@@ -1,15 +1,15 @@
 """An assignment: which problems a student was given, and which answers are to none of them."""
 
-import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rldrill.files import read_text, shown
-from rldrill.grading.answers_file import JOINERS, PLACE, Entry, table
+from rldrill.grading.answers_file import PLACE, Entry
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.identity import looks_like_id, split_id
+from rldrill.spreadsheet import folded, table
 
 if TYPE_CHECKING:
     from rldrill.exam.manifest import Printed
@@ -144,9 +144,3 @@ class Assignment:
             if not student and not row.get("number"):
                 raise FileError(f"{shown(path)}, line {line}: neither a name nor a number stands there; give one.")
             self._put(Sitting(student or row["number"], row.get("number", ""), self.versions[code]))
-
-
-def folded(name: str) -> str:
-    """A name as names are compared: without regard to case, normal form, spaces and joiners that are not seen."""
-    seen = "".join(sign for sign in name if sign not in JOINERS)
-    return " ".join(unicodedata.normalize("NFC", unicodedata.normalize("NFKC", seen).casefold()).split())

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 #: How long a problem may take to be solved, and the memory that there is for marking.
 LOADING = 60.0
 MEMORY = 4 * 2**30
+#: What Linux calls the signal that a process is sent when the one that started it has ended (linux/prctl.h).
+_PR_SET_PDEATHSIG = 1
+#: So many judgements are kept as they are sent.
+_BLOBS = 10_000
 
 
 class Marker(Protocol):
@@ -66,13 +70,13 @@ class Apart:
         """
         if said := self._hopeless.get(task.ref):
             raise FileError(said)
-        connection = self._open()
-        connection.send(task)
+        fresh = self._connection is None
         problem, stage = f"solving {task.name}", "loading"
         # Everybody has the problems of an exam; what else somebody names is solved in their own time.
         most = LOADING if isinstance(task.ref, tuple) else min(LOADING, seconds)
         begun = perf_counter()
         try:
+            self._open().send(task)
             said = self._received(most)
             self.loading += perf_counter() - begun
             if said is None:
@@ -81,6 +85,9 @@ class Apart:
         except TimeoutError as error:
             self._give_up(task, f"{problem} took more than {error} seconds", stage == "loading" and most == LOADING)
         except (EOFError, OSError):
+            if not fresh:  # what broke it down may have come before, once that was marked
+                self.close()
+                return self.mark(task, seconds)
             self._give_up(task, f"{problem} broke the interpreter down", stage == "loading")
         if isinstance(said, str):
             raise FileError(said)
@@ -111,9 +118,11 @@ class Apart:
         if self._connection is None:
             from multiprocessing import get_context
 
-            context: Any = get_context("fork" if sys.platform == "linux" else "spawn")
+            forks = sys.platform == "linux"
+            context: Any = get_context("fork" if forks else "spawn")
             self._connection, other = context.Pipe()
-            self._process = context.Process(target=_work, args=(other, *self._arguments), daemon=True)
+            inherited = self._connection if forks else None
+            self._process = context.Process(target=_work, args=(other, inherited, *self._arguments), daemon=True)
             self._process.start()
             other.close()
         return self._connection
@@ -140,14 +149,19 @@ def marker(manifest: Path | None, rules: Rules, *, isolated: bool) -> Iterator[M
         apart.close()
 
 
-def _work(connection: "Connection", manifest: Path | None, rules: Rules) -> None:
+def _work(connection: "Connection", inherited: "Connection | None", manifest: Path | None, rules: Rules) -> None:
     """The other process: for every task None once its problem is solved, then the marks, or a sentence."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who asked ends this process
+    if inherited is not None:
+        inherited.close()  # while it is open here, nobody hears that the one who asks has ended
+        _end_with_parent()
     _bound_memory()
     desk = Desk(manifest, rules)
     blobs: dict[int, tuple[Judged, bytes]] = {}
 
     def blob(judged: Judged) -> bytes:
+        if len(blobs) > _BLOBS:
+            blobs.clear()
         if id(judged) not in blobs:
             blobs[id(judged)] = (judged, pickle.dumps(judged))  # with the object, so that its id stays its own
         return blobs[id(judged)][1]
@@ -168,6 +182,14 @@ def _work(connection: "Connection", manifest: Path | None, rules: Rules) -> None
                 connection.send(f"{task.name} needs more than {MEMORY // 2**30} GB of memory; it is not graded.")
             except Exception as error:  # one student's answer must not end the run
                 connection.send(f"rldrill itself failed on it ({type(error).__name__}: {str(error)[:200]}); report it.")
+
+
+def _end_with_parent() -> None:
+    """Be ended by the system with whoever asks, also in the midst of marking: a pipeline must not be held up by it."""
+    with suppress(ImportError, OSError, AttributeError):
+        import ctypes
+
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _bound_memory() -> None:

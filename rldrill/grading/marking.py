@@ -6,29 +6,32 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rldrill.diagnosis import IN_A_FILE, Diagnosis
+from rldrill.diagnosis import Diagnosis
 from rldrill.exercise import Exercise, draw, load
 from rldrill.files import shown
 from rldrill.grading.answers_file import Entry, Refusal
-from rldrill.grading.report import MISSING, Judged, Score
+from rldrill.grading.report import Judged, Score, missing
 from rldrill.problems.parts import Part, Policy
 from rldrill.solutions.answers.judging import Outcome, Verdict, credit, judge, read_answer
 from rldrill.solutions.answers.kinds import Unreadable, answer_kind
 
 if TYPE_CHECKING:
-    from rldrill.exam.exam import Version
+    from rldrill.exam.choices import Partial
 
 #: A problem: its ID, the path of its file, or the code of a version of the exam and a number in it, from 0.
 Ref: TypeAlias = str | tuple[str, int]
 #: The label of a part, what was typed, and the earlier answers that it may go on from.
 _Typed: TypeAlias = tuple[str, str, tuple[tuple[str, str], ...]]
-#: So many seconds are spent in all on what can be done wrongly in one problem; what is found by then is looked up.
-_SEARCH = 4.0
+#: So many seconds of the processor are spent in all on what can be done wrongly in one problem, and in a whole run;
+#: what is found by then is looked up. In four times as long hardly more of what students do is found.
+SEARCH, ALL_SEARCHES = 1.0, 300.0
 #: So many judgements are kept.
 _KEPT = 50_000
+#: So many problems that somebody names are kept, solved.
+_PROBLEMS = 200
 #: Entries that are the same in so many other draws are the same in every draw.
 _OTHER_DRAWS = 4
 _COMMA = re.compile(r"(?<![0-9.,])([0-9]+),([0-9]+)(?![0-9.]|,[0-9])")
@@ -93,7 +96,8 @@ class Desk:
     def __init__(self, manifest: Path | None, rules: Rules) -> None:
         self._manifest, self._rules = manifest, rules
         self._problems: dict[Ref, _Problem] = {}
-        self._versions: dict[str, Version] = {}
+        self._version = ""
+        self._searches = _Time(ALL_SEARCHES)
 
     def problem(self, ref: Ref) -> "_Problem":
         """A problem, solved.
@@ -102,24 +106,29 @@ class Desk:
             UserError: it does not exist or is broken.
         """
         if ref not in self._problems:
+            self._make_room(ref)
             rules: Mapping[str, str] = {}
             if isinstance(ref, str):
                 exercise = load(ref)
             else:
                 code, number = ref
-                if code not in self._versions:
-                    self._versions[code] = self._makes[code]()
-                exercise = self._versions[code].exercises[number]
-                rules = self._versions[code].partial[number]
-            self._problems[ref] = _Problem(exercise, self._rules, rules)
+                exercise, rules = self._makes[code][number]()
+            self._problems[ref] = _Problem(exercise, self._rules, rules, self._searches)
         return self._problems[ref]
 
+    def _make_room(self, ref: Ref) -> None:
+        """Whose versions are marked one after the other, the last one's problems are not needed any more."""
+        version = "" if isinstance(ref, str) else ref[0]
+        if version != self._version or len(self._problems) >= _PROBLEMS:
+            self._problems.clear()
+        self._version = version
+
     @cached_property
-    def _makes(self) -> Mapping[str, "Callable[[], Version]"]:
-        from rldrill.exam.manifest import codes, read_exam
+    def _makes(self) -> "Mapping[str, tuple[Callable[[], tuple[Exercise, Mapping[str, Partial]]], ...]]":
+        from rldrill.exam.manifest import read_problems
 
         assert self._manifest is not None, "a number in a version needs an exam"
-        return dict(zip(codes(self._manifest), read_exam(self._manifest)[1], strict=True))
+        return read_problems(self._manifest)
 
     def mark(self, task: Task) -> Marked:
         """Mark every part of a problem, answered or not.
@@ -160,15 +169,25 @@ def refusal(entry: Entry, says: str, problem: str) -> Refusal:
     return Refusal(shown(entry.path), entry.line, entry.student, f"{entry.where}: {says}", problem=problem)
 
 
+@dataclass(slots=True)
+class _Time:
+    """Seconds that are left."""
+
+    left: float
+
+    def spend(self, seconds: float) -> None:
+        self.left = max(0.0, self.left - seconds)
+
+
 class _Problem:
     """A problem and the answers to it that were judged."""
 
-    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str]) -> None:
+    def __init__(self, exercise: Exercise, rules: Rules, partial: Mapping[str, str], searches: _Time) -> None:
         self.exercise, self._rules, self._partial = exercise, rules, partial
         self._verdicts: dict[_Typed, Verdict] = {}
         self._judged: dict[_Typed, Judged] = {}
         self._keys: dict[str, str] = {}
-        self._seconds = _SEARCH
+        self._times = (_Time(SEARCH), searches)
         self._same: dict[str, frozenset[str]] = {}
 
     def marks(self, entries: Mapping[str, Entry]) -> list[tuple[str, Entry | None, Judged]]:
@@ -234,9 +253,11 @@ class _Problem:
 
     def _diagnosed(self, label: str, text: str, verdict: Verdict, wrong: Mapping[str, Verdict]) -> Diagnosis:
         """What an answer comes from; with the step as it was taken and as it should be where keys are told, too."""
-        begun = perf_counter()
-        found = self.exercise.diagnosed(label, text, verdict, wrong, min(IN_A_FILE, self._seconds))
-        self._seconds = max(0.0, self._seconds - (perf_counter() - begun))
+        begun = process_time()
+        left = min(time.left for time in self._times)
+        found = self.exercise.diagnosed(label, text, verdict, wrong, left)
+        for time in self._times:
+            time.spend(process_time() - begun)
         return found if self._rules.keys else found.without_lines()
 
     def _credit(self, part: Part, verdict: Verdict) -> Fraction:
@@ -276,7 +297,10 @@ class _Problem:
         return self._keys[part.label]
 
     def _missing(self, part: Part) -> Judged:
-        return self._nothing(part, MISSING, "Not answered.")
+        key = (part.label, "", ())
+        if key not in self._judged:
+            self._judged[key] = missing(part.points, self._key(part))
+        return self._judged[key]
 
     def _date(self, part: Part, text: str) -> Judged:
         says = (

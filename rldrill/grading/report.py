@@ -16,6 +16,8 @@ MISSING = "missing"
 NOT_GRADED = "not graded"
 #: What is said of somebody on the roster without any answers.
 NOTHING = "handed in nothing"
+#: No number that is shown has as many digits.
+_FLOAT = 16
 #: How much of the judgement a report tells, the least first.
 FEEDBACK = ("none", "verdict", "reason", "key")
 
@@ -35,6 +37,18 @@ class Score:
     def share(self) -> Fraction:
         """The share of the points that was earned; all of nothing is nothing."""
         return self.points / self.of if self.of else Fraction(0)
+
+    def percent(self, digits: int = 3) -> str:
+        """The share in percent; with more digits where these would make a whole number of what is none.
+
+        Who needs 60 % and has 59.97 % has not enough, and shall see it.
+        """
+        share, text = 100 * self.share, ""
+        for number in range(digits, _FLOAT):
+            text = f"{float(share):.{number}g}"
+            if share.denominator == 1 or Fraction(text).denominator > 1:
+                break
+        return text
 
     def scaled(self, of: int) -> "Score":
         """The same share of another total."""
@@ -64,6 +78,11 @@ class Judged:
     key: str
     diagnosis: Diagnosis | None = None
     mistake: str = ""
+
+
+def missing(of: int, key: str = "") -> Judged:
+    """What is said of a part of so many points that was not answered."""
+    return Judged("", MISSING, False, "Not answered.", Score(Fraction(0), of), key)
 
 
 @dataclass(frozen=True, slots=True)

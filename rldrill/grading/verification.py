@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 
 from rldrill.files import shown
 from rldrill.grading.answers_file import PLACE, Entry, HandedIn, Refusal, read_answers
-from rldrill.grading.assignment import Assignment, Sitting, folded
+from rldrill.grading.assignment import Assignment, Sitting
 from rldrill.grading.isolation import Marker, marker
 from rldrill.grading.marking import Ref, Rules, Task, refusal
-from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport
+from rldrill.grading.report import NOT_GRADED, Judged, MarkedPart, Report, Score, StudentReport, missing
 from rldrill.problems.errors import FileError, NothingToGrade, UserError
 from rldrill.problems.identity import looks_like_id, split_id
+from rldrill.spreadsheet import folded
 
 if TYPE_CHECKING:
     from rldrill.exam.manifest import Printed
@@ -81,13 +82,12 @@ def verify(
     students = list(run.students(handed))
     manifest = None if settings.assignment is None else settings.assignment.manifest
     with marker(manifest, run.rules, isolated=settings.isolated) as desk:
-        reports = []
-        for count, student in enumerate(students, 1):
-            report = run.report(student, desk)
-            if report is not None:
-                reports.append(report)
+        graded: dict[int, StudentReport | None] = {}
+        for number in run.order(students):
+            graded[number] = run.report(students[number], desk)
             if advance is not None:
-                advance(count, len(students))
+                advance(len(graded), len(students))
+    reports = [report for number in range(len(students)) if (report := graded[number]) is not None]
     if settings.strict and any(each.exit_code == FileError.exit_code for each in refused):
         reports = []
     exam = settings.assignment
@@ -160,6 +160,17 @@ class _Run:
             people = ((folded(each.number or each.student), each) for each in self._assignment.people)
             yield from (_Student(each) for who, each in people if (who,) not in found)
 
+    def order(self, students: Sequence[_Student]) -> list[int]:
+        """The numbers of the students, those of a version one after the other: only its problems are kept meanwhile."""
+        codes = () if self._assignment is None else tuple(self._assignment.versions)
+        places = {code: place for place, code in enumerate(codes)}
+
+        def place(number: int) -> int:
+            version = students[number].sitting.version
+            return -1 if version is None else places[version.code]
+
+        return sorted(range(len(students)), key=place)
+
     def report(self, student: _Student, desk: Marker) -> StudentReport | None:
         """One student's report; None where nothing of it could be graded."""
         chosen = list(student.hand_ins.values()) or [[]]
@@ -192,6 +203,10 @@ class _Run:
     def _parts(
         self, slot: int, task: Task, desk: Marker, clock: "_Clock", version: "Printed | None"
     ) -> Iterator[MarkedPart]:
+        if version is not None and not isinstance(task.ref, str) and not task.entries and not self.rules.keys:
+            for label, of in version.worth[task.ref[1]].items():  # no problem is solved to say that it is missing
+                yield MarkedPart(task.name, label, "", missing(of), slot=slot)
+            return
         try:
             if perf_counter() - self._begun > RUN:
                 raise FileError(f"the run took more than {RUN:g} seconds; grade the rest in another one.")

@@ -11,6 +11,7 @@ from rldrill.exam.blueprint import Blueprint, Entry
 from rldrill.exam.exam import Exam, Person
 from rldrill.exam.manifest import codes, is_manifest, manifest, read_exam, read_manifest, typst_of, written
 from rldrill.exam.planning import plan
+from rldrill.files import LARGEST
 from rldrill.problems.errors import FileError
 
 
@@ -49,6 +50,11 @@ def test_the_exam_that_is_read_is_the_one_that_was_written(exam: Exam, path: Pat
     without, makes = read_exam(path)
     assert not without.versions
     assert makes[1]().code == "B"
+
+
+def test_the_manifest_of_many_versions_is_larger_than_what_students_hand_in(path: Path) -> None:
+    path.write_bytes(path.read_bytes() + b" " * LARGEST)
+    assert codes(path) == ("A", "B")
 
 
 def test_an_older_revision_is_made_from_its_givens(exam: Exam, path: Path) -> None:

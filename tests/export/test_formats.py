@@ -6,6 +6,7 @@ import re
 import shutil
 import sqlite3
 import subprocess
+import sys
 import zipfile
 from decimal import Decimal
 from functools import cache
@@ -184,15 +185,32 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert b"<details>" not in written("markdown", tmp_path, practice=False)
     problems = json.loads(written("json", tmp_path, practice=False))["versions"][0]["problems"]
     assert not any("answer" in part or "mistakes" in part for problem in problems for part in problem["parts"])
+    assert not any("id" in problem for problem in problems)  # whoever has the ID has the key
     (first, *_) = json.loads(written("json", tmp_path))["versions"][0]["problems"]
     assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
 
 
+def test_word_gets_a_title_headings_formulas_and_a_line_before_each_answer(tmp_path: Path) -> None:
+    pytest.importorskip("pypandoc")
+    content = written("docx", tmp_path)
+    with zipfile.ZipFile(io.BytesIO(content)) as document:
+        text = document.read("word/document.xml").decode()
+        about = document.read("docProps/core.xml").decode()
+    title = "Costs $5 &amp; &lt;b&gt;6&lt;/b&gt;"
+    shown = "".join(re.findall("<w:t[ >][^<]*", text)).replace(title, "", 1)
+    assert text.count('w:val="Title"') == 1
+    assert text.count('w:val="Heading1"') == len(PROBLEMS)
+    assert text.count("<m:oMath>") > 100
+    assert "$" not in shown
+    assert "\\" not in shown
+    assert text.count("Answer and working") == sum(len(exercise.parts) for exercise in exam().versions[0].exercises)
+    assert f"<dc:title>{title}</dc:title>" in about
+    assert written("docx", tmp_path) == content
+
+
 def test_word_needs_pandoc_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    if shutil.which("pandoc"):
-        with zipfile.ZipFile(io.BytesIO(written("docx", tmp_path))) as document:
-            assert b"<m:oMath>" in document.read("word/document.xml")
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setitem(sys.modules, "pypandoc", None)
     with pytest.raises(UsageError, match="made by pandoc, which is not installed"):
         written("docx", tmp_path)
 

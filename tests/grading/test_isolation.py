@@ -2,6 +2,8 @@
 
 import mmap
 import os
+import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -15,7 +17,7 @@ from rldrill.exam.manifest import manifest, written
 from rldrill.exam.planning import plan
 from rldrill.grading import isolation, marking, verification
 from rldrill.grading.assignment import Assignment
-from rldrill.grading.marking import Desk
+from rldrill.grading.marking import Desk, Rules
 from rldrill.grading.report import Score
 from rldrill.grading.verification import Settings, verify
 from rldrill.solutions.answers.judging import Verdict, judge
@@ -56,6 +58,20 @@ def test_a_crash_of_the_interpreter_is_that_students_alone(tmp_path: Path, monke
     points, (says,) = graded(tmp_path, RIGHT, "13", RIGHT)
     assert points == {"A": 1, "C": 1}
     assert "line 3: grading what was answered to td-zero/1/7@3 broke the interpreter down" in says
+
+
+def test_what_breaks_the_process_down_afterwards_costs_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    marked = isolation.Apart.mark
+
+    def killed(self: isolation.Apart, *task: Any) -> Any:
+        try:
+            return marked(self, *task)
+        finally:
+            self._process.kill()
+            self._process.join()
+
+    monkeypatch.setattr(isolation.Apart, "mark", killed)
+    assert graded(tmp_path, RIGHT, RIGHT, RIGHT) == ({"A": 1, "B": 1, "C": 1}, [])
 
 
 def test_an_endless_search_ends_with_that_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -151,16 +167,68 @@ def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeyp
 
 
 def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rldrill.grading.verification.RUN", 1.0)
-    hostile(monkeypatch, lambda: time.sleep(0.7))
     path = tmp_path / "a.csv"
+    path.write_text(f"{HEAD}A,td-zero/1/7,a,{RIGHT}\n")
+    assert verify([path]).exit_code == 0  # what is imported for it is there now
+    monkeypatch.setattr("rldrill.grading.verification.RUN", 1.3)
+    hostile(monkeypatch, lambda: time.sleep(0.7))
     path.write_text(HEAD + "".join(f"{number},td-zero/1/7,a,{13}\n" for number in range(3)))
     monkeypatch.setattr(marking, "_KEPT", -1)  # nothing is remembered, so that every answer takes its time
     begun = time.perf_counter()
-    report = verify([path], Settings(isolated=True))
+    report = verify([path], Settings(isolated=True, rules=Rules(causes=False)))
     assert time.perf_counter() - begun < 4
     assert len(report.students) == 2
-    assert "the run took more than 1 seconds; grade the rest in another one" in report.refused[0].says
+    assert "the run took more than 1.3 seconds; grade the rest in another one" in report.refused[0].says
+
+
+def test_only_the_problems_of_one_version_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    exam = plan(Blueprint(problems=(Asked(family="return", level=1, count=2),), versions=3, seed=5))
+    path = tmp_path / "exam.json"
+    path.write_bytes(written(manifest(exam)))
+    (tmp_path / "roster.csv").write_text("student,version\nA,C\nB,A\nC,C\nD,B\n")
+    answers = tmp_path / "a.csv"
+    answers.write_text(HEAD + "".join(f"{student},1,a,1\n" for student in "ABCD"))
+    loaded: list[tuple[str, int]] = []
+    make_room = Desk._make_room
+
+    def counted(desk: Desk, ref: tuple[str, int]) -> None:
+        loaded.append(ref)
+        make_room(desk, ref)
+        assert len(desk._problems) < 2
+
+    monkeypatch.setattr(Desk, "_make_room", counted)
+    report = verify([answers], Settings(assignment=Assignment(path, roster=tmp_path / "roster.csv")))
+    assert [student.student for student in report.students] == ["A", "B", "C", "D"]
+    assert loaded == [("A", 0), ("B", 0), ("C", 0)]  # each version once, and nothing that nobody answered
+
+
+def test_a_problem_of_the_exam_that_cannot_be_made_takes_no_other_with_it(tmp_path: Path) -> None:
+    data = manifest(plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(family="return", level=1)), seed=5)))
+    data["versions"][0]["problems"][1]["problem"]["family"] = "of-another-package"
+    path, answers = tmp_path / "exam.json", tmp_path / "a.csv"
+    path.write_bytes(written(data))
+    answers.write_text(f"{HEAD}A,1,a,{RIGHT}\nA,2,a,1\n")
+    report = verify([answers], Settings(assignment=Assignment(path), isolated=True))
+    assert [part.judged.verdict for part in report.parts][:2] == ["right", "not graded"]
+    (refused,) = report.refused
+    assert "version A, problem 2: There is no family 'of-another-package'" in refused.says
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere another judge is not inherited")
+def test_whoever_ends_the_grading_ends_its_marking_too(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"{HEAD}A,td-zero/1/7,a,13\n")
+    program = (
+        "import os, signal, sys, time\n"
+        "from rldrill.grading import marking, verification\n"
+        "def judge(*_):\n"
+        "    os.kill(os.getppid(), signal.SIGTERM)\n"
+        "    time.sleep(60)\n"
+        "marking.judge = judge\n"
+        "verification.verify([sys.argv[1]], verification.Settings(isolated=True))\n"
+    )
+    run = [sys.executable, "-c", program, str(tmp_path / "a.csv")]
+    done = subprocess.run(run, capture_output=True, timeout=30, check=False)  # the pipes close with the last process
+    assert done.returncode == -signal.SIGTERM
 
 
 def test_the_bounds_are_those_that_are_told() -> None:
@@ -168,4 +236,5 @@ def test_the_bounds_are_those_that_are_told() -> None:
     assert f"| solving one problem | {isolation.LOADING:g} s;" in told
     assert f"| grading one student | `--seconds`, {verification.STUDENT:g};" in told
     assert (verification.RUN, "| the whole run | one hour;" in told) == (3600, True)
+    assert f"come from | {marking.SEARCH:g} s a problem, {marking.ALL_SEARCHES:g} s in all;" in told
     assert f"| memory of marking | {isolation.MEMORY // 2**30} GB," in told

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+from fractions import Fraction
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
@@ -15,8 +16,13 @@ from junitparser import JUnitXml
 from typer.testing import CliRunner
 
 from rldrill.cli import app
+from rldrill.exam.blueprint import Blueprint
+from rldrill.exam.blueprint import Entry as Asked
+from rldrill.exam.manifest import manifest, written
+from rldrill.exam.planning import plan
+from rldrill.grading.assignment import Assignment
 from rldrill.grading.marking import Rules
-from rldrill.grading.report import FEEDBACK, Report
+from rldrill.grading.report import FEEDBACK, Report, Score
 from rldrill.grading.reports import data, github, gradescope, junit, page, tables
 from rldrill.grading.reports import text as text_report
 from rldrill.grading.verification import Settings, verify
@@ -114,6 +120,32 @@ def test_the_gradescope_results_fit_their_specification(report: Report, feedback
     assert bool(results["tests"]) == (feedback != "none")
 
 
+def test_the_same_under_two_names_earns_no_more_in_one_submission(tmp_path: Path) -> None:
+    for number, (name, answer) in enumerate([("Ann", "9"), ("Anna", "21/4"), ("A.", "21/4")]):
+        (tmp_path / f"{number}.csv").write_text(f"student,problem,part,answer\n{name},td-zero/1/7,a,{answer}\n")
+    report = verify(sorted(tmp_path.iterdir()))
+    assert [float(student.score.points) for student in report.students] == [0, 1, 1]
+    results = json.loads(gradescope.written(report, "reason"))
+    assert (results["score"], results["extra_data"]["of"], len(results["tests"])) == (0, 1, 1)
+    assert results["output"] == "td-zero/1/7@3 (a) is answered more than once; the first answer counts."
+
+
+def test_what_is_in_several_files_of_a_submission_counts_together(tmp_path: Path) -> None:
+    (tmp_path / "1.toml").write_text('"1" = "21/4"\n')
+    (tmp_path / "2.toml").write_text('["2"]\na = "10"\n')
+    blueprint = Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/7")), seed=7)
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    answers = sorted(tmp_path.glob("*.toml"))
+    results = json.loads(
+        gradescope.written(verify(answers, Settings(assignment=Assignment(tmp_path / "exam.json"))), "reason")
+    )
+    assert [(test["name"], test["score"]) for test in results["tests"]][:2] == [
+        ("problem 1 (a)", 1),
+        ("problem 2 (a)", 0),
+    ]
+    assert (results["score"], results["extra_data"]["of"], results["output"]) == (1, 3, "")
+
+
 def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: Report) -> None:
     lines = github.written(report, "reason").splitlines()
     assert len(lines) <= github.MOST
@@ -123,6 +155,17 @@ def test_annotations_are_ten_at_most_and_begin_no_commands_of_their_own(report: 
     table = github.summary(report, "reason")
     assert "<script" not in table
     assert table.count("\n| ") == 1 + len(report.students) + 1 + len(report.parts)
+
+
+def test_a_share_that_is_not_enough_is_never_shown_as_if_it_were() -> None:
+    shares = {
+        Fraction(1, 3): "33.3",
+        Fraction(5997, 10000): "59.97",
+        Fraction(1): "100",
+        Fraction(999999, 10**6): "99.9999",
+    }
+    assert {share: Score(60 * share, 60).percent() for share in shares} == shares
+    assert Score(Fraction(0), 0).percent() == "0"
 
 
 def test_no_cell_of_a_table_is_a_formula(report: Report) -> None:

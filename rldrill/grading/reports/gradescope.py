@@ -1,18 +1,19 @@
 """The report as Gradescope's ``results.json``: one submission, a test for every part."""
 
 import json
-from dataclasses import replace
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from rldrill.grading.report import Report
+from rldrill.grading.report import MISSING, MarkedPart, Report, StudentReport, total
 from rldrill.grading.reports.said import located, one_line
 
 
 def written(report: Report, feedback: str) -> str:
-    """The results of one submission; what is in several files of it counts together, and nobody else is in it."""
-    report = replace(report, students=tuple(student for student in report.students if student.paths))
-    score = report.score
+    """The results of one submission, whatever names stand in it: every part counts once, and nobody else is in it."""
+    handed_in = [student for student in report.students if student.paths]
+    parts, twice = _submitted(handed_in)
+    score = total(part.score for part in parts)
     factor = Fraction(1) if report.scale is None or not score.of else Fraction(report.scale, score.of)
     tests: list[dict[str, Any]] = [
         {
@@ -25,10 +26,11 @@ def written(report: Report, feedback: str) -> str:
             "visibility": "visible",
         }
         | ({} if feedback == "none" else {"status": "passed" if part.judged.accepted else "failed"})
-        for number, part in enumerate(report.parts, 1)
+        for number, part in enumerate(parts, 1)
     ]
     said = [refusal.says for refusal in report.refused]
-    said += [each for student in report.students for each in student.extra]
+    said += [each for student in handed_in for each in student.extra]
+    said += twice
     if feedback == "none":
         tests = []
         said.insert(0, "Your answers were read; the points are told later.")
@@ -39,11 +41,34 @@ def written(report: Report, feedback: str) -> str:
         "test_output_format": "text",
         "visibility": "hidden" if feedback == "none" else "visible",
         "stdout_visibility": "hidden",
-        "extra_data": {"of": score.of, "exact": str(score.points), "versions": _versions(report)},
+        "extra_data": {"of": score.of, "exact": str(score.points), "versions": _versions(handed_in[:1])},
         "tests": tests,
     }
     return json.dumps(results, ensure_ascii=False, indent=2) + "\n"
 
 
-def _versions(report: Report) -> list[str]:
-    return sorted({student.version for student in report.students if student.version})
+def _submitted(students: Sequence[StudentReport]) -> tuple[list[MarkedPart], list[str]]:
+    """The parts of one submission, each with its first answer; and what of it does not count.
+
+    Otherwise somebody who hands in the same twice under two names would have twice the points, and who guesses twice
+    would be right once.
+    """
+    found: dict[tuple[str, str], MarkedPart] = {}
+    said: dict[str, None] = {}
+    for student in students:
+        if student.version != students[0].version:
+            said[f"Only answers to version {students[0].version} count, and none to version {student.version}."] = None
+            continue
+        for part in student.parts:
+            before = found.setdefault((part.problem, part.part), part)
+            if before is part or part.judged.verdict == MISSING:
+                continue
+            if before.judged.verdict == MISSING:
+                found[part.problem, part.part] = part
+            else:
+                said[f"{part.problem} ({part.part}) is answered more than once; the first answer counts."] = None
+    return list(found.values()), list(said)
+
+
+def _versions(students: Sequence[StudentReport]) -> list[str]:
+    return [student.version for student in students if student.version]

@@ -3,6 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from html import escape
+from statistics import median
 
 from rldrill.grading.report import MISSING, NOT_GRADED, NOTHING, MarkedPart, Report
 from rldrill.grading.reports.said import one_line
@@ -23,12 +24,14 @@ def written(report: Report, feedback: str) -> str:
     """The page; it loads nothing from anywhere. Names are in it, and keys only where they are asked for."""
     title = report.title or "Answers"
     score, students = report.score, report.students
-    shares = sorted(student.score.share for student in students)
-    middle = float(100 * shares[len(shares) // 2]) if shares else 0.0
+    shares = [student.score.share for student in students]
+    middle = float(100 * median(shares)) if shares else 0.0
     passed = sum(map(report.passed, students))
     points = f"{float(score.points):g} of {score.of} points"
     absent = sum(not student.paths for student in students)
-    head = f"{len(students)} students, {points}, median {middle:.3g} %, {passed} passed"
+    head = (
+        f"{len(students)} student{'' if len(students) == 1 else 's'}, {points}, median {middle:.3g} %, {passed} passed"
+    )
     head += f", {absent} {NOTHING}" if absent else ""
     body = [f"<h1>{_text(title)}</h1>", f"<p>{head}.</p>"]
     body += ["<h2>Points</h2>", _histogram([float(share) for share in shares])]
@@ -122,7 +125,7 @@ def _totals(report: Report) -> Iterable[tuple[str, ...]]:
         points = f"{float(score.points):g} of {score.of}"
         scaled = report.scaled(student)
         more = () if scaled is None else (f"{float(scaled.points):.6g} of {scaled.of}",)
-        share = f"{float(100 * score.share):.3g}"
+        share = score.percent()
         yield (student.student, student.number, student.version, points, share, *more, student.remark)
 
 

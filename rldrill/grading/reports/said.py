@@ -1,7 +1,7 @@
 """What is said of one part, as far as a report tells it."""
 
-from rldrill.grading.answers_file import JOINERS
 from rldrill.grading.report import FEEDBACK, MarkedPart
+from rldrill.spreadsheet import JOINERS
 
 
 def sentence(part: MarkedPart, feedback: str) -> str:

@@ -36,7 +36,7 @@ def totals(report: Report) -> str:
     rows = (
         [
             student.student, student.number, student.version, f"{float(student.score.points):.6g}",
-            str(student.score.of), f"{float(100 * student.score.share):.4g}", *_scaled(report, student),
+            str(student.score.of), student.score.percent(4), *_scaled(report, student),
             "yes" if report.passed(student) else "no", student.remark,
         ]
         for student in report.students

@@ -40,4 +40,4 @@ def earned(report: Report, student: StudentReport) -> str:
 
 def points(score: Score) -> str:
     """The points, with their share."""
-    return f"{score.points} of {score.of} ({float(100 * score.share):.3g} %)"
+    return f"{score.points} of {score.of} ({score.percent()} %)"
