@@ -284,7 +284,14 @@ class PolicyAnswer(Answer[parts.Policy]):
         return {state: value[state] for state in self.kind.actions}
 
     def read(self, text: str, allowed: Allowed) -> dict[str, Cell]:
-        return dict(read_words(text, tuple(self.kind.actions), self.kind.actions, allowed.ends, allowed.longest))
+        asked = tuple(self.kind.actions), self.kind.actions, allowed.ends, allowed.longest
+        try:
+            return dict(read_words(text, *asked))
+        except Unreadable:
+            _, sign, chosen = text.replace(":", "=").partition("=")
+            if self.kind.of or not sign:
+                raise
+        return dict(read_words(chosen, *asked))  # whatever the choice is called: a₇ = blue
 
     def value(self, cells: Mapping[str, Any]) -> Any:
         return {state: (action,) if isinstance(action, str) else tuple(action) for state, action in cells.items()}

@@ -8,7 +8,7 @@ from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import ONE, ZERO, NoSolution, Value, exact, sign, to_sympy
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import Q as ActionValue
 from rldrill.solutions.formula.notation import V, numbered
 from rldrill.solutions.greedy import taken
@@ -17,9 +17,9 @@ from rldrill.solutions.oracle import Answers, at, best_actions, lookahead, tenso
 from rldrill.solutions.sheet.bellman import FORGOT_GAMMA, OPTIMAL_Q_BY_REWARD
 from rldrill.solutions.sheet.dynamic_programming import (
     MEAN_FOR_MAX,
-    Q_OF_VALUES,
     SWEEP_OVER_ACTIONS,
     VALUE_ITERATION,
+    ahead_of,
     greedy,
     synchronous,
 )
@@ -48,7 +48,7 @@ def solve(
             values = values | {state: work.step(formula, s=state, V=V_k, into=numbered(V, sweep), **known)}
     values |= work.answer({state: values[state] for state in mdp.states})
     if given.tie:
-        _tie(given.tie, work, known | {"V": values})
+        _tie(given.tie, work, ahead_of(given.sweeps), known | {"V": values})
         return
     work.say(f"The greedy policy $π$ for $V_{{{given.sweeps}}}$, which need not be an optimal policy yet:")
     best = {state: work.step(greedy(given.sweeps)[0], s=state, V=values, **known) for state in mdp.states}
@@ -56,17 +56,17 @@ def solve(
     work.answer(best)
 
 
-def _tie(state: str, work: Work, known: dict[str, Any]) -> None:
+def _tie(state: str, work: Work, worth_of: Formula, known: dict[str, Any]) -> None:
     """The discount with which both actions of a state are worth the same, and which is worth more below it."""
     actions = known["actions"][state]
-    worth = [work.step(Q_OF_VALUES, s=state, a=action, **known) for action in actions]
+    worth = [work.step(worth_of, s=state, a=action, **known) for action in actions]
     work.say("Both are greedy where these are equal:")
     gamma = work.equate("gamma", *worth)
     if sign(gamma) <= 0 or sign(ONE - gamma) < 0:
         raise NoSolution(f"with no discount from 0 to 1 are both actions in {state!r} greedy; change a reward")
     below = work.answer(gamma) / 2
     work.say(f"With a smaller discount, such as $γ = {to_sympy(below)}$:")
-    first, second = (work.step(Q_OF_VALUES, s=state, a=action, **known | {"gamma": below}) for action in actions)
+    first, second = (work.step(worth_of, s=state, a=action, **known | {"gamma": below}) for action in actions)
     letter = "A" if sign(first - second) > 0 else "B"
     work.say(f"So {actions['AB'.index(letter)]} is greedy then.")
     work.answer(letter)

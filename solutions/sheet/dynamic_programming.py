@@ -337,6 +337,15 @@ def greedy(sweeps: int) -> tuple[Formula, Formula]:
 
 
 @cache
+def ahead_of(sweeps: int) -> Formula:
+    """The value of an action by the values of states after so many sweeps."""
+    V_k = numbered(V, sweeps)
+    with evaluate(False):
+        ahead = SumOver(P(s, a, s1) * (R(s, a, s1) + gamma * V_k(s1)), s1, Successors(s, a))
+        return replace(Q_OF_VALUES, right=ahead)
+
+
+@cache
 def of_round(number: int) -> tuple[Formula, Formula, Formula]:
     """Evaluation, improvement and the values of actions in the symbols of a round of policy iteration: V^{π₀}, π₀."""
     policy = numbered(pi, number)

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 
-from rldrill.problems.exact import Scalar
+from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.temporal_difference.eligibility_trace import Given
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact, to_sympy, value_at
+from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, reading, tried, with_letter
@@ -17,8 +18,9 @@ from rldrill.solutions.sheet.temporal_difference import (
     INCREMENT_FIRST,
     REPLACING,
     REPLACING_TRACE,
+    e,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Result, Work
 
 MISCONCEPTIONS = (DECAY_WITHOUT_GAMMA, DECAY_WITHOUT_LAMBDA, REPLACING, INCREMENT_FIRST, ACCUMULATING)
 
@@ -27,11 +29,15 @@ def solve(given: Given, work: Work) -> None:
     """Step by step; where a trace is known, first what was left open, then the traces with it."""
     read: Callable[[Scalar], Value] = exact
     asked: Sequence[int] = given.asked
+    traces, start = dict.fromkeys(given.visited, ZERO), 0
     if given.known is not None:
         first, *asked = given.asked
-        letter = find(given, work, _traces(given, work, exact, range(first + 1), {})[given.states[0]])
-        read = reading(letter)
-    traces, start = dict.fromkeys(given.visited, ZERO), 0
+        found = _traces(given, work, exact, range(first + 1), {})
+        letter = find(given, work, found[given.states[0]])
+        read, start = reading(letter), first + 1
+        traces |= {state: value_at(value, letter) for state, value in found.items()}
+        work.say(f"With ${shown(Parameter(given.letter))} = {to_sympy(letter)}$, after the update at $t = {first}$:")
+        work.lines.append(Result(tuple(e(put_in_name(state)) for state in found), tuple(traces[s] for s in found)))
     for time in asked:
         traces = work.answer(_traces(given, work, read, range(start, time + 1), traces))
         start = time + 1

@@ -201,7 +201,9 @@ def test_answers_are_read_as_they_are_printed(name: str) -> None:
         for part in solution.problem.parts:
             if isinstance(part.kind, Values | Numbers | Policy):
                 lines = answer_kind(part.kind).lines(solution.answers[part.label])
-                printed = "; ".join(f"{unicode(left)} = {unicode(right)}" for left, right in lines if left)
+                printed = "; ".join(
+                    f"{unicode(left)} = {unicode(right)}" if left else unicode(right) for left, right in lines
+                )
                 assert judge(solution, part.label, printed).outcome is Outcome.RIGHT, printed
 
 

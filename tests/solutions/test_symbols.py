@@ -140,3 +140,11 @@ def test_a_visit_without_a_time_has_no_t() -> None:
     lines = working(read({"family": "sample-average", "given": given}))
     assert lines == ["n(s) ← n(s) + 1", "n(a) ← 4 + 1 = 5", "V(s) ← V(s) + (R − V(s))/n(s)",
                      "V(a) ← 4 + (9 − 4)/5 = 4 + 5/5 = 5"]  # fmt: skip
+
+
+@pytest.mark.parametrize("typed", ["blue", "next: blue", "a_7 = blue", "a7 = blue", "arm: blue"])
+def test_a_single_choice_may_be_called_anything(typed: str) -> None:
+    pulls = [["blue", 4], ["red", 1]]
+    exercise = read({"family": "bandit", "given": {"pulls": pulls}})
+    assert exercise.check(typed, "b").says == "Right."
+    assert not exercise.check(typed.replace("blue", "red"), "b").accepted
