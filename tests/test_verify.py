@@ -21,7 +21,7 @@ from rldrill.grading.report import MarkedPart, Report, Score
 from rldrill.grading.verification import Settings
 from rldrill.grading.verification import verify as verify_with
 from rldrill.problems.catalogue import family
-from rldrill.problems.errors import FileError, NothingToGrade
+from rldrill.problems.errors import FileError, NothingToGrade, UsageError
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -522,6 +522,12 @@ def test_the_table_says_what_is_wrong_in_words(folder: Path) -> None:
 def test_a_share_of_the_points_is_enough(folder: Path, enough: str, code: int) -> None:
     path = write(folder, "third.toml", '["return.toml"]\na = "1/4"\nb = "1"\n["td.toml"]\na = 1\n')  # one of three
     assert run(path, "--pass", enough)[0] == code
+
+
+@pytest.mark.parametrize("enough", ["half", "101%", "1/0", "-1%", "1.01"])
+def test_what_is_no_share_of_the_points_is_refused(folder: Path, enough: str) -> None:
+    with pytest.raises(UsageError, match="no share of the points"):
+        CliRunner().invoke(app, ["--pass", enough, str(folder / "td.toml")], catch_exceptions=False)
 
 
 @pytest.mark.parametrize("columns", ["40", "60", "80"])
