@@ -7,10 +7,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices
-from rldrill.solutions.exact import ZERO, Value, exact
+from rldrill.solutions.exact import ZERO, Value, exact, to_sympy
 from rldrill.solutions.formula.formula import Misconception, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
+from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.linear_methods import Quadratic
 from rldrill.solutions.slips import right_answers
 from rldrill.solutions.work import Work
@@ -42,6 +43,14 @@ def gain(work: Work, lqr: Quadratic, **known: Any) -> Any:
     work.reading(lqr.gain)
     H, G = work.step(lqr.bracket, **known), work.step(lqr.product, **known)
     return work.step(lqr.solved, Ht={t: H}, Gt={t: G}, **known)
+
+
+def with_price(work: Work, lqr: Quadratic, gain: matrices.AnyMatrix, price: Value) -> matrices.AnyMatrix:
+    """The gain of the time 0 with the price put in that was found."""
+    work.say(f"With $ρ = {to_sympy(price)}$ the gain is:")
+    priced = matrices.matrix([with_found(entry, price) for entry in line] for line in gain.tolist())
+    work.give(lqr.gain, priced, t=0)
+    return priced
 
 
 def start(given: LinearQuadratic) -> matrices.AnyMatrix:

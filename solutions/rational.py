@@ -158,6 +158,19 @@ def generator(parameter: str) -> RationalFunction:
     return RationalFunction(parameter, fmpq_poly([0, 1]), _ONE)
 
 
+def with_found(value: Value, found: Value) -> Value:
+    """A value with what was found for its parameter put in.
+
+    Raises:
+        NoSolution: no rational number was found, or the value has a pole there.
+    """
+    if not isinstance(value, RationalFunction):
+        return value
+    if not isinstance(found, fmpq):
+        raise NoSolution(f"no rational number was found for {value.parameter}")
+    return value(found)
+
+
 def linear(value: Value, parameter: str) -> tuple[Value, Value]:
     """The a and b for which a·x + b = 0 where the value, a function of the parameter x, is zero.
 

@@ -6,11 +6,12 @@ from typing import Any
 from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
-from rldrill.solutions.exact import Value, exact
-from rldrill.solutions.matrices import AnyMatrix, identity, matrix
+from rldrill.solutions.exact import Value, exact, to_sympy
 from rldrill.solutions.matrices import given as given_matrix
+from rldrill.solutions.matrices import identity, matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.bayes import (
     GAIN_ON_PREDICTION,
     KALMAN_COVARIANCE,
@@ -70,20 +71,15 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     (event,) = given.steps
     known |= {"moved": {1: given_matrix(given.command(event))}, "read": {1: given_matrix(event.z or ())}}
 
-    def widened() -> AnyMatrix:
-        moved: AnyMatrix = work.step(KALMAN_MOVE_COVARIANCE, **known)
-        return moved
-
-    known["covariance_bar"] = {1: widened()}
+    known["covariance_bar"] = {1: work.step(KALMAN_MOVE_COVARIANCE, **known)}
     known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
     after = work.step(KALMAN_COVARIANCE, **known)[0, 0]
-    found = matrix([[work.answer(work.equate("w", after, variance))]])
-    moving = isinstance(given.process[0][0], Parameter)
-    known["Ri" if moving else "Qi"] = found
+    found = work.answer(work.equate("w", after, variance))
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
-    if moving:  # that of the sensor says nothing of the prediction
-        known["covariance_bar"] = {1: widened()}
-    known["Kt"] = {1: work.step(KALMAN_GAIN, **known)}
+    gain = matrix([[with_found(known["Kt"][1][0, 0], found)]])
+    work.say(f"With $w = {to_sympy(found)}$ the gain is:")
+    work.give(KALMAN_GAIN, gain, t=1)
+    known["Kt"] = {1: gain}
     work.answer(work.step(KALMAN_MEAN, **known)[0, 0])
 
 

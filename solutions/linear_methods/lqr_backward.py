@@ -5,7 +5,7 @@ from typing import Any
 
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_backward import Given
-from rldrill.solutions import linear_quadratic, matrices
+from rldrill.solutions import linear_quadratic
 from rldrill.solutions.exact import NoSolution, exact
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.matrices import AnyMatrix
@@ -38,17 +38,18 @@ def solve(given: Given, work: Work) -> None:
     P = {given.horizon: work.step(lqr.terminal, T=given.horizon, **known)}
     start = {0: linear_quadratic.start(given)}
     if given.action is not None:
-        action = work.step(lqr.action, t=0, Lt={0: _gain(lqr, work, 0, Pt=P, **known)}, St=start)
+        gain = _gain(lqr, work, 0, Pt=P, **known)
+        action = work.step(lqr.action, t=0, Lt={0: gain}, St=start)
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
-        known["Rt"] = dict.fromkeys(known["Rt"], matrices.matrix([[price]]))
-    L: dict[int, Any] = {}
+        priced = work.answer(linear_quadratic.with_price(work, lqr, gain, price))
+        work.answer(work.step(lqr.riccati, t=0, Pt=P, Lt={0: priced}, **known))
+        return
     for time in reversed(range(given.horizon)):
         L = {time: _gain(lqr, work, time, Pt=P, **known)}
         L = {time: work.answer(L[time])} if time in given.asked else L
         P = P | {time: work.step(lqr.riccati, t=time, Pt=P, Lt=L, **known)}
         P = P | {time: work.answer(P[time])} if time in given.asked else P
-    if given.action is None:
-        work.answer(work.step(lqr.action, t=0, Lt=L, St=start))
+    work.answer(work.step(lqr.action, t=0, Lt=L, St=start))
 
 
 def _formulas(given: Given) -> Quadratic:

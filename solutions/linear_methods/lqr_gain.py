@@ -5,12 +5,11 @@ from typing import Any
 
 from rldrill.problems.linear_methods.lqr_gain import Given
 from rldrill.solutions import linear_quadratic
-from rldrill.solutions.exact import NoSolution, Value, exact, is_rational, to_sympy
-from rldrill.solutions.matrices import column, matrix
+from rldrill.solutions.exact import exact
+from rldrill.solutions.matrices import column
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
-from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.sheet.linear_methods import FORGOT_R, LQR_GAIN, POSITIVE_S, TRANSPOSED_A, in_costs, quadratic
 from rldrill.solutions.work import Work
 
@@ -32,23 +31,11 @@ def solve(given: Given, work: Work) -> None:
     if given.action is not None:
         action = work.step(lqr.action, t=0, Lt={0: L}, St={0: start})
         price = work.answer(work.equate("rho", action[0, 0], exact(given.action)))
-        work.say(f"With $ρ = {to_sympy(price)}$ the gain is:")
-        priced = matrix([[_at(entry, price) for entry in line] for line in L.tolist()])
-        work.give(lqr.gain, priced, t=0)
-        work.answer(priced)
+        work.answer(linear_quadratic.with_price(work, lqr, L, price))
         return
     L = work.answer(L)
     if start is not None:
         work.answer(work.step(lqr.action, t=0, Lt={0: L}, St={0: start}))
-
-
-def _at(entry: Value, price: Value) -> Value:
-    """An entry of the gain for a price that was left open in it."""
-    if not isinstance(entry, RationalFunction):
-        return entry
-    if not is_rational(price):
-        raise NoSolution("the price that was found is no rational number")
-    return entry(price)
 
 
 def oracle(given: Given) -> Answers:

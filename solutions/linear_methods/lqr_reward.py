@@ -6,10 +6,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import exact, to_sympy
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
+from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.linear_methods import (
     ACTION_FIRST,
     COST_FOR_REWARD,
@@ -52,8 +53,10 @@ def solve(given: Given, work: Work) -> None:
         work.answer(J)
         return
     price = work.answer(work.equate("rho", J, exact(given.total)))
-    known["Rt"] = dict.fromkeys(known["Rt"], matrices.matrix([[price]]))
-    work.answer(linear_quadratic.number(work.step(reward_of, t=0, **known)))
+    work.say(f"With $ρ = {to_sympy(price)}$ the first reward is:")
+    first = with_found(rewards[0], price)
+    work.give(reward_of, first, t=0)
+    work.answer(first)
 
 
 def _rollout(given: Given) -> tuple[Formula, Formula]:

@@ -110,7 +110,7 @@ def test_the_rotation_and_the_origin_of_a_pose_are_worked_out_in_parts_of_their_
         solution = draw("denavit-hartenberg", 2, seed)
         if solution.problem.given.asked == "pose":  # type: ignore[attr-defined]
             rotation, origin = points(solution).values()
-            assert origin < rotation <= 2 * origin
+            assert 2 <= origin <= rotation <= 3 * origin
 
 
 def test_the_numbers_of_a_maml_step_grow_with_the_level() -> None:

@@ -457,3 +457,15 @@ def test_matrices_that_are_not_asked_for_are_worked_out_where_they_are_needed() 
             assert "A_Δ" in str(exercise.working("b"))
             return
     raise AssertionError
+
+
+@pytest.mark.parametrize("name", ["lqr-gain", "lqr-backward", "lqr-reward"])
+def test_what_was_worked_out_with_a_price_is_not_worked_out_again(name: str) -> None:
+    """The price that was found is put into the gain or the reward in which it was left open."""
+    for seed in range(40):
+        exercise = rldrill.draw(name, 3, seed)
+        if "price" in exercise.parts[0].ask:
+            assert not any(isinstance(line, Step) for line in exercise.solution.lines_of("b"))
+            assert exercise.parts[1].points == 1
+            return
+    raise AssertionError
