@@ -4,7 +4,7 @@ import pytest
 from rich.console import Group
 
 from rldrill.exercise import draw
-from rldrill.problems.catalogue import chosen, family
+from rldrill.problems.catalogue import families, family
 from rldrill.render.terminal import asked, console, render
 
 #: The lines that a third of a page holds.
@@ -19,7 +19,6 @@ LONGEST = (
     ("policy-evaluation", 2, 27),
     ("bellman-residual", 2, 26),
 )
-TOPICS = ("fundamentals", "bellman", "dynamic-programming", "temporal-difference", "control")
 
 
 def lines(name: str, level: int, seed: int) -> int:
@@ -37,6 +36,6 @@ def test_the_longest_draws_fit(name: str, level: int, seed: int) -> None:
     assert lines(name, level, seed) <= MOST
 
 
-@pytest.mark.parametrize("name", chosen(TOPICS))
+@pytest.mark.parametrize("name", families())
 def test_every_family_fits_at_every_level(name: str) -> None:
     assert all(lines(name, level, 5) <= MOST for level in family(name).levels)
