@@ -173,7 +173,7 @@ def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") 
         of: how they are called.
     """
     state, action, value = outcome
-    sought = f"{_CALLED[given.asked_for]} ${PARAMETERS[given.asked_for]}$"
+    sought = f"{_CALLED.get(given.asked_for, 'value of')} ${PARAMETERS[given.asked_for]}$"
     rival = next((other for other, worth in table[state].items() if other != action and worth == value), None)
     if rival and (state, rival) not in given.updated:
         pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{rival}")$'

@@ -262,7 +262,8 @@ class Diagnosing:
         self.finish()
         typed = self._typed(label, text)
         clock = Clock(seconds)
-        for carried in ({}, earlier) if earlier else ({},):
+        gone_on = [earlier] if earlier and self.solution.following(earlier) else []  # from some nothing follows
+        for carried in ({}, *gone_on):
             found = explained(self.outcomes(label, carried), typed, clock)
             if found.causes:
                 return _told(found, self.search(carried).applications)

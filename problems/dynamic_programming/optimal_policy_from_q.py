@@ -42,13 +42,13 @@ class Given(Givens):
         open_rows = [row[:2] for row in self.missing.transitions if isinstance(row.reward, Parameter)]
         if super().parameters() and (len(open_rows) != 1 or open_rows[0] != self.gaps[-1]):
             raise ValueError("missing: only one reward of the last action there can be left open")
-        if super().parameters() and len(self.values[open_rows[0][0]]) == 0:
-            raise ValueError("values: another action of the state is needed, to compare what is left open with")
         for state, action in self.missing.pairs:
             if state not in self.values:
                 raise ValueError(f"values: {state!r} does not occur; give it there, if need be as an empty table")
             if action in self.values[state]:
                 raise ValueError(f"missing: {action!r} in {state!r} has a value already")
+        if super().parameters() and len(self.values[open_rows[0][0]]) == 0:
+            raise ValueError("values: another action of the state is needed, to compare what is left open with")
         self._check_rows()
         for row in self.missing.transitions:
             if row.next not in self.values and row.next not in self.terminal:

@@ -83,7 +83,7 @@ def _symbol(expression: sympy.Basic, step: Step) -> Equation | None:
         return None
     try:
         value = value_of(expression, step.known)
-        if isinstance(value, str | tuple | dict) or (is_matrix(value) and value.nrows() * value.ncols() > 1):
+        if isinstance(value, str | tuple | list | dict) or (is_matrix(value) and value.nrows() * value.ncols() > 1):
             return None  # a state, a set or a table stands in the question
         rights = dict.fromkeys((typeset(indexed(expression, step.known)), shown_value(value)))
     except (NotGiven, NoSolution, KeyError, TypeError, AttributeError):

@@ -45,10 +45,14 @@ def how_to_type(kind: Kind, parameters: Sequence[str] = ()) -> str:
 
 
 def by_name(says: str, kind: Kind) -> str:
-    """A sentence in which the entries of a vector have the names that the question gives them, not their numbers."""
+    """A sentence in which the entries of a vector have the names that the question gives them, not their numbers.
+
+    What was typed may have more entries than are asked for; those have no names.
+    """
     if not isinstance(kind, Numbers):
         return says
-    return _ENTRY.sub(lambda found: _written(kind.entries[int(found[1]) - 1]), says)
+    names = {str(number): _written(entry) for number, entry in enumerate(kind.entries, 1)}
+    return _ENTRY.sub(lambda found: names.get(found[1], found[0]), says)
 
 
 def _exact(parameters: Sequence[str]) -> str:

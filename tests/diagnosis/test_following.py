@@ -1,8 +1,12 @@
 """Somebody's own working, held against the right one."""
 
+from collections import Counter
+from fractions import Fraction
+
 import pytest
 
 import rldrill
+from rldrill.solutions.diagnosis.written_line import numbers_typed
 
 # As in test_diagnosing.py: cave ← 10, floor ← 5, cave ← 17/4.
 RUN = {
@@ -106,3 +110,16 @@ def test_what_follows_from_a_wrong_matrix_is_told() -> None:
     assert [line.standing for line in followed.lines] == ["right", "departs", "follows"]
     assert followed.lines[1].step == 2
     assert followed.lines[1].kind == "sign"
+
+
+@pytest.mark.parametrize(
+    ("line", "numbers"),
+    [
+        ("8 + 1/2*(8 + 1/2*8 - 8)", {8: 4, Fraction(1, 2): 2}),
+        ("0 + 1*(3 - 2) - 2", {3: 1, 2: 2}),  # a person leaves zeros and ones out, so they tell nothing
+        ("-4/3 - 4", {Fraction(4, 3): 1, 4: 1}),
+        ("17/4", None), ("-6", None), ("8 + ", None),
+    ],
+)  # fmt: skip
+def test_a_line_is_known_by_its_numbers(line: str, numbers: dict[Fraction, int] | None) -> None:
+    assert numbers_typed(line) == (None if numbers is None else Counter(numbers))

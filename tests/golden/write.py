@@ -19,9 +19,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "shared"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "diagnosis"))
 import pinned as diagnoses
 
-from identities import digests
 from limits import limits
-from printing import page
+from printing import SAID, page
 from rldrill.audit.checking import agrees
 from rldrill.exam.expected import COUNTED, VARIETY
 from rldrill.exam.expected import FILE as MINUTES
@@ -36,7 +35,6 @@ PAGES = Path(__file__).with_name("pages")
 SCREENS = Path(__file__).with_name("screens")
 PROBLEMS = Path(__file__).with_name("problems.json")
 FIELDS = Path(__file__).with_name("fields.json")
-IDENTITIES = Path(__file__).with_name("identities.json")
 DIAGNOSES = Path(__file__).with_name("diagnoses.json")
 PINNED = range(2)
 MEASURED = range(15)
@@ -64,7 +62,7 @@ def rewrite(path: Path, names: Iterable[str], new: Mapping[str, Any]) -> None:
 
 chosen = [family(name) for name in sys.argv[1:] or families()]
 wanted = {known.name for known in chosen}
-drawn = [draw(known.name, level, seed) for known in chosen for level in known.levels for seed in PINNED]
+drawn = [(known.name, level, seed) for known in chosen for level in known.levels for seed in range(SAID)]
 times = {
     known.name: [
         whole(median(minutes(draw(known.name, level, seed).solution) for seed in MEASURED)) for level in known.levels
@@ -72,10 +70,10 @@ times = {
     for known in chosen
 }
 varieties = {known.name: [variety(known.name, level, COUNTED) for level in known.levels] for known in chosen}
-rewrite(PROBLEMS, wanted, {str(exercise.id): pinned(exercise) for exercise in drawn})
+confirmed = [(seed, exercise.id, pinned(exercise)) for *level, seed in drawn for exercise in [draw(*level, seed)]]
+rewrite(PROBLEMS, wanted, {key: line for seed, key, line in confirmed if seed in PINNED})
 rewrite(MINUTES, wanted, times)
 rewrite(VARIETY, wanted, varieties)
-rewrite(IDENTITIES, wanted, {key: line for known in chosen for key, line in digests(known).items()})
 rewrite(DIAGNOSES, wanted, {key: line for known in chosen for key, line in diagnoses.pinned(known).items()})
 rewrite(FIELDS, wanted, {known.name: limits(known) for known in chosen})
 for kind in WIDTHS:

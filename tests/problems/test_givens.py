@@ -160,6 +160,8 @@ EXPERT: dict[str, Any] = {"expert": [2, 2], "first": [0, 0], "policies": [[4, 0]
         ("linearise", TANK | {"dynamics": {"e": "1"}}, "given.dynamics: 'e' is the number e; write another letter"),
         ("linearise", TANK | {"dynamics": {"t": "1"}}, "given.dynamics: 't' is the time; write another letter"),
         ("linearise", TANK | {"picture": "x"}, "given.picture: 'x' is not possible here; write 'pendulum'"),
+        ("optimal-policy-from-q", {"values": {"a": {"x": 1}}, "missing": {"transitions": [["b", "x", "a", 1, "x"]]},
+                                   "gamma": 1}, "values: 'b' does not occur; give it there"),
     ],
 )  # fmt: skip
 def test_one_plain_sentence_names_the_field(name: str, given: Any, says: str) -> None:
@@ -206,3 +208,15 @@ def test_the_kinds_of_a_union_are_its_models() -> None:
 
     assert family("bandit").kinds == (Estimates, Bounds, Balance, Preferences)
     assert family("bayes-rule").kinds == (Given,)
+
+
+def test_a_rate_may_be_left_open_under_any_letter() -> None:
+    # 10 + 1/2·(4 + θ·6 − 10) = 9 for θ = 2/3
+    run = {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [4]}
+    values = {"a": {"x": 10, "y": 2}, "b": {"x": 8, "y": 6}}
+    outcome = ["a", "x", 9]
+    for letter, asked in (("gamma", "discount $γ$"), ("theta", "value of $θ$")):
+        given = {"trajectory": run, "values": values, "alpha": "1/2", "gamma": letter, "outcome": outcome}
+        exercise = rldrill.read({"family": "sarsa", "given": given})
+        assert asked in exercise.parts[0].ask
+        assert exercise.check("2/3").accepted

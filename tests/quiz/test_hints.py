@@ -29,3 +29,18 @@ def test_what_is_found_on_the_way_is_no_symbol_that_is_told_before() -> None:
     assert "Hₜ" not in symbols
     assert "−5" not in symbols
     assert "−5" in "".join(working)
+
+
+def test_states_that_a_sum_runs_over_are_no_symbol_to_tell() -> None:
+    # d(a) = d(b) and d(b) = d(a): every state is reached from the other one.
+    mdp = {"transitions": [["a", "go", "b", 1, 2], ["b", "go", "a", 1, 4]]}
+    exercise = rldrill.read({"family": "policy-value", "given": {"mdp": mdp, "average": True}})
+    for part in exercise.parts:
+        assert len(rungs(exercise, part.label)) > 1
+
+
+def test_every_family_has_hints_to_every_part() -> None:
+    for name in rldrill.families():
+        for level in (1, 2, 3):
+            exercise = rldrill.draw(name, level, 5015)
+            assert all(ladder(exercise, part.label) for part in exercise.parts)

@@ -95,3 +95,4 @@ def test_an_entry_is_called_what_the_question_calls_it() -> None:
     deltas = Numbers(("δ_0", "δ_1"))
     assert by_name("Not right at entry 2; the rest is right.", deltas) == "Not right at δ₁; the rest is right."
     assert by_name("Not right at entry 2.", Number()) == "Not right at entry 2."
+    assert by_name("entry 3: 'x' is not understood.", deltas) == "entry 3: 'x' is not understood."  # two are asked for

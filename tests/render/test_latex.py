@@ -2,6 +2,8 @@
 
 from rldrill.problems.mathematics import mathematics
 from rldrill.render.mathematics.latex import latex_plain, latex_typed, typed
+from rldrill.render.pictures.scene import Curve, Scene
+from rldrill.render.pictures.tikz import drawn
 
 
 def test_what_only_unicode_has_is_spelled_and_what_everybody_has_is_not() -> None:
@@ -11,3 +13,10 @@ def test_what_only_unicode_has_is_spelled_and_what_everybody_has_is_not() -> Non
 
 def test_raised_and_lowered_signs_of_a_sentence_are_mathematics() -> None:
     assert latex_plain("r₁ ≤ 2γ") == r"r\ensuremath{_1} \ensuremath{\le} 2\ensuremath{\gamma}"
+
+
+def test_a_quadratic_curve_is_the_cubic_one_that_tikz_draws() -> None:
+    # both ends two thirds of the way to the control point: (2, 4) from (0, 0) and (4, 4) from (6, 0)
+    assert "(0.00,0.00) .. controls (2.00,4.00) and (4.00,4.00) .. (6.00,0.00)" in drawn(
+        Scene((Curve((0, 0), (3, 6), (6, 0)),))
+    )

@@ -3,22 +3,26 @@
 import hashlib
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from rich.console import Console, RenderableType
 
 from rldrill.exercise import Exercise, draw
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.family import Family
+from rldrill.render.html import Html
+from rldrill.render.latex import latex_document
 from rldrill.render.markdown import markdown
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.render.terminal import asked, render
 from rldrill.render.typst import document
 from rldrill.solutions.answers.key import answer_lines
 from rldrill.solutions.answers.kinds import answer_kind
+from rldrill.solutions.solution import Solution
 
-#: As many problems of a level are held to what they were, and as many to how they look; one of them is shown.
-DRAWN, SEEN = 20, 4
+#: As many problems of a level are held to what they were, as many to what is said and solved, as many to how they look.
+DRAWN, SAID, SEEN = 20, 10, 4
 
 
 def page(family: Family) -> str:
@@ -27,23 +31,44 @@ def page(family: Family) -> str:
 
 
 def _level(family: Family, level: int) -> str:
-    exercise = draw(family.name, level, 0)
     exercises = [draw(family.name, level, seed) for seed in range(DRAWN)]
+    exercise, said, seen = exercises[0], exercises[:SAID], exercises[:SEEN]
     drawn = [each.problem.data() for each in exercises]
-    seen = [document(each.question()) for each in exercises[:SEEN]]
     everything = [*exercise.question(), *(Paragraph(part.ask) for part in exercise.parts), *exercise.working()]
+    pictured = [block for each in seen for block in each.question()]
     return "\n".join(
         [
             f"{'=' * 20} {exercise.id}",
             _shown(exercise),
             f"drawn {_digest(json.dumps(drawn, sort_keys=True))}",
-            f"seen {_digest(''.join(seen))}",
+            f"asked {_digest(json.dumps([_asked(each) for each in said]))}",
+            f"solved {_digest(json.dumps([_solved(each) for each in said]))}",
+            f"seen {_digest(''.join(document(each.question()) for each in seen))}",
+            f"terminal {_digest(''.join(_terminal(each.question(), 80) for each in seen))}",
             f"narrow {_digest(_terminal(everything, 48))}",
             f"typst {_digest(document(tuple(everything)))}",
             f"markdown {_digest(markdown(tuple(everything)))}",
+            f"latex {_digest(latex_document([*everything, *pictured]))}",
+            f"html {_digest(Html().blocks([*everything, *pictured]))}",
             "",
         ]
     )
+
+
+def _asked(exercise: Exercise) -> list[object]:
+    """What is printed for the reader."""
+    return [markdown(exercise.question()), [(part.ask, part.points) for part in exercise.parts]]
+
+
+def _solved(exercise: Exercise) -> list[object]:
+    """The working, the answers, and what each mistake gives."""
+    told = {mistake.name: _typed(exercise.solution, answers) for mistake, answers in exercise.solution.mistakes}
+    return [markdown(exercise.working()), _typed(exercise.solution, exercise.solution.answers), told]
+
+
+def _typed(solution: Solution, answers: Mapping[str, Any]) -> list[str]:
+    """Answers as they are typed."""
+    return [f"({part.label}) {answer_kind(part.kind).write(answers[part.label])}" for part in solution.problem.parts]
 
 
 def _shown(exercise: Exercise) -> str:
@@ -55,9 +80,7 @@ def _shown(exercise: Exercise) -> str:
         lines.append(_terminal(exercise.working(part.label), 100))
         lines += [f"  {unicode(line)}" for line in answer_lines(part, value)]
     for mistake, answers in exercise.solution.mistakes:
-        told = "; ".join(
-            f"({part.label}) {answer_kind(part.kind).write(answers[part.label])}" for part in exercise.parts
-        )
+        told = "; ".join(_typed(exercise.solution, answers))
         lines.append(f"{mistake.name}: {mistake.says} {told}")
     return "\n".join(line.rstrip() for text in lines for line in text.splitlines())
 

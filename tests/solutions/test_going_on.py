@@ -6,10 +6,11 @@ import pytest
 import sympy
 from flint import fmpq
 
+import rldrill
 from rldrill.problems.catalogue import families
 from rldrill.problems.parts import Matrix, Number, Numbers, Part, Values
+from rldrill.solutions.answers.judging import Outcome, Verdict
 from rldrill.solutions.answers.kinds import answer_kind
-from rldrill.solutions.drawing import draw
 from rldrill.solutions.value import Value
 
 ODD = (
@@ -28,13 +29,18 @@ def with_numbers(part: Part, answer: Any, odd: Value) -> Any:
 @pytest.mark.parametrize("level", [2, 3])
 @pytest.mark.parametrize("name", families())
 def test_any_number_may_be_gone_on_from(name: str, level: int) -> None:
-    """Rightly or with a mistake: all parts are answered, or nothing follows."""
-    solution = draw(name, level, 907)
-    labels = list(solution.answers)
+    """Rightly or with a mistake: all parts are answered, or nothing follows; the diagnosis says so much at least."""
+    exercise = rldrill.draw(name, level, 907)
+    solution, labels = exercise.solution, list(exercise.solution.answers)
+    wrong = Verdict(Outcome.WRONG, "Not right.")
     for odd in ODD:
-        earlier = {
-            part.label: with_numbers(part, solution.answers[part.label], odd) for part in solution.problem.parts[:-1]
-        }
-        if earlier:
-            assert list(solution.following(earlier)) in ([], labels)
-            assert all(list(answers) == labels for _, answers in solution.mistaken(earlier))
+        *before, last = solution.problem.parts
+        earlier = {part.label: with_numbers(part, solution.answers[part.label], odd) for part in before}
+        if not earlier:
+            continue
+        followed = solution.following(earlier)
+        assert list(followed) in ([], labels)
+        assert all(list(answers) == labels for _, answers in solution.mistaken(earlier))
+        if not followed:
+            text = answer_kind(last.kind).write(solution.answers[last.label])
+            assert exercise.diagnosing.diagnose(last.label, text, wrong, earlier, seconds=0).sentence

@@ -145,6 +145,7 @@ APPRENTICE: dict[str, Any] = {"expert": [1, 2], "first": [0, 0], "policies": [[1
         ("max-margin", MARGIN | {"w": [1]}, "'w' has 1"),
         ("max-margin", MARGIN | {"policies": {"expert": {"mu": [1, 1], "margin": 1}}}, "is the name of the expert's"),
         ("max-margin", MARGIN | {"policies": {"x": {"mu": [1, 1], "margin": -1}}}, "a margin is not negative"),
+        ("max-margin", MARGIN | {"w": ["x", "x"]}, "leave one weight open at most"),
         ("apprenticeship", APPRENTICE | {"policies": [[1]]}, "'policy 1' has 1"),
         ("apprenticeship", APPRENTICE | {"policies": [[0, 0]]}, "no line through both"),
     ],
