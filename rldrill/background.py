@@ -33,6 +33,17 @@ def deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+@contextmanager
+def deaf_processes() -> Iterator[None]:
+    """The same for processes: the one that Python starts with the first of them would let Ctrl-C through again."""
+    if hasattr(signal, "pthread_sigmask"):
+        from multiprocessing.resource_tracker import ensure_running
+
+        ensure_running()
+    with deaf():
+        yield
+
+
 def apart(work: Callable[[Callable[[], None]], T], advance: Callable[[], None]) -> T:
     """Do some work in a process of its own, which takes all its memory with it when it ends.
 
@@ -48,7 +59,7 @@ def apart(work: Callable[[Callable[[], None]], T], advance: Callable[[], None]) 
     context = get_context("spawn")
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=_apart, args=(there, work), daemon=True)
-    with deaf():
+    with deaf_processes():
         process.start()
     there.close()
     try:

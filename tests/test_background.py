@@ -1,10 +1,11 @@
 """Work in a process of its own: its steps, its result and its errors arrive here, and so does its end."""
 
 import os
+import sys
 
 import pytest
 
-from beside import is_ended, refuses, three_steps
+from beside import hears_ctrl_c, is_ended, refuses, three_steps
 from rldrill.background import apart
 from rldrill.problems.errors import UsageError
 
@@ -24,3 +25,8 @@ def test_an_error_is_raised_here_as_it_was_there() -> None:
 def test_whoever_ends_the_process_does_not_leave_the_other_one_waiting() -> None:
     with pytest.raises(ChildProcessError, match="ended before"):
         apart(is_ended, lambda: None)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no masks of signals")
+def test_ctrl_c_is_for_whoever_waits() -> None:
+    assert not apart(hears_ctrl_c, lambda: None)

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from rldrill.diagnosis import Diagnosis
@@ -80,6 +81,7 @@ class Judged:
     mistake: str = ""
 
 
+@lru_cache(maxsize=1000)
 def missing(of: int, key: str = "") -> Judged:
     """What is said of a part of so many points that was not answered."""
     return Judged("", MISSING, False, "Not answered.", Score(Fraction(0), of), key)

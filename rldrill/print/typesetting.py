@@ -9,7 +9,7 @@ from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rldrill.background import deaf
+from rldrill.background import deaf_processes
 from rldrill.exam.exam import Exam, Version
 from rldrill.print.fonts import needs_system_fonts
 from rldrill.print.key import key_source
@@ -56,7 +56,7 @@ def typeset(tasks: deque[Task]) -> Iterator[list[Path]]:
         while tasks:
             yield _typeset(tasks.popleft())
         return
-    with deaf():
+    with deaf_processes():
         os.environ["RAYON_NUM_THREADS"] = "1"  # what Typst goes by: each process takes one processor
         pool = get_context("spawn").Pool(others, maxtasksperchild=_REPLACED)
     with pool:  # which ends them, whatever happens

@@ -19,3 +19,8 @@ def refuses(_: Callable[[], None]) -> None:
 
 def is_ended(_: Callable[[], None]) -> None:
     os.kill(os.getpid(), signal.SIGTERM)
+
+
+def hears_ctrl_c(_: Callable[[], None]) -> bool:
+    """Whether Ctrl-C would reach this process."""
+    return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
