@@ -17,7 +17,7 @@ from rldrill.problems.runs import per_step
 
 TITLE = "Return"
 SOURCE = "Sutton & Barto 2018, section 3.3"
-REVISION = 3
+REVISION = 4
 
 #: The two episodes that are compared.
 EPISODES = {"A": "the first", "B": "the second"}
@@ -73,7 +73,7 @@ Given = Annotated[Annotated[Single, Tag("single")] | Annotated[Compared, Tag("co
 
 
 def draw(level: int, rng: Draws) -> Single | Compared:
-    """A return and the one from the start; all returns, or two episodes; then a letter left open or asked for."""
+    """A return and the one from the start; all returns, or two episodes; then a reward or a discount is asked for."""
     if level == 1:
         gamma = rng.fraction("1/2", "1/3")
         return Single(rewards=_rewards(rng, 4, gamma), gamma=gamma, time=1)
@@ -87,12 +87,9 @@ def draw(level: int, rng: Draws) -> Single | Compared:
     if kind == 0:
         return _equally_good(rng)
     if kind == 1:
-        rewards = tuple(rng.nonzero(-4, 9) for _ in range(4 + rng.below(2)))
-        return Single(rewards=rewards, gamma=Parameter("gamma"), time=rng.choice((1, 2)))
+        return _earned_twice(rng)
     rewards = _rewards(rng, count, gamma)
-    hidden = 1 + rng.below(len(rewards) - 1)
-    seen: tuple[Scalar, ...] = (*rewards[:hidden], Parameter("x"), *rewards[hidden + 1 :])
-    return Single(rewards=seen, gamma=gamma, known=_total(rewards, gamma))
+    return _hidden(rewards, gamma, (1 + rng.below(len(rewards) - 1),))
 
 
 def _rewards(rng: Draws, count: int, gamma: Fraction) -> tuple[Fraction, ...]:
@@ -113,6 +110,20 @@ def _reward_before(rng: Draws, later: Fraction, gamma: Fraction, multiple: int) 
 
 def _total(rewards: Sequence[Fraction], gamma: Fraction) -> Fraction:
     return sum((gamma**time * reward for time, reward in enumerate(rewards)), Fraction(0))
+
+
+def _hidden(rewards: Sequence[Fraction], gamma: Fraction, places: Sequence[int]) -> Single:
+    """An episode whose return is told, and the reward in these places is not."""
+    seen: tuple[Scalar, ...] = tuple(Parameter("x") if place in places else r for place, r in enumerate(rewards))
+    return Single(rewards=seen, gamma=gamma, known=_total(rewards, gamma))
+
+
+def _earned_twice(rng: Draws) -> Single:
+    """An episode in which the same reward, which is not known, is earned at two times."""
+    gamma, places = rng.fraction("1/2", "1/3", "2/3"), rng.choice(((0, 2), (0, 3), (1, 3), (1, 2), (2, 3)))
+    rewards = list(_rewards(rng, 4, gamma))
+    rewards[places[1]] = rewards[places[0]]
+    return _hidden(rewards, gamma, places)
 
 
 def _compared(rng: Draws, gamma: Fraction, count: int) -> Compared:

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "n-step return"
 SOURCE = "Sutton & Barto 2018, section 7.1"
-REVISION = 2
+REVISION = 3
 #: The run and the table of values are given whole: how far the return reaches into them is the question. Beyond the end
 #: of an episode it does not matter how many steps are asked for, which is a question, too.
 DISTRACTORS = ("values.*", "trajectory.rewards.*", "asked.*")
@@ -63,32 +63,48 @@ class Given(Reversible):
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """Two steps; then two returns, perhaps beyond the end; then γ left open, or a value or γ to be found."""
+    """Two steps; then two returns, perhaps beyond the end; then a value or γ is to be found first."""
     setting = draw_setting(rng)
     a, b, c, d = rng.shuffled(setting.states)
     end, gamma = setting.terminal, rng.fraction("1/2", "4/5", "3/4")
     if level == 1:
         return _given(rng, (a, b, rng.choice((a, c)), d), end, Fraction(1, 2), ((0, 2),))
-    whole = rng.chance(Fraction(1, 2))
-    states = (*rng.choice(((a, b, c), (a, b, a), (a, b, b))), end if whole else d)
+    if level == 3:
+        return _asked_back(rng, (a, b, c, d), end, gamma)
+    states = _visited(rng, (a, b, c), end if (whole := rng.chance(Fraction(1, 2))) else d)
     asked = rng.choice((((0, 2), (1, 2)), ((0, 1), (0, 3)), ((1, 1), (0, 3)), ((0, 2), (0, 3))))
     if whole and rng.chance(Fraction(1, 2)):
         asked = ((0, 2), (1, 4))
-    if level == 2:
-        return _given(rng, states, end, gamma, asked)
-    kind = rng.below(3)
-    if kind == 0:
-        return _given(rng, (a, b, c, d), end, gamma, (*asked[:1], (1, 2))).model_copy(
-            update={"gamma": Parameter("gamma")}
-        )
-    if kind == 1:  # γ from a one-step return, then a longer one
-        given = _given(rng, states, end, gamma, ((0, 1), (0, 3)))
-        known = given.trajectory.rewards[0] + gamma * Fraction(given.values[b])
-        return given.model_copy(update={"gamma": Parameter("gamma"), "known": known})
-    given = _given(rng, (a, b, c, d), end, gamma, ((0, 2), rng.choice(((1, 1), (1, 2)))))
-    first, second, _ = given.trajectory.rewards
-    known = first + gamma * second + gamma**2 * Fraction(given.values[c])
-    return given.model_copy(update={"values": given.values | {c: Parameter("x")}, "known": known})
+    return _given(rng, states, end, gamma, asked)
+
+
+def _visited(rng: Draws, places: tuple[str, str, str], last: str) -> tuple[str, ...]:
+    a, b, c = places
+    return (*rng.choice(((a, b, c), (a, b, a), (a, b, b))), last)
+
+
+def _asked_back(rng: Draws, places: tuple[str, str, str, str], end: str, gamma: Fraction) -> Given:
+    """γ, or the value of a state, from one return; then another return in which it stands."""
+    a, b, c, d = places
+    if rng.chance(Fraction(1, 2)):
+        states = _visited(rng, (a, b, c), end if rng.chance(Fraction(1, 2)) else d)
+        given = _given(rng, states, end, gamma, ((0, 1), rng.choice(((0, 2), (0, 3), (1, 2)))))
+        letter: dict[str, object] = {"gamma": Parameter("gamma")}
+    else:
+        twice = (a, c, b, c)
+        states, *asked = rng.choice((
+            ((a, b, c, d), (0, 2), (1, 1)), (twice, (0, 1), (0, 3)), (twice, (0, 1), (1, 2)), (twice, (0, 3), (0, 1)),
+        ))  # fmt: skip
+        given = _given(rng, states, end, gamma, tuple(asked))
+        letter = {"values": given.values | {c: Parameter("x")}}
+    return given.model_copy(update={**letter, "known": _worth(given, gamma, *given.asked[0])})
+
+
+def _worth(given: Given, gamma: Fraction, time: int, steps: int) -> Fraction:
+    """The return from a time, where neither the end of the run nor a letter is in the way."""
+    run = given.trajectory
+    ahead = (*map(Fraction, run.rewards[time : time + steps]), Fraction(given.values[run.states[time + steps]]))
+    return sum((gamma**late * reward for late, reward in enumerate(ahead)), Fraction(0))
 
 
 def _given(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, asked: tuple[tuple[int, int], ...]) -> Given:

@@ -92,7 +92,7 @@ def test_every_message_about_an_answer_has_its_place(tmp_path: Path) -> None:
         told = form.written(report, "verdict")
         assert f"{path}, line 3, column 5" in told
         assert f"{path}, line 4, column 7" in told
-    assert f"return/1/7@3,b,{path},4,7," in tables.written(report, "verdict")
+    assert f"return/1/7@4,b,{path},4,7," in tables.written(report, "verdict")
 
 
 def test_a_line_of_json_has_its_columns(tmp_path: Path) -> None:
