@@ -640,13 +640,13 @@ def test_the_examples_say_what_their_comments_say() -> None:
         (row.problem.split("@")[0], row.part, row.judged.verdict) for row in rows(verify([EXAMPLES / "answers.toml"]))
     ] == [
         ("td-zero/1/7", "a", "right"),
-        ("return/1/7", "a", "misconception"),
-        ("return/1/7", "b", "follow-through"),
-        ("n-step-return/2/7", "a", "unreadable"),
-        ("n-step-return/2/7", "b", "right"),
+        ("return/1/430", "a", "misconception"),
+        ("return/1/430", "b", "follow-through"),
+        ("n-step-return/2/2761", "a", "unreadable"),
+        ("n-step-return/2/2761", "b", "right"),
         ("bayes-rule/1/7", "a", "right"),
-        ("return/2/12", "a", "wrong"),
-        ("return/2/12", "b", "right"),
+        ("return/2/5940", "a", "wrong"),
+        ("return/2/5940", "b", "right"),
     ]
     verdicts = [row.judged.verdict for row in rows(verify([EXAMPLES / "answers.csv"]))]
     assert verdicts == ["right"] * 3 + ["unreadable", "wrong", "missing", "right"]

@@ -129,7 +129,7 @@ def test_hint_first_the_formula_then_the_sentence() -> None:
 
 def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
     # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2.
-    typist, session, _ = quiz("1", "5", "3", "h", "2", names=("return/1/7",))
+    typist, session, _ = quiz("1", "5", "3", "h", "2", names=("return/1/430",))
     assert "Still wrong, so h now shows the first line" in typist.seen
     assert "−1 + 1/3·8 + (1/3)²·3" in typist.seen
     assert session.parts[0].points == Fraction(1, 4)
@@ -232,7 +232,7 @@ def test_the_lines_of_a_table_are_one_answer() -> None:
 
 def test_pasted_numbers_answer_one_part_after_the_other() -> None:
     # r = 9, −1, 8, 3 and γ = 1/3: R_1 = −1 + 8/3 + 3/9 = 2, R_0 = 9 + 2/3 = 29/3.
-    _, session, _ = quiz("2\n29/3", "", names=("return/1/7",))
+    _, session, _ = quiz("2\n29/3", "", names=("return/1/430",))
     assert [part.state for part in session.parts] == [State.DONE, State.DONE]
 
 

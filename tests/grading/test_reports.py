@@ -33,9 +33,9 @@ ROWS = [
     ("student", "problem", "part", "answer"),
     ("Ann", "td-zero/1/7", "a", "21/4"),
     ("Ben", "td-zero/1/7", "a", "worn: 5,25"),
-    ("Ben", "return/1/7", "a", "2/3"),
-    (EVIL, "return/1/7", "a", "<script>alert(1)</script>"),
-    (EVIL, "return/1/7", "b", "=1+1\n::error::mine"),
+    ("Ben", "return/1/430", "a", "2/3"),
+    (EVIL, "return/1/430", "a", "<script>alert(1)</script>"),
+    (EVIL, "return/1/430", "b", "=1+1\n::error::mine"),
     ("Cem", "td-zero/9/7", "a", "1"),
 ]
 #: The schema by which Jenkins reads it.
@@ -133,7 +133,7 @@ def test_the_same_under_two_names_earns_no_more_in_one_submission(tmp_path: Path
 def test_what_is_in_several_files_of_a_submission_counts_together(tmp_path: Path) -> None:
     (tmp_path / "1.toml").write_text('"1" = "21/4"\n')
     (tmp_path / "2.toml").write_text('["2"]\na = "10"\n')
-    blueprint = Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/7")), seed=7)
+    blueprint = Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/430")), seed=7)
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
     answers = sorted(tmp_path.glob("*.toml"))
     results = json.loads(
