@@ -137,7 +137,7 @@ def test_the_third_miss_leads_to_the_first_line_with_the_numbers_in() -> None:
 
 def test_a_family_that_is_new_begins_with_another_problem_worked_out() -> None:
     typist = Typist("", "", "q")
-    Screen(typist.screen, typist, seen=["td-zero"]).run([rldrill.draw("return", 1, 7)], Session(1))
+    Screen(typist.screen, typist, seen=["td-zero"]).run([rldrill.draw("return", 1, 430)], Session(1))
     assert "New: Return." in typist.seen
     example, _, own = typist.seen.partition("your turn")
     assert "R₁ = " in example

@@ -98,4 +98,4 @@ def test_every_message_about_an_answer_has_its_place(tmp_path: Path) -> None:
 def test_a_line_of_json_has_its_columns(tmp_path: Path) -> None:
     path = tmp_path / "a.jsonl"
     path.write_text('\n{"problem": "return/1/430", "part": "a",  "answer":  "2/3"}\n')
-    assert f"({path}, line 2, column 52)" in text.written(verify([path]), "reason")
+    assert f"({path}, line 2, column 54)" in text.written(verify([path]), "reason")
