@@ -57,7 +57,7 @@ def test_a_problem_file_is_no_blueprint() -> None:
             "[[problems]]\nfamily = 'return'\nlevel = 1\npoints = [1, 2, 3]",
             "line 1: points are given for 3 parts, and no problem",
         ),
-        ("problems = [{id = 'return/1/430', count = 2}]", "exam.toml: id names one problem; leave level and count out."),
+        ("problems = [{id = 'return/1/7', count = 2}]", "exam.toml: id names one problem; leave level and count out."),
         ("problems = []", "there are no problems in it"),
         ("title = ", "the syntax is broken"),
         ("", "there are no problems in it; begin one with a line [[problems]]"),
