@@ -52,13 +52,16 @@ def draw_angles(rng: Draws, level: int, count: int, *, diagonal: bool = True) ->
     return tuple(rng.choice(angles) for _ in range(count))
 
 
-def situation(given: PlanarArm, base: str = "its base is at the origin", axis: str = "x") -> tuple[Block, ...]:
+def situation(
+    given: PlanarArm, base: str = "its base is at the origin", axis: str = "x", turned: float = 0.0
+) -> tuple[Block, ...]:
     """The arm in words, its links, and a picture of it.
 
     Args:
         given: the arm.
         base: where its base is, in words.
         axis: from which axis the first link's angle counts.
+        turned: by how many degrees that axis is turned.
     """
     rows = tuple(
         (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
@@ -73,7 +76,7 @@ def situation(given: PlanarArm, base: str = "its base is at the origin", axis: s
         Beside(
             (
                 Table(("link $i$", "$l_i$", "$θ_i$"), rows),
-                Arm(given.drawn, tuple(map(degrees, given.angles))),
+                Arm(given.drawn, tuple(map(degrees, given.angles)), turned),
             )
         ),
     )

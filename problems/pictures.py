@@ -117,10 +117,14 @@ class Bumps(Picture):
 
 @dataclass(frozen=True, slots=True)
 class Arm(Picture):
-    """A planar arm: its links, and the joints' angles in degrees, each relative to the link before."""
+    """A planar arm: its links, and the joints' angles in degrees, each relative to the link before.
+
+    The first is relative to the base's own axis, which may be ``turned`` by an angle, in degrees.
+    """
 
     lengths: tuple[float, ...]
     angles: tuple[float, ...]
+    turned: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -75,21 +75,26 @@ def whole(time: Fraction) -> int:
     return max(1, round(time))
 
 
-def _seconds(expression: Expr) -> Fraction:
-    letter = LETTER if without_slots(expression).has(sympy.Add) else LONE_LETTER
+def _seconds(expression: Expr, letter: int | None = None) -> Fraction:
+    if letter is None:
+        letter = LETTER if without_slots(expression).has(sympy.Add) else LONE_LETTER
     operations = digits = 0
     plain = Fraction(0)
     nodes = sympy.preorder_traversal(expression)
     for node in nodes:
         if node.is_Pow and isinstance(node.args[1], Slot):  # nobody works out the power 0 or 1
             nodes.skip()
-            plain += _seconds(node.args[0]) if node.args[1].args[0] == 1 else 0
+            plain += _seconds(node.args[0], letter) if node.args[1].args[0] == 1 else 0
         elif node.is_Mul and any(isinstance(factor, Slot) and factor.args[0] == 0 for factor in node.args):
             nodes.skip()  # nor a product with 0
             operations += 1
+        elif node.is_Mul and (others := [factor for factor in node.args if not _is_one(factor)]) != list(node.args):
+            nodes.skip()  # nor one with 1
+            operations += max(0, len(others) - 1)
+            plain += sum((_seconds(factor, letter) for factor in others), Fraction(0))
         elif isinstance(node, Over):  # what it runs over is no work
             nodes.skip()
-            plain += _seconds(node.body)
+            plain += _seconds(node.body, letter)
         elif isinstance(node, Node):
             operations += node.operations
             digits += sum(map(_digits, node.numbers))
@@ -100,6 +105,12 @@ def _seconds(expression: Expr) -> Fraction:
         elif node.is_Add or node.is_Mul or node.is_Function or node.is_Pow:
             operations += _operations(node)
     return plain + OPERATION * operations + DIGIT * digits
+
+
+def _is_one(factor: Expr) -> bool:
+    """Whether it is a 1, or a power of 1, that only keeps its place."""
+    base = factor.args[0] if factor.is_Pow else factor
+    return isinstance(base, Slot) and base.args[0] == 1
 
 
 def _digits(number: Expr) -> int:

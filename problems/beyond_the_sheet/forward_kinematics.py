@@ -4,7 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.angles import Angle, AngleField, read_angle, text
+from rldrill.problems.angles import Angle, AngleField, degrees, read_angle, text
 from rldrill.problems.arms import PlanarArm, draw_angles, situation
 from rldrill.problems.document import Block
 from rldrill.problems.draws import Draws
@@ -128,4 +128,4 @@ def _situation(given: Given) -> tuple[Block, ...]:
         return situation(given)
     place = f"({shown(given.base.x)}, {shown(given.base.y)})"
     turned = f"its base is at ${place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
-    return situation(given, f"{turned} relative to the $x$ axis", "x_0")
+    return situation(given, f"{turned} relative to the $x$ axis", "x_0", degrees(given.base.phi))

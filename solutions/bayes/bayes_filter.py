@@ -50,8 +50,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
     for step, event in enumerate(given.run, 1):
         before = belief = start if afresh else belief
         asked = step > 1 or given.outcome is None
-        if step == 2 and given.outcome is not None:
-            work.say("In the second step:")
+        if step > 1:
+            work.say("In the next step $p$ is the belief that was found:")
         belief = settled if not asked and settled else _moves(event, work, moves, belief, known)
         if asked:
             work.picture(before_and_after, before, belief)

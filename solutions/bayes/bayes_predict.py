@@ -39,7 +39,9 @@ def solve(given: Given, work: Work) -> None:
             belief = _moved(work, last, belief, motion)
             work.say(f"The next action, {actions[given.after]}, gives:")
         actions = actions[given.after :]
-    for action in actions:
+    for place, action in enumerate(actions):
+        if place:
+            work.say("In the next step $p(s)$ is the belief that was found:")
         after = _moved(work, action, belief, motion)
         work.picture(before_and_after, belief, after)
         belief = work.answer(after)

@@ -44,7 +44,9 @@ def solve(given: Given, work: Work) -> None:
             belief = _first(given, work, letter, {**known, "p": belief, "likelihood": likelihood})
             work.say(f"The next measurement, {readings[1]}, gives:")
         readings = readings[1:]
-    for reading in readings:
+    for place, reading in enumerate(readings):
+        if place:
+            work.say(f"For the next measurement, {reading}, $p(h)$ is the belief that was found:")
         posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})
         work.picture(before_and_after, belief, posterior)
         belief = work.answer(posterior)

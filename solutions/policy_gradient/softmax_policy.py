@@ -46,7 +46,7 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
     """The quotient of two probabilities has no sum in it, and is linear in x; then everything with this x."""
     pair = odds.action, odds.other
     bound = {**known, "H": {("s", action): work.step(PREFERENCE, a=action, **known) for action in pair}}
-    quotient = work.step(SOFTMAX_ODDS, a=odds.action, b=odds.other, **bound)
+    quotient = work.step(SOFTMAX_ODDS, a=odds.action, a1=odds.other, **bound)
     x = work.answer(work.equate("x", rational_function(to_sympy(quotient)), exact(odds.times)))
     theta = [
         sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)

@@ -25,7 +25,6 @@ from rldrill.solutions.formula.notation import (
     SumOver,
     T,
     Visited,
-    Vpi,
     a,
     a1,
     alpha,
@@ -66,6 +65,7 @@ Qi = quantity("Qi", _numbered_table)
 Selected = quantity("selected", lambda time: Script(variable("a"), time, operator("*")))
 behaviour = quantity("behaviour", conditioned("b"))
 rho = quantity("rho", subscripted("ρ"))
+V_hat = quantity("V", called(Script(Accent(variable("V"), "hat"), above=variable("π"))))
 Ri = quantity("Ri", lambda episode: Script(variable("R"), above=Fence(episode)))
 N = quantity("N", called("N"))
 U = quantity("U", called("U"))
@@ -473,7 +473,7 @@ with evaluate(False):
     )
     ORDINARY_IMPORTANCE_SAMPLING = Formula(
         "ordinary-importance-sampling",
-        Vpi(S(0)),
+        V_hat(S(0)),
         SumOver(rho(i) * Ri(i), i, _EPISODES) / n,
         title="Ordinary importance sampling",
         source="Sutton & Barto 2018, eq. 5.5",
@@ -491,7 +491,7 @@ with evaluate(False):
     )
     WEIGHTED_IMPORTANCE_SAMPLING = Formula(
         "weighted-importance-sampling",
-        Vpi(S(0)),
+        V_hat(S(0)),
         SumOver(rho(i) * Ri(i), i, _EPISODES) / SumOver(rho(i), i, _EPISODES),
         title="Weighted importance sampling",
         source="Sutton & Barto 2018, eq. 5.6",

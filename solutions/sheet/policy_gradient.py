@@ -41,8 +41,8 @@ from rldrill.solutions.formula.notation import (
     T,
     V,
     a,
+    a1,
     alpha,
-    b,
     called,
     epsilon,
     gamma,
@@ -235,20 +235,20 @@ with evaluate(False):
     SOFTMAX_POLICY = Formula(
         "softmax-policy",
         pi(a, s),
-        exp(H(s, a)) / SumOver(exp(H(s, b)), b, Choices),
+        exp(H(s, a)) / SumOver(exp(H(s, a1)), a1, Choices),
         title="Softmax policy",
         source="Sutton & Barto 2018, eq. 13.2",
         hint="Exponentiate every action's preference, then divide by the sum of them all.",
         misread={
             NOT_NORMALISED: exp(H(s, a)),
-            WITHOUT_EXP: H(s, a) / SumOver(H(s, b), b, Choices),
+            WITHOUT_EXP: H(s, a) / SumOver(H(s, a1), a1, Choices),
         },
     )
 
     SOFTMAX_ODDS = Formula(
         "softmax-odds",
-        odds(a, b, s),
-        exp(H(s, a)) / exp(H(s, b)),
+        odds(a, a1, s),
+        exp(H(s, a)) / exp(H(s, a1)),
         title="How many times as often a softmax policy takes an action as another",
         source="Sutton & Barto 2018, eq. 13.2",
         hint="The sum in the denominator is the same for both actions: it cancels.",
@@ -266,14 +266,14 @@ with evaluate(False):
     SCORE_FUNCTION = Formula(
         "score-function",
         score(a, s),
-        f_vector(s, a) - SumOver(pi(b, s) * f_vector(s, b), b, Choices),
+        f_vector(s, a) - SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
         title="Score function of the softmax policy",
         source="Sutton & Barto 2018, eq. 13.9",
         hint="The action's own features minus the features expected under the policy.",
         note="For preferences that are linear in features, $h(s, a) = θ^⊤ f(s, a)$.",
         misread={
             FEATURES_ALONE: f_vector(s, a),
-            EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(b, s) * f_vector(s, b), b, Choices),
+            EXPECTED_ADDED: f_vector(s, a) + SumOver(pi(a1, s) * f_vector(s, a1), a1, Choices),
         },
     )
 
@@ -481,7 +481,7 @@ with evaluate(False):
     ENTROPY = Formula(
         "entropy",
         of_policy(s),
-        -SumOver(pi(b, s) * log(pi(b, s)), b, Choices),
+        -SumOver(pi(a1, s) * log(pi(a1, s)), a1, Choices),
         title="Entropy of a policy",
         source="Cover & Thomas 2006, section 2.1",
         hint="Weight the logarithm of every probability by the probability itself, add, and change the sign.",

@@ -42,11 +42,11 @@ def described(picture: Picture) -> str:
         case Bumps(centres, width, shape, state):
             middles = ", ".join(f"{centre:g}" for centre in centres)
             said = f"Radial basis functions ({shape}) around {middles}, of width {width:g}; the state is {state:g}."
-        case Arm(lengths, angles):
+        case Arm(lengths, angles, turned):
             links = ", ".join(
                 f"a link of {length:g} at {angle:g}°" for length, angle in zip(lengths, angles, strict=True)
             )
-            said = f"Planar arm: {links}."
+            said = f"Planar arm{f' on a base that is turned by {turned:g}°' if turned else ''}: {links}."
         case Pendulum(angle, cart):
             said = f"Pendulum{' on a cart' if cart else ''} at {angle:g}° from hanging down."
         case _:

@@ -18,14 +18,23 @@ def arm(picture: Arm) -> Scene:
     """The links from joint to joint; each angle is measured from the dashed line on."""
     scale = _REACH / sum(picture.lengths)
     at: Point = (0.0, 0.0)
-    heading = 0.0
+    heading = picture.turned
     lines: list[Path] = [*_ground(at)]
     joints: list[Shape] = []
     wanted: list[tuple[str, list[Point]]] = []
+    if heading:
+        lines.append(Path((at, _towards(at, 0.0, 44)), dashed=True, width=0.4))
+        lines.append(Path((at, _towards(at, heading, 44)), dashed=True, width=0.4))
+        lines.append(_arc(at, 0.0, heading, 38))
+        wanted += [
+            ("$x$", [_towards(at, side, far) for far in (50, 54) for side in (0.0, -8.0, 8.0)]),
+            ("$x_0$", [_towards(at, heading + side, far) for far in (50, 54) for side in (0.0, 8.0, -8.0)]),
+            ("$φ_0$", [_towards(at, heading * share, far) for far in (47, 30) for share in (0.5, 0.3, 0.7)]),
+        ]
     for index, (length, angle) in enumerate(zip(picture.lengths, picture.angles, strict=True), 1):
         if angle:
             lines.append(Path((at, _towards(at, heading, 30)), dashed=True, width=0.4))
-            lines.append(Path(tuple(_towards(at, heading + angle * step / 12, 17) for step in range(13)), width=0.4))
+            lines.append(_arc(at, heading, angle, 17))
         wanted.append((f"$θ_{index}$", list(_beside_arc(at, heading, angle))))
         heading += angle
         after = _towards(at, heading, length * scale)
@@ -34,6 +43,11 @@ def arm(picture: Arm) -> Scene:
         joints.append(Ellipse(at, (3, 3)))
         at = after
     return Scene((*lines, *joints, Ellipse(at, (2.5, 2.5), 0.0), *_placed(wanted, lines)))
+
+
+def _arc(joint: Point, heading: float, angle: float, radius: float) -> Path:
+    """The arc of an angle from a heading on."""
+    return Path(tuple(_towards(joint, heading + angle * step / 12, radius) for step in range(13)), width=0.4)
 
 
 def _beside_arc(joint: Point, heading: float, angle: float) -> Iterable[Point]:
