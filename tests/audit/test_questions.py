@@ -71,6 +71,18 @@ def test_zeros_and_printed_values_are_guesses() -> None:
     assert guesses.share == 0.5
 
 
+def test_a_guess_earns_the_points_of_the_parts_that_it_is_right_in() -> None:
+    # R₁ = 4 − 4 + 1 − 1 + 1/4 − 1/4 = 0 and R₀ = 1 + 0, each by a guess; then R₁ = 3 and R₀ = 13/2, by none.
+    long = solution("return", rewards=[1, 4, -8, 4, -8, 4, -8], gamma="1/2", time=1)
+    assert points(long)["a"] > points(long)["b"] == 1
+    guesses = Guesses()
+    guesses.add(long)
+    assert guesses.best == {"a": "0", "b": "1"}
+    guesses.add(solution("return", rewards=[5, 3], gamma="1/2", time=1))
+    right = sum(points(long).values())
+    assert guesses.share == right / (right + 2)
+
+
 def test_figures_of_sound_draws_bring_no_complaint_and_of_poor_ones_do() -> None:
     figures = Figures()
     figures.add(td(["a", "b"], {"a": 2, "b": 3}))

@@ -60,6 +60,12 @@ def test_a_mistake_goes_by_its_name_and_by_what_it_is_called(text: str) -> None:
     assert drill(text, ()).name == "forgot-gamma"
 
 
+def test_families_that_list_a_mistake_come_first() -> None:
+    skills = drill("sign", ()).skills
+    assert {skill.family for skill in skills[:3]} == {"bic"}
+    assert len({skill.family for skill in skills}) > 1  # a sign may be lost anywhere
+
+
 def test_a_slip_that_no_family_lists_goes_by_what_it_is_called_too() -> None:
     assert drill("a fraction upside down", ()).name == "upside-down"
 

@@ -7,6 +7,7 @@ from rich.console import Console
 from rldrill.problems.document import Block, Table
 from rldrill.problems.pictures import Arrow, BackupDiagram, Bars, Branch, GridPicture, Node, StateDiagram, Timeline
 from rldrill.render.pictures.graph import MOST_ARROWS, scene
+from rldrill.render.pictures.raster import _row
 from rldrill.render.pictures.text import lines
 from rldrill.render.terminal import plain, render
 
@@ -68,3 +69,7 @@ def test_a_run_that_fits_is_not_torn_by_the_room_behind_its_last_action() -> Non
     run = Timeline(("$t = 0$", "$t = 1$", "$t = 2$"), ("rim", "floor", "rim"), ("climb", "drive", "drill"), ("1", "2"))
     assert plain([run]).count("○") == 3
     assert max(map(len, lines(run, 44))) <= 44
+
+
+def test_words_beyond_the_end_of_a_row_stand_where_they_belong() -> None:
+    assert _row([1, 0], {5: "x₀"}) == "⠁    x₀"
