@@ -120,11 +120,15 @@ def _in_costs(given: Given) -> str:
 
 def _quadratic(given: Given) -> str:
     """The scalar equation, cleared of its denominator."""
-    P, sign = given.notation.value, "−" if given.notation.costs else "+"
+    P, costs = given.notation.value, given.notation.costs
     squared, product = _coefficients(given)
+    ahead, crossed = "" if given.gamma == 1 else "γ ", "" if not given.N else " + N" if costs else " − N"
+    bracket = f"R + {squared} {P}" if costs else f"{squared} {P} − R"
+    cost, square = "Q" if costs else "−Q", f"{ahead and 'γ^2 '}A^2 B^2 {P}^2"
     return (
-        "Multiplied by its denominator it has no cubic terms, and with $β$ for what stands at "
-        f"${P}$ it is ${squared} {P}^2 {sign} β {P} − {product} = 0$:"
+        f"Multiplied by its denominator this is ${P} ({bracket}) = ({cost} + {ahead}A^2 {P})({bracket}) − "
+        f"({ahead}A B {P}{crossed})^2$. Multiplied out, ${square}$ cancels; collected, with $β$ for what stands at ${P}$, "
+        f"it is ${squared} {P}^2 {'−' if costs else '+'} β {P} − {product} = 0$:"
     )
 
 

@@ -88,13 +88,15 @@ def _clipped(work: Work, known: Mapping[str, Any], time: int) -> Value:
 
 def _reason(time: int, *, cut: bool, inside: bool) -> str:
     if inside:
-        return f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and the gradient is not zero."
+        return (
+            f"$ρ_{{{time}}}$ lies inside the range: nothing is clipped, and clipping does not make the gradient zero."
+        )
     if cut:
         return (
             f"$c_{{{time}}}$ is the smaller term. In it $ρ_{{{time}}}$ is replaced by the bound, which does not "
             "depend on $θ$: the gradient is zero."
         )
-    return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: the gradient is not zero."
+    return f"$u_{{{time}}}$ is the smaller term, which depends on $θ$: clipping does not make the gradient zero."
 
 
 def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
