@@ -127,8 +127,8 @@ def _quadratic(given: Given) -> str:
     cost, square = "Q" if costs else "−Q", f"{ahead and 'γ^2 '}A^2 B^2 {P}^2"
     return (
         f"Multiplied by its denominator this is ${P} ({bracket}) = ({cost} + {ahead}A^2 {P})({bracket}) − "
-        f"({ahead}A B {P}{crossed})^2$. Multiplied out, ${square}$ cancels; collected, with $β$ for what stands at ${P}$, "
-        f"it is ${squared} {P}^2 {'−' if costs else '+'} β {P} − {product} = 0$:"
+        f"({ahead}A B {P}{crossed})^2$. Multiplied out, ${square}$ cancels; collected, with $β$ for what stands at "
+        f"${P}$, it is ${squared} {P}^2 {'−' if costs else '+'} β {P} − {product} = 0$:"
     )
 
 
@@ -211,7 +211,9 @@ class _Modes(NamedTuple):
     def names(self) -> tuple[str, ...]:
         """What every mode is."""
         if self.T[0, 1] != 0:
-            return ("the sum of the two states", "the difference of the two states")
+            return tuple(
+                f"the {what} of the two states and of the actions, over $√2$" for what in ("sum", "difference")
+            )
         return tuple(f"entry {mode + 1} of the state" for mode in range(self.T.nrows()))
 
 

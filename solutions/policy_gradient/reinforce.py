@@ -24,6 +24,10 @@ def solve(given: Given, work: Work) -> None:
     """All steps with the weights before the episode."""
     known = known_run(given)
     G = dict(enumerate(work.answer(tuple(returns(work, known).values()))))
+    if given.gamma != 1:
+        work.say(
+            "Without the factor $γ^t$ before $G_t$, which is left out as the question says, the gradient is taken as"
+        )
     work.recall(REINFORCE)
     known |= scores(work, given, known)
     gradient = Vector(work.answer(tuple(work.step(REINFORCE_ESTIMATE, G=G, **known))))
