@@ -66,7 +66,7 @@ def _solve_changed(given: Changed, work: Work) -> None:
     (change,) = given.right_changes
     letter = given.letters_of_changes[change]
     work.say(f"The diagram of {TITLES[given.target]} {_LOOKS[given.target]}")
-    work.say(f"The diagram has become that of {TITLES[given.named]}, so what is still wanting is ({letter}).")
+    work.say(f"The diagram has become that of {TITLES[given.named]}, so the further change is ({letter}).")
     work.answer(letter)
 
 

@@ -36,7 +36,8 @@ def solve(given: Given, work: Work) -> None:
     if wrong:
         work.say(f"The equation does not hold in {joined(wrong)}, where $δ ≠ 0$, so $V$ is another function.")
     elif given.gamma != 1:
-        work.say("All residuals are $0$, and with $γ < 1$ only one function solves the Bellman equations: that is $V$.")
+        equations = f"Bellman {'optimality ' if given.optimal else ''}equations"
+        work.say(f"All residuals are $0$, and with $γ < 1$ only one function solves the {equations}: so this is it.")
     else:
         true = _totals(given)
         wrong = [state for state in given.mdp.states if true[state] != exact(given.values[state])]

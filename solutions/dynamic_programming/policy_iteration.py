@@ -9,7 +9,7 @@ from rldrill.problems.exact import Parameter, shown
 from rldrill.problems.models import Model
 from rldrill.problems.valued import deterministic, policy_values, with_reward, worth
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, exact, to_sympy, told, value_at
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.notation import numbered, pi
 from rldrill.solutions.numerics import Array, np
@@ -97,8 +97,12 @@ def _of_threshold(given: Threshold, work: Work, evaluation: Evaluation) -> None:
     work.say(f"{more}, so $π_0$ is optimal for all ${letter} ≤ {to_sympy(bound)}$.")
     work.answer(bound)
     policy = given.improved
-    told = joined([f'$π_1("{state}")$ = {action}' for state, action in policy.items()])
-    work.say(f"With ${letter} = {shown(given.reward)}$, improvement changes the action in {row.state} only: {told}.")
+    now, before = value_at(worths[pair], exact(given.reward)), values[row.state]
+    chosen = joined([f'$π_1("{state}")$ = {action}' for state, action in policy.items()])
+    work.say(
+        f"With ${letter} = {shown(given.reward)}$, {row.action} in {row.state} is worth ${told(now)}$, more than "
+        f"${told(before)}$, so improvement changes the action there, and no other: {chosen}."
+    )
     closed = knowns.model(with_reward(mdp, given.reward)) | {"gamma": exact(given.gamma)}
     values = evaluation(work, of_round(1)[0], mdp, closed | {"pi": policy, "V": {}})
     work.answer(of_states(mdp, values))

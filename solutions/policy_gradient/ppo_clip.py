@@ -106,6 +106,8 @@ def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
 
 def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
     """Which gradients can be cut off at all, and the largest ε that cuts off one of them."""
+    for formula in (PPO_UNCLIPPED, PPO_CLIPPED, PPO):
+        work.recall(formula)
     cut = []
     for time, ratio in known["rho"].items():
         possible = _can_be_cut(known, time)
