@@ -292,3 +292,15 @@ def test_every_picture_has_a_text_in_the_terminal() -> None:
     for picture in OTHERS:
         assert max(map(len, shown(100, picture))) <= 100
         assert unicode_text(picture) or isinstance(picture, Arm)  # of many joints
+
+
+def test_a_base_that_is_turned_is_drawn_as_it_is_turned() -> None:
+    # Turned by 30° with a link at 60° to it: the link points straight up.
+    straight, turned = (scene_of(Arm((1.0,), angles, base)) for angles, base in (((90.0,), 0.0), ((60.0,), 30.0)))
+    assert straight is not None
+    assert turned is not None
+    (one,), (other,) = (
+        [each for each in scene.shapes if isinstance(each, Lines) and each.width > 2] for scene in (straight, turned)
+    )
+    assert other.points[1] == pytest.approx(one.points[1], abs=1e-9)
+    assert {each.text for each in turned.shapes if isinstance(each, Caption)} >= {"$x$", "$x_0$", "$φ_0$", "$θ_1$"}

@@ -135,6 +135,14 @@ def test_a_product_with_zero_is_seen_at_once() -> None:
     assert of(x * y * z, x=fmpq(123, 45), y=fmpq(0), z=fmpq(67)) == 3
 
 
+def test_a_one_that_only_keeps_its_place_costs_nothing() -> None:
+    with evaluate(False):
+        right = x * y + x**2 * z
+    # 1·7 + 1²·2: one sum (3 s) of two digits (1.5 s each).
+    assert of(right, x=fmpq(1), y=fmpq(7), z=fmpq(2)) == 3 + 2 * Fraction(3, 2)
+    assert of(right, x=fmpq(3), y=fmpq(7), z=fmpq(2)) > 3 + 2 * Fraction(3, 2)
+
+
 def system(work: Work, discount: Any) -> None:
     """V(cool) = 1 + γ V(hot) and V(hot) = 3 + γ V(cool)."""
     with evaluate(False):
