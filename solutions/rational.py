@@ -1,7 +1,7 @@
 """Rational functions of one open parameter, over flint's polynomials."""
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import gcd, lcm
@@ -187,14 +187,28 @@ def without_quotients(left: Value, right: Value, parameter: str) -> tuple[Value,
 
     None, where the parameter is in no denominator, or where the sides are then not linear in it.
     """
-    a, b = lifted(left, parameter), lifted(right, parameter)
-    if a.bottom.degree() == b.bottom.degree() == 0:
+    if all(lifted(side, parameter).bottom.degree() == 0 for side in (left, right)):
         return None
-    common = a.bottom * b.bottom // a.bottom.gcd(b.bottom)
-    tops = a.top * (common // a.bottom), b.top * (common // b.bottom)
+    factor = common_denominator((left, right))
+    if factor is None:
+        return None
+    tops = [lifted(side * factor, parameter).top for side in (left, right)]
     if max(top.degree() for top in tops) > 1:
         return None
-    scale = lcm(*(int(top.denom()) for top in tops))
-    if tops[0][tops[0].degree()] < 0:
+    return left * factor, right * factor
+
+
+def common_denominator(values: Sequence[Value]) -> Value | None:
+    """What values are multiplied by to have no denominators; None where a root or a second letter is among them."""
+    letters = {value.parameter for value in values if isinstance(value, RationalFunction)}
+    if len(letters) > 1 or not all(isinstance(value, fmpq | RationalFunction) for value in values):
+        return None
+    parameter = next(iter(letters), "")
+    functions = [lifted(value, parameter) for value in values]
+    below = _ONE
+    for function in functions:
+        below = below * function.bottom // below.gcd(function.bottom)
+    scale = lcm(*(int((function.top * (below // function.bottom)).denom()) for function in functions))
+    if next(c for c in below.coeffs() if c) < 0:  # 1 − γ, not −1 + γ
         scale = -scale
-    return quotient(parameter, tops[0] * scale, _ONE), quotient(parameter, tops[1] * scale, _ONE)
+    return quotient(parameter, below * scale, _ONE)

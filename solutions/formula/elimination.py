@@ -1,61 +1,119 @@
 """A system of linear equations solved in front of the reader: one unknown after the other is put into the rest."""
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Generator, Hashable, Iterator, Mapping
 from typing import Any
 
 import sympy
 from sympy import Expr
 
-from rldrill.solutions.exact import ONE, ZERO, Value, parameters, simplest, to_sympy
+from rldrill.solutions.closed_forms import rational
+from rldrill.solutions.exact import ONE, Value, digits, is_rational, ordered, parameters, simplest, to_sympy
 from rldrill.solutions.formula.equations import Affine
+from rldrill.solutions.rational import common_denominator
 
 Sides = tuple[Expr, tuple[Expr, ...]]
+Names = Mapping[Hashable, Expr]
+#: An equation: so many times an unknown on the left, and its right side.
+_Multiple = tuple[Value, Affine]
 #: Of more unknowns than this nobody wants to read the elimination.
 MOST_UNKNOWNS = 6
 
 
-def elimination(names: Mapping[Hashable, Expr], equations: Mapping[Hashable, Any]) -> Iterator[str | Sides]:
+def elimination(names: Names, equations: Mapping[Hashable, Any]) -> Iterator[str | Sides]:
     """The lines of the elimination: sentences, and equations with their right sides.
 
     Args:
         names: how each unknown is written.
         equations: for every unknown its right side, an ``Affine`` or a plain value.
     """
-    open_ = {key: _affine(side) for key, side in equations.items()}
-    if any(side.factors for side in open_.values()):
+    open_ = {key: (ONE, _affine(side)) for key, side in equations.items()}
+    if any(side.factors for _, side in open_.values()):
         yield "Multiplied out:"
-        for key, side in open_.items():
+        for key, (_, side) in open_.items():
             yield names[key], (_written(side, names),)
-    solved: dict[Hashable, Affine] = {}
-    while open_:
-        key = min(open_, key=lambda each: _trouble(each, open_[each]))
-        side = open_.pop(key)
-        own = side.factors.get(key, ZERO)
-        if own != 0:
-            rest = Affine({other: factor for other, factor in side.factors.items() if other != key}, side.constant)
-            scale = simplest(ONE - own)
-            side = _affine(rest * (ONE / scale))
-            yield multiple(scale, names[key]), (_written(rest, names),)
-            yield names[key], (_written(side, names),)
-        solved[key] = side
-        for other, entered in open_.items():
-            if key in entered.factors:
-                open_[other] = _affine(_substituted(entered, key, side))
-                yield names[other], (_written(entered, names, {key: side}), _written(open_[other], names))
+        for key, equation in open_.items():
+            if key in equation[1].factors and _others(key, equation):
+                open_[key] = yield from _collected(key, equation, names)
+    solved: dict[Hashable, _Multiple] = {}
     values: dict[Hashable, Affine] = {}
-    for key, side in reversed(solved.items()):
-        value = side
-        for other in side.factors:
-            value = _affine(_substituted(value, other, values[other]))
-        values[key] = value
-        if side.factors:
-            yield names[key], (_written(side, names, values), _written(value, names))
+    while open_:
+        key = _easiest(open_)
+        if _others(key, open_[key]):  # nothing is known by itself any more
+            for each, equation in open_.items():
+                open_[each] = yield from _collected(each, equation, names)
+            key = _easiest(open_)
+        solved[key] = yield from _collected(key, open_.pop(key), names)
+        if not _others(key, solved[key]):
+            values[key] = yield from _divided(key, solved[key], names)
+        by = (ONE, values[key]) if key in values else solved[key]
+        for other, equation in open_.items():
+            if key in equation[1].factors:
+                open_[other] = yield from _put_in(other, equation, key, by, names)
+    for key, (scale, side) in reversed(solved.items()):
+        if key not in values:
+            value = side
+            for other in side.factors:
+                value = _affine(_without(value, other) + values[other] * value.factors[other])
+            yield _times(names[key], scale), (_written(side, names, values), _written(value, names))
+            values[key] = yield from _divided(key, (scale, value), names)
 
 
-def _trouble(key: Hashable, side: Affine) -> tuple[int, int, bool]:
-    """What makes an equation hard to go on from: other unknowns, open letters, its own unknown on the right."""
-    letters = sum(bool(parameters(number)) for number in (side.constant, *side.factors.values()))
-    return len(side.factors.keys() - {key}), letters, key in side.factors
+def _collected(key: Hashable, equation: _Multiple, names: Names) -> Generator[Sides, None, _Multiple]:
+    """An equation with its own unknown on the left alone; no denominators, but where it can be divided at once."""
+    scale, side = equation
+    if key in side.factors:
+        scale, side = simplest(scale - side.factors[key]), _without(side, key)
+        yield _times(names[key], scale), (_written(side, names),)
+    lasts = bool(side.factors) or not is_rational(scale)
+    factor = common_denominator((scale, side.constant, *side.factors.values())) if lasts else None
+    if factor is not None and factor != 1:
+        scale, side = simplest(scale * factor), _affine(side * factor)
+        yield _times(names[key], scale), (_written(side, names),)
+    return scale, side
+
+
+def _put_in(
+    key: Hashable, equation: _Multiple, known: Hashable, by: _Multiple, names: Names
+) -> Generator[Sides, None, _Multiple]:
+    """An equation into which another is put, multiplied first so that the other's left side stands in it."""
+    (scale, side), (each, instead) = equation, by
+    share = simplest(side.factors[known] / each)
+    factor = ONE if each == 1 else common_denominator((share,)) or each
+    share = simplest(share * factor)
+    rest = _without(side, known)
+    after = _affine(rest * factor + instead * share)
+    others = tuple(_terms(rest, names, factor))
+    multiplied = (_sum(*others, _times(names[known], share, each)),) if factor != 1 else ()
+    put_in = _sum(*others, _times(_written(instead, names), share))
+    yield _times(names[key], scale, factor), (*multiplied, put_in, _written(after, names))
+    equation = simplest(scale * factor), after
+    return (yield from _collected(key, equation, names)) if key in after.factors else equation
+
+
+def _divided(key: Hashable, equation: _Multiple, names: Names) -> Generator[Sides, None, Affine]:
+    """The value of an unknown of which a multiple is known."""
+    scale, value = equation
+    if scale == 1:
+        return value
+    value = _affine(value * (ONE / scale))
+    yield names[key], (_written(value, names),)
+    return value
+
+
+def _easiest(equations: Mapping[Hashable, _Multiple]) -> Hashable:
+    return min(equations, key=lambda key: _trouble(key, equations[key]))
+
+
+def _trouble(key: Hashable, equation: _Multiple) -> tuple[int, int, int]:
+    """What makes an equation hard to go on from: other unknowns, open letters, a long multiple on the left."""
+    scale, side = equation
+    letters = sum(bool(parameters(number)) for number in (scale, side.constant, *side.factors.values()))
+    return len(_others(key, equation)), letters, digits(scale) if scale != 1 else 0
+
+
+def _others(key: Hashable, equation: _Multiple) -> set[Hashable]:
+    return equation[1].factors.keys() - {key}
 
 
 def _affine(side: Any) -> Affine:
@@ -66,26 +124,59 @@ def _affine(side: Any) -> Affine:
     return Affine({key: factor for key, factor in factors.items() if factor != 0}, simplest(side.constant))
 
 
-def _substituted(side: Affine, key: Hashable, by: Affine) -> Affine:
-    rest = {other: factor for other, factor in side.factors.items() if other != key}
-    return Affine(rest, side.constant) + by * side.factors[key]
+def _without(side: Affine, key: Hashable) -> Affine:
+    return Affine({other: factor for other, factor in side.factors.items() if other != key}, side.constant)
 
 
-def _written(side: Affine, names: Mapping[Hashable, Expr], put: Mapping[Hashable, Affine] | None = None) -> Expr:
-    """A right side as an expression; what is put in for an unknown keeps its brackets."""
-    terms = [] if side.constant == 0 and side.factors else [to_sympy(side.constant)]
-    for key, factor in side.factors.items():
-        inner = names[key] if put is None or key not in put else _written(put[key], names)
-        terms.append(multiple(factor, inner))
-    return terms[0] if len(terms) == 1 else sympy.Add(*terms, evaluate=False)
+def _written(side: Affine, names: Names, put: Mapping[Hashable, Affine] | None = None) -> Expr:
+    """A right side as an expression, with values in place of the unknowns if they are known."""
+    values = {key: _written(value, names) for key, value in (put or {}).items()}
+    return _sum(*_terms(side, {**names, **values}))
+
+
+def _terms(side: Affine, names: Names, factor: Value = ONE) -> Iterator[Expr]:
+    """The terms of so many times a right side."""
+    if side.constant != 0:
+        yield _times(None, side.constant, factor)
+    for key, number in side.factors.items():
+        yield _times(names[key], number, factor)
+
+
+def _sum(*terms: Expr) -> Expr:
+    return sympy.Add(*terms, evaluate=False) if len(terms) > 1 else terms[0] if terms else sympy.S.Zero
 
 
 def multiple(factor: Value, unknown: Expr) -> Expr:
     """So many times an unknown, as it is written."""
-    if factor == 1:
-        return unknown
-    number = to_sympy(factor)
-    if number.could_extract_minus_sign() and not number.is_Add:
-        rest = () if number == -1 else (-number,)
-        return sympy.Mul(sympy.S.NegativeOne, *rest, unknown, evaluate=False)
-    return sympy.Mul(number, unknown, evaluate=False)
+    return _times(unknown, factor)
+
+
+def _times(unknown: Expr | None, *factors: Value) -> Expr:
+    """A product as it is written: rational numbers are multiplied, what else there is stays side by side."""
+    number, others = ONE, Counter[Expr]()
+    for factor in factors:
+        if is_rational(factor):
+            number *= factor
+            continue
+        expression = to_sympy(factor)
+        if expression.could_extract_minus_sign() and not expression.is_Add:
+            number, expression = -number, -expression
+        others[_in_order(expression)] += 1
+    parts = [each if times == 1 else sympy.Pow(each, times, evaluate=False) for each, times in others.items()]
+    if unknown is not None:
+        parts.append(unknown)
+    if not parts or number == 0:
+        return rational(number)
+    if abs(number) != 1:
+        parts.insert(0, rational(abs(number)))
+    if number < 0:
+        parts.insert(0, sympy.S.NegativeOne)
+    return parts[0] if len(parts) == 1 else sympy.Mul(*parts, evaluate=False)
+
+
+def _in_order(expression: Expr) -> Expr:
+    """A sum, or a quotient of sums, in the order of rising powers."""
+    above, below = map(ordered, sympy.fraction(expression))
+    if not below.free_symbols:
+        return ordered(expression)
+    return sympy.Mul(above, sympy.Pow(below, -1, evaluate=False), evaluate=False)
