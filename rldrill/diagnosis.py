@@ -55,7 +55,7 @@ class Place:
     step: int | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Diagnosis:
     """What an answer comes from.
 
@@ -77,6 +77,9 @@ class Diagnosis:
     confidence: float = 0.0
     wrong: Equation | None = None
     right: Equation | None = None
+
+    def __repr__(self) -> str:
+        return f"<Diagnosis {self.kind}: {self.sentence}>"
 
     @property
     def explains(self) -> bool:
@@ -121,7 +124,7 @@ class Diagnosis:
         return {"yours": yours, "right": right}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class WrongAnswer:
     """A wrong answer to a part, as it is typed, and what it comes from.
 
@@ -133,6 +136,9 @@ class WrongAnswer:
     kind: str
     sentence: str
     lines: tuple[Equation, Equation] | None = None
+
+    def __repr__(self) -> str:
+        return f"<WrongAnswer ({self.part}) {self.answer}: {self.sentence}>"
 
     @property
     def read(self) -> Equation | None:

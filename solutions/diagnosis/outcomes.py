@@ -15,7 +15,7 @@ from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.clock import Clock
 from rldrill.solutions.diagnosis.replay import UNDONE, Application, Change, Traced
 from rldrill.solutions.diagnosis.search import Search
-from rldrill.solutions.diagnosis.typed import Typed, approximate, cells_of, equal, near, reach
+from rldrill.solutions.diagnosis.typed import Typed, approximate, cells_of, equal, may_mean, near, reach
 from rldrill.solutions.diagnosis.written_down import scaled, written_down
 
 #: Where an answer is no straight line in a value, so many other values of one application are gone on from.
@@ -312,7 +312,9 @@ class Outcomes:
             outcome.change = None
             return False
         try:
-            return not wrong_cells(typed.cells, outcome.cells)
+            if wrong_cells(typed.cells, outcome.cells):
+                return False
+            return all(may_mean(typed.cells[name], outcome.cells[name]) for name in typed.wrong)
         except UNDONE:
             return False
 

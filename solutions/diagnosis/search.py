@@ -32,7 +32,7 @@ from rldrill.solutions.diagnosis.replay import (
     with_givens,
 )
 from rldrill.solutions.formula.edits import IN_ONE_TERM, Edit, edits, element, probes
-from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.nodes.sets import Over
 from rldrill.solutions.formula.notation import Cases, Indicator, Quantity
 from rldrill.solutions.solution import Solution
@@ -88,6 +88,7 @@ class Search:
         mistakes = self.solution.mistaken(self.carried) if self.carried else self.solution.mistakes
         for mistake, answers in mistakes:
             yield Candidate(Cause("listed", weights.LISTED, mistake=mistake), answers)
+        yield from self._stated()
         yield from self._ideas()
         yield from self._habits()
         yield from self._misread()
@@ -97,6 +98,17 @@ class Search:
         answers = self.replay(change)
         if answers is not None:
             yield Candidate(cause, answers)
+
+    def _stated(self) -> Iterator[Candidate]:
+        """What is stated beside a formula as its mistake, though the family does not list it among its own."""
+        own = {mistake.key for mistake in self.solution.applicable}
+        read: dict[Misconception, dict[Expr, Expr]] = defaultdict(dict)
+        for formula in self.solution.work.read:
+            for mistake, right in formula.misread.items():
+                if mistake.key not in own:
+                    read[mistake][formula.right] = right
+        for mistake, rights in read.items():
+            yield from self._candidate(Cause("listed", weights.STATED, mistake=mistake), Change(rights))
 
     def _ideas(self) -> Iterator[Candidate | None]:
         """Every edit of every formula, wherever it is read; an edit that several formulas have, in all of them."""

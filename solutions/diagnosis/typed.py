@@ -18,6 +18,8 @@ from rldrill.solutions.exact import enclosure, is_rational
 _POINT = fmpq(37, 101)
 #: No two answers that a marker takes for the same are further apart, by their size or near 0.
 _NEAR, _NEAR_ZERO = 0.012, 0.0011
+#: From here on a whole number, or a fraction by its denominator, may be a rounded one.
+_LONG = 100
 _NOT_COMPUTED = float("nan")
 
 
@@ -49,6 +51,16 @@ def cells_of(part: Part, key: Mapping[str, Any], answers: Mapping[str, Any] | No
     except UNDONE:
         return None
     return cells if cells.keys() == key.keys() else None
+
+
+def may_mean(cell: Cell, value: Any) -> bool:
+    """Whether somebody who got a value may have typed this: short fractions and whole numbers are not rounded."""
+    if not isinstance(cell, Reading) or cell.decimal:
+        return True
+    if not is_rational(cell.value):
+        return not is_rational(value)
+    above, below = abs(cell.value.p), cell.value.q
+    return equal(cell.value, value) or below >= _LONG or (below == 1 and above >= _LONG)
 
 
 def reach(size: float) -> tuple[float, float]:

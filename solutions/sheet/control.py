@@ -533,6 +533,10 @@ with evaluate(False):
         "own-count-forgotten",
         "ln t is divided by the arm's own count N(a): the bonus shrinks as an arm is pulled more often.",
     )
+    PULLS_FOR_TIME = Misconception(
+        "pulls-for-time",
+        "t is the time of the pull that comes next; the number of pulls so far is one less.",
+    )
     UCB = Formula(
         "ucb",
         U(a),
@@ -544,6 +548,7 @@ with evaluate(False):
         misread={
             TIME_FOR_LOG: Q(a) + c * sqrt(t / N(a)),
             OWN_COUNT_FORGOTTEN: Q(a) + c * sqrt(log(t)),
+            PULLS_FOR_TIME: Q(a) + c * sqrt(log(t - 1) / N(a)),
         },
     )
     UCB_ARM = Formula(
@@ -566,6 +571,7 @@ with evaluate(False):
         place=Place.WORKING,
         misread={
             TIME_FOR_LOG: (Q(a) - Q(b)) / (sqrt(t / N(b)) - sqrt(t / N(a))),
+            PULLS_FOR_TIME: (Q(a) - Q(b)) / (sqrt(log(t - 1) / N(b)) - sqrt(log(t - 1) / N(a))),
         },
     )
 

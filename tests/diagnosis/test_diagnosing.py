@@ -1,9 +1,13 @@
 """Wrong answers, worked out by hand, and what is said of them."""
 
 import pytest
+from flint import fmpq
 
 import rldrill
 from rldrill.solutions.answers.judging import Outcome
+from rldrill.solutions.answers.text import read_number
+from rldrill.solutions.diagnosis.typed import may_mean
+from rldrill.solutions.sheet.control import SHARED_AMONG_OTHERS
 
 # V(cave) = 8, V(floor) = 10, V(rim) = 6, α = 1/4, γ = 1/2:
 # t = 0: cave  ← 8 + 1/4·(7 + 1/2·10 − 8) = 9
@@ -57,6 +61,52 @@ def test_a_listed_mistake_comes_first(run: rldrill.Exercise) -> None:
     diagnosis = run.diagnose("cave: 131/16, floor: 149/16")
     assert diagnosis.kind == "listed"
     assert diagnosis.sentence == run.check("cave: 131/16, floor: 149/16").says
+
+
+#: ε = 3/5 and three actions worth −5, 15 and 10 in either next state: V = (3/5)·15 + (1/5)·(−5 + 10) = 10.
+EXPECTED = {
+    "family": "expected-sarsa",
+    "given": {
+        "trajectory": {"states": ["warm", "smoking", "hot"], "actions": ["fast", "slow", "fast"], "rewards": [7, 4]},
+        "values": {
+            "warm": {"fast": 10, "slow": 15, "brake": -5},
+            "smoking": {"fast": -5, "slow": 15, "brake": 10},
+            "hot": {"fast": -5, "slow": 15, "brake": 10},
+        },
+        "alpha": "1/2",
+        "gamma": "2/5",
+        "epsilon": "3/5",
+    },
+}
+
+
+def test_a_mistake_stated_beside_a_formula_is_known_wherever_that_is_read() -> None:
+    # Exploring among the two others: V = (2/5)·15 + (3/10)·(−5 + 10) = 15/2, and so
+    # 10 + 1/2·(7 + 2/5·15/2 − 10) = 10 and 15 + 1/2·(4 + 2/5·15/2 − 15) = 11. Expected Sarsa does not list it.
+    diagnosis = rldrill.read(EXPECTED).diagnose("10, 11")
+    assert diagnosis.kind == "listed"
+    assert diagnosis.sentence == SHARED_AMONG_OTHERS.says
+    assert not diagnosis.alternatives
+
+
+@pytest.mark.parametrize(
+    ("typed", "value", "may"),
+    [
+        ("11", fmpq(551, 50), False),  # 11.02
+        ("11.0", fmpq(551, 50), True),
+        ("7/3", fmpq(7001, 3000), False),
+        ("139", fmpq(1391, 10), True),
+        ("11", fmpq(11), True),
+        ("sqrt(2)", fmpq(141, 100), False),
+    ],
+)
+def test_short_fractions_and_whole_numbers_are_not_rounded(typed: str, value: fmpq, may: bool) -> None:
+    assert may_mean(read_number(typed), value) is may
+
+
+def test_a_diagnosis_is_short_at_a_prompt(run: rldrill.Exercise) -> None:
+    diagnosis = run.diagnose("cave: 13/2, floor: 9")
+    assert repr(diagnosis) == f"<Diagnosis factor-left-out: {diagnosis.sentence}>"
 
 
 def test_a_number_from_nowhere_is_not_explained(run: rldrill.Exercise) -> None:
