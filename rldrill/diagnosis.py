@@ -302,14 +302,24 @@ def _told(found: Explained, applications: Sequence[Application]) -> Diagnosis:
     first, *others = (
         _diagnosis(cause, applications, round(share, 2)) for cause, share in zip(causes, found.shares, strict=True)
     )
-    said = ", or ".join(_sentence(saying(cause, applications)) for cause in causes)
-    said = f"It looks as if {said}." if causes[0].mistake is None else causes[0].mistake.says
-    return Diagnosis(first.kind, said, first.place, tuple(others), first.confidence, first.wrong, first.right)
+    said = _causes_told(causes, applications)
+    return Diagnosis(
+        first.kind, said[0].upper() + said[1:], first.place, tuple(others), first.confidence, first.wrong, first.right
+    )
+
+
+def _causes_told(causes: Sequence[Cause], applications: Sequence[Application]) -> str:
+    """What was done, or might have been: mistakes by what is right instead, all else by what it looks like."""
+    looks = [_sentence(saying(cause, applications)) for cause in causes if cause.mistake is None]
+    told = [cause.mistake.says for cause in causes if cause.mistake is not None]
+    if looks:
+        told.insert(0 if causes[0].mistake is None else len(told), f"it looks as if {', or '.join(looks)}.")
+    return " Or: ".join(told)
 
 
 def _diagnosis(cause: Cause, applications: Sequence[Application], confidence: float) -> Diagnosis:
     if cause.mistake is not None:
-        return Diagnosis("listed", cause.mistake.says, None, (), confidence)
+        return Diagnosis("listed", cause.mistake.says, _place(cause), (), confidence)
     said = f"It looks as if {_sentence(saying(cause, applications))}."
     wrong, right = _compared(cause) or (None, None)
     return Diagnosis(cause.kind, said, _place(cause), (), confidence, wrong, right)
@@ -411,6 +421,5 @@ def _followed(line: Line, applications: Sequence[Application]) -> FollowedLine:
     elif line.standing is Standing.DEPARTS:
         said = f"Here the working goes wrong{where}."
         if line.causes:
-            causes = ", or ".join(_sentence(saying(cause, applications)) for cause in line.causes)
-            said, kind = f"Here it goes wrong: it looks as if {causes}.", line.causes[0].kind
+            said, kind = f"Here it goes wrong: {_causes_told(line.causes, applications)}", line.causes[0].kind
     return FollowedLine(line.text, line.standing.value, said, step, kind)

@@ -26,6 +26,8 @@ _ELSEWHERE = 12
 TERMS = 8
 #: What is likely has at least this weight.
 LIKELY = 1.5
+#: An edit of this weight says at one place better what was done than a mistake that is stated of the whole formula.
+PLAIN = 6.0
 
 
 def at_one(application: Application) -> Iterator[Cause]:
@@ -39,11 +41,14 @@ def at_one(application: Application) -> Iterator[Cause]:
         yield from _repeated(application, base)
     if application.equation:
         return
+    edited = set()
     for edit in edits(right):
         weight = weights.IDEAS[edit.kind] * weights.AT_ONE
         if edit.kind in IN_ONE_TERM:
             pass
         elif (other := value_or_none(edit.right, known)) is not None and same_form(other, value):
+            if weights.IDEAS[edit.kind] >= PLAIN:
+                edited.add(hashable(other))
             yield replace(base, kind=edit.kind, weight=weight * likely_there(edit, (), known), edit=edit, became=other)
         if edit.once is not None:
             for term, at in list(terms(edit.within, known))[:TERMS]:
@@ -51,6 +56,10 @@ def at_one(application: Application) -> Iterator[Cause]:
                 if other is not None and same_form(other, value):
                     in_term = weight * weights.IN_ONE_TERM * likely_there(edit, term, known)
                     yield replace(base, kind=edit.kind, weight=in_term, edit=edit, term=term, became=other)
+    for mistake, misread in formula.misread.items():
+        other = value_or_none(misread, known)
+        if other is not None and same_form(other, value) and hashable(other) not in edited:
+            yield replace(base, kind="listed", weight=weights.STATED * weights.AT_ONE, mistake=mistake, became=other)
     if (crosswise := _crosswise(flat(right), known)) is not None:
         whole = Probe(right, right)
         yield replace(base, kind="crosswise", weight=weights.INSIDE["crosswise"], probe=whole, became=crosswise)

@@ -109,6 +109,7 @@ _WHOLE = {
     "entry-left-out": "the {what} is left out",
     "entries-exchanged": "the order is wrong in {what}",
     "another-quantity": "you gave {left}, which is not what is asked for",
+    "another-quantity…": "you gave {left}, …, which are not what is asked for",
     "exchanged-cells": "the answers for {what} are exchanged",
     "all-signs": "all signs are turned",
     "sign": "the sign is wrong",
@@ -147,10 +148,11 @@ def _what(cause: Cause) -> Words:
         template = _VALUES.get(cause.kind, _VALUES[""])
         was, became = _changed(cause.was, cause.became)
         return _filled(template, was=_number(was), became=_number(became))
+    if cause.application is not None:
+        return _filled(_WHOLE[cause.kind + cause.what], left=typeset(cause.application.step.left))
     template = _WHOLE.get(cause.kind, _WHOLE[""])
-    left = None if cause.application is None else typeset(cause.application.step.left)
     was = None if cause.was is None else _number(cause.was)
-    words = _filled(template, what=cause.what.replace("_", " "), left=left, was=was)
+    words = _filled(template, what=cause.what.replace("_", " "), was=was)
     return (*words, f" at {cause.what}") if cause.on_paper and cause.what and "{what}" not in template else words
 
 

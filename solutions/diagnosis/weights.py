@@ -137,4 +137,4 @@ LOOSE = 0.1
 #: A mistake that somebody thought of when the family was written.
 LISTED = 20.0
 #: One that is stated beside a formula, but that the family does not list.
-STATED = 15.0
+STATED = 8.0

@@ -1,5 +1,6 @@
 """What goes wrong between the working and the answer."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
@@ -13,6 +14,7 @@ from rldrill.solutions.diagnosis.causes import Cause
 from rldrill.solutions.diagnosis.replay import Application
 from rldrill.solutions.diagnosis.typed import Typed
 from rldrill.solutions.exact import is_rational
+from rldrill.solutions.formula.formula import Formula
 
 #: What was done, and the cells that come of it.
 WrittenDown = Iterator[tuple[Cause, Mapping[str, Any]]]
@@ -23,6 +25,7 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
     if any(isinstance(value, str | tuple) for value in key.values()):
         return
     if len(key) > 1:
+        yield from _other_quantities(key, applications)
         for one, two in combinations(key, 2):
             yield _cause("exchanged-cells", f"{one} and {two}"), {**key, one: key[two], two: key[one]}
         yield _cause("all-signs"), {name: -value for name, value in key.items()}
@@ -47,6 +50,28 @@ def written_down(part: Part, key: Mapping[str, Any], applications: Sequence[Appl
                 for column in range(1, shape.columns + 1)
             },
         )
+
+
+def _other_quantities(key: Mapping[str, Any], applications: Sequence[Application]) -> WrittenDown:
+    """What was found for the same names on the way: a belief before the measurement, the values of an earlier sweep."""
+    by_formula: dict[Formula, list[Application]] = defaultdict(list)
+    for application in applications:
+        if application.formula.sign == "=":  # an update's values are those of a table that is asked for in the end
+            by_formula[application.formula].append(application)
+    for alike in by_formula.values():
+        for start in range(0, len(alike) - len(key) + 1, len(key)):
+            several = alike[start : start + len(key)]
+            if all(plain(each.value) and _is_of(each, name) for each, name in zip(several, key, strict=True)):
+                cause = Cause(
+                    "another-quantity", weights.ANSWERS["another-quantity"], several[0], what="…", on_paper=True
+                )
+                yield cause, {name: each.value for name, each in zip(key, several, strict=True)}
+
+
+def _is_of(application: Application, name: str) -> bool:
+    """Whether an application gives a quantity of the state, or of the state and action, of a cell's name."""
+    told = {str(argument) for argument in application.step.left.args}
+    return all(part in told for part in name.strip("()").split(", "))
 
 
 def _cause(kind: str, what: str = "") -> Cause:
