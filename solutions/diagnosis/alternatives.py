@@ -38,7 +38,7 @@ def at_one(application: Application) -> Iterator[Cause]:
         yield replace(base, kind=kind, weight=weights.VALUES[kind], became=other)
     if (old := application.old()) is not None and same_form(old, value):
         yield replace(base, kind="kept", weight=weights.VALUES["kept"], became=old)
-        yield from _repeated(application, base)
+        yield from _of_table(application, base)
     if application.equation:
         return
     edited = set()
@@ -70,17 +70,21 @@ def at_one(application: Application) -> Iterator[Cause]:
                 yield replace(cause, became=other)
 
 
-def _repeated(application: Application, base: Cause) -> Iterator[Cause]:
-    """The same update once more, from the value that it gave."""
+def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
+    """The same update once more, from the value that it gave; or from a table that has been updated since."""
     left, known = application.formula.left, application.known
     try:
         arguments = tuple(value_of(argument, known) for argument in left.args)
     except UNDONE:
         return
-    key = arguments[0] if len(arguments) == 1 else arguments
-    again = {**known, left.func.code: {**known[left.func.code], key: application.value}}
+    key, code = arguments[0] if len(arguments) == 1 else arguments, left.func.code
+    again = {**known, code: {**known[code], key: application.value}}
     if (other := value_or_none(application.right, again)) is not None:
         yield replace(base, kind="repeated", weight=weights.VALUES["repeated"], became=other)
+    if application.first is not None and key in application.first:
+        for table in (application.first, {**application.first, key: known[code].get(key)}):
+            if table != known[code] and (other := value_or_none(application.right, {**known, code: table})) is not None:
+                yield replace(base, kind="stale", weight=weights.VALUES["stale"], became=other)
 
 
 def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:

@@ -31,6 +31,7 @@ class Application:
     """One application of a formula in the right working; ``nth`` says which of all its steps it is, from 0.
 
     The equations of a system are applications, too, each with the value that the solution gives its unknown.
+    ``first`` is the table that the formula updates, as it was before its first update; None where it updates none.
     """
 
     number: int
@@ -39,6 +40,7 @@ class Application:
     value: Any
     known: Mapping[str, Any]
     equation: bool = False
+    first: Mapping[Any, Any] | None = None
 
     @property
     def formula(self) -> Formula:
@@ -67,6 +69,7 @@ class Recorder(Work):
     def __init__(self, carried: Mapping[str, Any]) -> None:
         super().__init__(carried=carried)
         self.applications: list[Application] = []
+        self._first: dict[str, Mapping[Any, Any]] = {}
 
     def step(self, formula: Formula, **named: Any) -> Any:
         """As in any working."""
@@ -89,7 +92,10 @@ class Recorder(Work):
         step = self.lines[line]
         assert isinstance(step, Step)
         nth = sum(isinstance(each, Step) for each in self.lines[:line])
-        self.applications.append(Application(len(self.applications), nth, step, value, known, equation))
+        left, first = step.formula.left, None
+        if isinstance(left, Quantity) and isinstance(table := known.get(left.code), Mapping):
+            first = self._first.setdefault(left.code, table)
+        self.applications.append(Application(len(self.applications), nth, step, value, known, equation, first))
 
 
 def _key(case: Mapping[str, Any]) -> Any:

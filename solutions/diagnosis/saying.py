@@ -88,6 +88,7 @@ _INSIDE = {
 _VALUES = {
     "kept": "the old value {became} is kept",
     "repeated": "the update is made twice",
+    "stale": "a value that has been updated since is put in as it was at the start",
     "sign": "the result has the wrong sign: {became} for {was}",
     "tenfold": "the decimal point of the result has slipped: {became} for {was}",
     "digits": "two digits of the result are exchanged: {became} for {was}",

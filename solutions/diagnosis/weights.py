@@ -72,6 +72,7 @@ AT_ONE, IN_ONE_TERM = 0.5, 0.3
 #: Slips in the value of a step.
 VALUES = {
     "kept": 5.0,
+    "stale": 3.0,
     "sign": 4.0,
     "tenfold": 1.5,
     "one-off": 1.2,

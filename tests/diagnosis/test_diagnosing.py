@@ -7,6 +7,7 @@ import rldrill
 from rldrill.solutions.answers.judging import Outcome
 from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.diagnosis.typed import may_mean
+from rldrill.solutions.sheet.bellman import Q_REWARD_UNWEIGHTED
 from rldrill.solutions.sheet.control import SHARED_AMONG_OTHERS
 
 # V(cave) = 8, V(floor) = 10, V(rim) = 6, α = 1/4, γ = 1/2:
@@ -39,6 +40,8 @@ def run() -> rldrill.Exercise:
         # the second update is left out: floor stays at 10
         ("cave: 13/2, floor: 10", None, "in the second update (t = 1)"),
         ("cave: 63/8, floor: 13/2", "exchanged-cells", "the answers for cave and floor are exchanged"),
+        # with cave = 8 as at the start: 10 + 1/4·(−3 + 1/2·8 − 10) = 31/4
+        ("cave: 13/2, floor: 31/4", "stale", "as it was at the start in the second update (t = 1)"),
         # 9 + 1/4·(−4 + 1/2·6 + 9) = 11
         ("cave: 11, floor: 63/8", "sign", "V(sₜ) has the wrong sign in the third update (t = 2)"),
     ],
@@ -87,6 +90,61 @@ def test_a_mistake_stated_beside_a_formula_is_known_wherever_that_is_read() -> N
     assert diagnosis.kind == "listed"
     assert diagnosis.sentence == SHARED_AMONG_OTHERS.says
     assert not diagnosis.alternatives
+
+
+CAR = {
+    "family": "policy-improvement",
+    "given": {
+        "mdp": {
+            "transitions": [
+                ["cool", "fast", "warm", "1/2", 7],
+                ["cool", "fast", "hot", "1/2", 9],
+                ["cool", "slow", "cool", 1, 7],
+                ["warm", "slow", "cool", 1, -1],
+                ["hot", "fast", "overheated", 1, 10],
+                ["hot", "slow", "warm", "1/2", 7],
+                ["hot", "slow", "hot", "1/2", 1],
+            ],
+            "terminal": ["overheated"],
+        },
+        "policy": {"cool": "slow", "warm": "slow", "hot": "fast"},
+        "values": {"cool": 14, "warm": 6, "hot": 10},  # 7 + 1/2·14, −1 + 1/2·14, 10
+        "gamma": "1/2",
+        "action_values": True,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        # Rewards not weighted: (cool, fast) 7 + 9 + 1/2·(1/2·6 + 1/2·10) = 20, (hot, slow) 7 + 1 + 1/2·(3 + 5) = 12.
+        "(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 12",
+        # Only the first time; rightly (hot, slow) is 1/2·(7 + 1/2·6) + 1/2·(1 + 1/2·10) = 8.
+        "(cool, fast): 20, (cool, slow): 14, (warm, slow): 6, (hot, fast): 10, (hot, slow): 8",
+    ],
+)
+def test_a_stated_mistake_is_known_made_everywhere_and_made_once(typed: str) -> None:
+    assert rldrill.read(CAR).diagnose(typed).sentence == Q_REWARD_UNWEIGHTED.says
+
+
+def test_what_was_found_on_the_way_is_told_from_the_answer() -> None:
+    # Dark: 1/3·(1/2, 3/4, 1/4), normalised (1/3, 1/2, 1/6). After "descend": 1/3·1/4 = 1/12 in rim,
+    # 1/3·3/4 + 1/2·1/4 = 3/8 in ledge, 1/2·3/4 + 1/6 = 13/24 in floor; the second measurement is still to come.
+    crater = {
+        "belief": {"rim": "1/3", "ledge": "1/3", "floor": "1/3"},
+        "motion": {
+            "descend": {
+                "rim": {"rim": "1/4", "ledge": "3/4"},
+                "ledge": {"ledge": "1/4", "floor": "3/4"},
+                "floor": {"floor": 1},
+            }
+        },
+        "likelihood": {"dark": {"rim": "1/2", "ledge": "3/4", "floor": "1/4"}},
+        "run": [{"measurement": "dark"}, {"action": "descend", "measurement": "dark"}],
+    }
+    diagnosis = rldrill.read({"family": "bayes-filter", "given": crater}).diagnose("1/12, 3/8, 13/24", part="b")
+    assert diagnosis.sentence == "It looks as if you gave p̄(rim), …, which are not what is asked for."
 
 
 @pytest.mark.parametrize(
