@@ -322,6 +322,7 @@ const Judge = (() => {
     const key = new Parser(keyText, parameters).all();
     if (parameters.length && (varies(reading.value) || varies(key))) return false;
     const [a, b] = [float(reading.value(0.5)), float(key(0.5))];
+    if (!reading.decimal && !Number.isInteger(a)) return false; // who writes 5/16 or 2√3 means just that
     return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
   };
 

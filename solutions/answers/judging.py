@@ -13,7 +13,7 @@ from rldrill.solutions.answers.kinds import Allowed, Cell, answer_kind
 from rldrill.solutions.answers.rule import DIGITS, is_close, is_right, tolerance
 from rldrill.solutions.answers.source import LONGEST
 from rldrill.solutions.answers.text import Reading, Unreadable
-from rldrill.solutions.exact import NotReal, Value, absolute, sign
+from rldrill.solutions.exact import NotReal, Value, absolute, is_rational, sign
 from rldrill.solutions.formula.formula import Misconception
 from rldrill.solutions.solution import Solution
 
@@ -224,7 +224,11 @@ def _cell_is_right(cell: Cell, key: Any) -> bool:
 
 
 def _is_close(cell: Cell, key: Value) -> bool:
-    return isinstance(cell, Reading) and is_close(cell.value, key)
+    """Whether a number that may be a rounded one is near the key; who writes 5/16 or 2√3 means just that."""
+    if not isinstance(cell, Reading):
+        return False
+    rounded = cell.decimal or (is_rational(cell.value) and cell.value.q == 1)
+    return rounded and is_close(cell.value, key)
 
 
 def _is_cut_off(cell: Cell, key: Value) -> bool:

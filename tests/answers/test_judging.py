@@ -327,6 +327,8 @@ def test_a_terminal_state_may_be_given_its_zero() -> None:
     [
         ("1.44", "Right."),  # 13/9 = 1.4444…
         ("1.43", "Right idea; give an exact value or three digits."),
+        ("10/7", "Not right."),  # 1.4286: nobody rounds to that
+        ("sqrt(2)", "Not right."),
     ],
 )
 def test_what_is_close_is_told_why(text: str, says: str) -> None:

@@ -98,7 +98,8 @@ def test_the_page_judges_as_the_library_does(identity: str) -> None:
 @pytest.mark.parametrize(
     ("typed", "outcome"),
     [("2/3", "right"), ("0.667", "right"), ("0.6662", "right"), ("0.6661", "close"), ("0.66", "close"),
-     ("0.6", "wrong"), ("-2/3", "wrong"), ("0.6671", "right"), ("0.6672", "close")],
+     ("0.6", "wrong"), ("-2/3", "wrong"), ("33/50", "wrong"), ("sqrt(4/9 + 1/99)", "wrong"),
+     ("0.6671", "right"), ("0.6672", "close")],
 )  # fmt: skip
 def test_three_significant_digits_are_enough(typed: str, outcome: str) -> None:
     """2/3 allows 0.0005 on either side: 0.66616… to 0.66716…"""
