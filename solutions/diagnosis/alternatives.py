@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import sympy
 from flint import fmpq
 from sympy import Basic, Expr
 
@@ -63,6 +64,7 @@ def at_one(application: Application) -> Iterator[Cause]:
     if (crosswise := _crosswise(flat(right), known)) is not None:
         whole = Probe(right, right)
         yield replace(base, kind="crosswise", weight=weights.INSIDE["crosswise"], probe=whole, became=crosswise)
+    yield from _other_matrices(application, base)
     for probe in probes(right):
         for cause, letters in at_place(application, probe):
             other = value_or_none(probe.right, {**known, **letters})
@@ -85,6 +87,27 @@ def _of_table(application: Application, base: Cause) -> Iterator[Cause]:
         for table in (application.first, {**application.first, key: known[code].get(key)}):
             if table != known[code] and (other := value_or_none(application.right, {**known, code: table})) is not None:
                 yield replace(base, kind="stale", weight=weights.VALUES["stale"], became=other)
+
+
+def _other_matrices(application: Application, base: Cause) -> Iterator[Cause]:
+    """Another given matrix of the same shape in the place of one: R for Q."""
+    right, known = application.right, application.known
+    letters = {each for each in right.atoms(sympy.Symbol, Quantity) if each.is_commutative is False}
+    for part in sorted(letters, key=str):
+        name = part.code if isinstance(part, Quantity) else part.name
+        was = value_or_none(part, known)
+        if not is_matrix(was):
+            continue
+        for taken, table in known.items():
+            if taken == name or type(table) is not type(known[name]):
+                continue
+            instead = {**known, name: table}
+            other, became = value_or_none(part, instead), value_or_none(right, instead)
+            if is_matrix(other) and other != was and same_form(other, was) and same_form(became, application.value):
+                weight = weights.INSIDE["elsewhere"]
+                yield replace(
+                    base, kind="elsewhere", weight=weight, probe=Probe(part, right), was=was, other=other, became=became
+                )
 
 
 def at_place(application: Application, probe: Probe) -> Iterator[tuple[Cause, dict[str, Any]]]:

@@ -128,6 +128,14 @@ def test_a_stated_mistake_is_known_made_everywhere_and_made_once(typed: str) -> 
     assert rldrill.read(CAR).diagnose(typed).sentence == Q_REWARD_UNWEIGHTED.says
 
 
+def test_a_matrix_in_the_place_of_another_is_told() -> None:
+    # μ̄ = 9 + 5 = 14, Σ̄ = 2 + 4 = 6. With R = 4 for Q = 12 in the gain K = 6/(6 + 4) = 3/5:
+    # μ = 14 + 3/5·(11 − 14) = 61/5 and Σ = (1 − 3/5)·6 = 12/5.
+    line = {"mean": 9, "covariance": 2, "A": 1, "C": 1, "process": 4, "sensor": 12, "steps": [{"u": 5, "z": 11}]}
+    diagnosis = rldrill.read({"family": "kalman-filter", "given": line}).diagnose("61/5, 12/5", part="b")
+    assert diagnosis.sentence == "It looks as if 4 is put in for Q, which is 12 in K₁."
+
+
 def test_what_was_found_on_the_way_is_told_from_the_answer() -> None:
     # Dark: 1/3·(1/2, 3/4, 1/4), normalised (1/3, 1/2, 1/6). After "descend": 1/3·1/4 = 1/12 in rim,
     # 1/3·3/4 + 1/2·1/4 = 3/8 in ledge, 1/2·3/4 + 1/6 = 13/24 in floor; the second measurement is still to come.
