@@ -19,7 +19,7 @@ from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, not_known, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.settings import draw_setting, draw_way
+from rldrill.problems.settings import draw_setting, draw_way, in_order
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
@@ -150,7 +150,7 @@ def draw_whole(
     The run ends in the state ``end``, or is cut off in another one.
     """
     terminal = tuple(state for state in states if state == end)
-    values = draw_values(rng, sorted(set(states) - {end}), gamma)
+    values = draw_values(rng, in_order(states), gamma)
     V = values | dict.fromkeys(terminal, Fraction(0))
     rewards: tuple[Fraction, ...] = ()
     later = gamma * V[states[-1]]  # what the longest return adds to a reward; the one-step return adds γV

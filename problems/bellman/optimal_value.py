@@ -17,7 +17,7 @@ from rldrill.problems.valued import RewardSought, deterministic, draw_valued, op
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 4
+REVISION = 5
 
 
 class Optimal(Givens):

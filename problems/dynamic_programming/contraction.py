@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 3
+REVISION = 4
 
 
 def _positive(value: Fraction) -> Fraction:

@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
