@@ -129,10 +129,10 @@ def _is_telling(given: Sought) -> bool:
     least = (best[row.state] - worth(unpaid, row[:2], best, given.gamma)) / Fraction(row.probability)
     shift = best | {state: best[state] + 1}  # does the answer hang on the value of the other state?
     ahead = worth(mdp, (row.state, rival), shift, given.gamma) - worth(unpaid, row[:2], shift, given.gamma)
-    at_once = worth(mdp, (row.state, rival), {}, given.gamma) - worth(unpaid, row[:2], {}, given.gamma)
+    at_once = [worth(mdp, (row.state, a), {}, given.gamma) - worth(unpaid, row[:2], {}, given.gamma) for a in worths]
     return (
         ahead != best[row.state] - worth(unpaid, row[:2], best, given.gamma)
-        and least != at_once / Fraction(row.probability)
+        and least * Fraction(row.probability) not in at_once
         and least not in {each.reward for each in given.mdp.transitions}
         and best[state] != given.optimum[state]
         and least.denominator <= 3

@@ -99,11 +99,13 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         )
     work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
-    less = {a: work.value(Q_STAR_FROM_V, s=state, a=a, **known, V=V) for a in mdp.actions[state] if a != best}
-    more = (
-        f", more than {joined([f'{action} (${to_sympy(worth)}$)' for action, worth in less.items()])}" if less else ""
-    )
-    work.say(f'{best.capitalize()} is worth $V^*("{state}") = {to_sympy(target)}${more}.')
+    beaten = [
+        f"{action} (${to_sympy(work.value(Q_STAR_FROM_V, s=state, a=action, **known, V=V))}$)"
+        for action in mdp.actions[state]
+        if action != best
+    ]
+    compared = f", more than {joined(beaten)}" if beaten else ""
+    work.say(f'{best.capitalize()} is worth $V^*("{state}") = {to_sympy(target)}${compared}.')
     work.answer({state: (best,)})
     work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
     rivals = [action for action in mdp.actions[row.state] if action != row.action]
