@@ -11,7 +11,7 @@ from rldrill.solutions.exact import NoSolution, Value, exact, parameters, to_sym
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.formula.notation import V
 from rldrill.solutions.oracle import at
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Result, Work
 
 Given = TypeVar("Given", bound=Reversible)
 Run = TypeVar("Run", bound=ValueRun)
@@ -73,7 +73,8 @@ def find_and_finish(
             work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
-        work.lines += [Equality(V(put_in_name(state)), (after[state], found[state])) for state in others]
+        names = tuple(V(put_in_name(state)) for state in others)
+        work.lines.append(Result(names, tuple(found.values()), tuple(after[state] for state in others)))
         work.answer(found)
 
 

@@ -152,16 +152,21 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Result:
-    """Values that a procedure gives together: the solution of a system, a table at its end."""
+    """Values that a procedure gives together: the solution of a system, a table at its end.
+
+    ``before`` holds what was found of them before, where a letter was left open in it.
+    """
 
     lefts: tuple[Expr, ...]
     values: tuple[Any, ...]
+    before: tuple[Any, ...] = ()
 
     def equations(self) -> tuple[Equation, ...]:
         """One line for every value."""
         return tuple(
-            Equation(typeset(left), (shown_value(value),), ("=",))
-            for left, value in zip(self.lefts, self.values, strict=True)
+            Equation(typeset(left), rights, ("=",) * len(rights))
+            for left, *values in zip(self.lefts, *([self.before] if self.before else []), self.values, strict=True)
+            for rights in [tuple(dict.fromkeys(map(shown_value, values)))]
         )
 
 
