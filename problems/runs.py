@@ -107,7 +107,12 @@ def per_step(gamma: Scalar | tuple[Scalar, ...], steps: int) -> tuple[Scalar, ..
 def draw_values(rng: Draws, states: Sequence[str], gamma: Fraction) -> dict[str, Fraction]:
     """Values of states, whole even when they are discounted, and not 0."""
     unit = gamma.denominator
-    return {state: unit * rng.nonzero(-(4 // unit), 12 // unit) for state in states}
+    return {state: unit * rng.nonzero(-(4 // unit), max(12 // unit, len(states))) for state in states}
+
+
+def told_apart(run: Trajectory, values: Mapping[str, Fraction]) -> bool:
+    """Whether no two states are worth the same, and no reward is that before it: so what is confused shows."""
+    return len({*values.values()}) == len(values) and all(one != other for one, other in pairwise(run.rewards))
 
 
 def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:

@@ -13,7 +13,7 @@ from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, readable, seen
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, readable, seen, told_apart
 from rldrill.problems.settings import draw_visits
 
 TITLE = "λ-return"
@@ -91,8 +91,12 @@ def _matters(rng: Draws, gamma: Fraction, lam: Fraction, *visits: str) -> Given:
     while True:
         run, values = draw_whole(rng, states, setting.terminal, gamma)
         given = Given(trajectory=run, values=values, gamma=gamma, lam=lam)
-        if readable((_average(given),)) and all(
-            _average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+        if (
+            told_apart(run, values)
+            and readable((_average(given),))
+            and all(
+                _average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+            )
         ):
             return given
 

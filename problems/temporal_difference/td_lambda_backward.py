@@ -22,6 +22,7 @@ from rldrill.problems.runs import (
     readable,
     run_situation,
     sought_parts,
+    told_apart,
     values_asked,
 )
 from rldrill.problems.settings import draw_visits, in_order
@@ -68,7 +69,8 @@ def _run(rng: Draws, *visits: str) -> Given:
     setting, states = draw_visits(rng, *visits)
     while True:
         run = _rewarded(rng, states, setting.terminal)
-        if readable(_learned(run).values()) and _discounts(run):
+        before = {state: Fraction(value) for state, value in run.values.items()}
+        if told_apart(run.trajectory, before) and readable(_learned(run).values()) and _discounts(run):
             return run
 
 

@@ -12,7 +12,16 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, readable, run_situation, sought_parts
+from rldrill.problems.runs import (
+    ShortRun,
+    ValueRun,
+    cut_off,
+    draw_whole,
+    readable,
+    run_situation,
+    sought_parts,
+    told_apart,
+)
 from rldrill.problems.settings import draw_visits
 
 TITLE = "TD(λ), forward view"
@@ -72,7 +81,7 @@ def _run(rng: Draws, asked: tuple[int, ...], *visits: str) -> Given:
     """A run with whole returns whose first update depends on all that is given, and gives a readable number."""
     setting, states = draw_visits(rng, *visits)
     run = _whole(rng, states, setting.terminal, asked)
-    while not _matters(run):
+    while not (told_apart(run.trajectory, _numbers(run)) and _matters(run)):
         run = _whole(rng, states, setting.terminal, asked)
     return run
 
@@ -94,9 +103,14 @@ def _whole(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]
     return Given(trajectory=run, values=values, alpha=alpha, gamma=gamma, lam=lam, asked=asked)
 
 
+def _numbers(run: Given) -> dict[str, Fraction]:
+    """The values of a run in which nothing is left open."""
+    return {state: Fraction(value) for state, value in run.values.items()}
+
+
 def _learned(run: Given) -> Fraction:
     """The value of the first state of a run in which nothing is left open."""
-    lam, V = Fraction(run.lam), {state: Fraction(value) for state, value in run.values.items()}
+    lam, V = Fraction(run.lam), _numbers(run)
     worth = V.get(run.trajectory.states[-1], Fraction(0))
     for move in reversed(run.moves):
         worth = move.reward + Fraction(run.gamma) * ((1 - lam) * V.get(move.next, Fraction(0)) + lam * worth)

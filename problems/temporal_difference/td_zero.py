@@ -25,6 +25,7 @@ from rldrill.problems.runs import (
     readable,
     run_blocks,
     sought_parts,
+    told_apart,
     values_asked,
 )
 from rldrill.problems.settings import draw_visits, in_order
@@ -86,9 +87,17 @@ def _run(rng: Draws, *visits: str) -> AlongRun:
     """A run with one of these orders of visits, whose values stay readable."""
     setting, states = draw_visits(rng, *visits)
     run = _rewarded(rng, states, setting.terminal)
-    while not readable(_learned(run).values()):
+    while not (readable(_learned(run).values()) and (len(states) == _ONE_STEP or _is_told_apart(run))):
         run = _rewarded(rng, states, setting.terminal)
     return run
+
+
+#: The states of a run of one transition.
+_ONE_STEP = 2
+
+
+def _is_told_apart(run: AlongRun) -> bool:
+    return told_apart(run.trajectory, {state: Fraction(value) for state, value in run.values.items()})
 
 
 def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> AlongRun:
