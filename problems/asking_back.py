@@ -173,6 +173,13 @@ def draw_back(rng: Draws, setting: Setting, count: int, worth: Worth, sought: st
     return {"trajectory": run, "values": rows, "outcome": Outcome(state, action, end), **rates}
 
 
+def rival(given: AskingBack, outcome: Outcome, table: Rows) -> str | None:
+    """An action of the state that is as good in the end, and is not updated, if there is one."""
+    state, action, value = outcome
+    others = (other for other, worth in table[state].items() if other != action and worth == value)
+    return next((other for other in others if (state, other) not in given.updated), None)
+
+
 def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") -> Part:
     """The part that asks for what is left open, by its value or by an action that is as good in the end.
 
@@ -184,9 +191,8 @@ def back_asked(given: AskingBack, outcome: Outcome, table: Rows, of: str = "Q") 
     """
     state, action, value = outcome
     sought = f"{_CALLED.get(given.asked_for, 'value of')} ${PARAMETERS[given.asked_for]}$"
-    rival = next((other for other, worth in table[state].items() if other != action and worth == value), None)
-    if rival and (state, rival) not in given.updated:
-        pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{rival}")$'
+    if other := rival(given, outcome, table):
+        pair = f'${of}("{state}", "{action}")$ and ${of}("{state}", "{other}")$'
         return Part(f"For which {sought} are {pair} equal {after(given)}?", Number())
     ask = f'{after(given).capitalize()} ${of}("{state}", "{action}") = {shown(value)}$. What is the {sought}?'
     return Part(ask, Number())

@@ -19,7 +19,7 @@ from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, not_known, step_size, terminal_note
 from rldrill.problems.pictures import Timeline
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.settings import draw_setting, draw_way
+from rldrill.problems.settings import draw_setting, draw_way, in_order
 
 #: Runs of at most so many states are drawn.
 _DRAWN = 12
@@ -107,7 +107,12 @@ def per_step(gamma: Scalar | tuple[Scalar, ...], steps: int) -> tuple[Scalar, ..
 def draw_values(rng: Draws, states: Sequence[str], gamma: Fraction) -> dict[str, Fraction]:
     """Values of states, whole even when they are discounted, and not 0."""
     unit = gamma.denominator
-    return {state: unit * rng.nonzero(-(4 // unit), 12 // unit) for state in states}
+    return {state: unit * rng.nonzero(-(4 // unit), max(12 // unit, len(states))) for state in states}
+
+
+def told_apart(run: Trajectory, values: Mapping[str, Fraction]) -> bool:
+    """Whether no two states are worth the same, and no reward is that before it: so what is confused shows."""
+    return len({*values.values()}) == len(values) and all(one != other for one, other in pairwise(run.rewards))
 
 
 def draw_reward(rng: Draws, old: Fraction, after: Fraction, alpha: Fraction, unit: int | None = None) -> Fraction:
@@ -150,7 +155,7 @@ def draw_whole(
     The run ends in the state ``end``, or is cut off in another one.
     """
     terminal = tuple(state for state in states if state == end)
-    values = draw_values(rng, sorted(set(states) - {end}), gamma)
+    values = draw_values(rng, in_order(states), gamma)
     V = values | dict.fromkeys(terminal, Fraction(0))
     rewards: tuple[Fraction, ...] = ()
     later = gamma * V[states[-1]]  # what the longest return adds to a reward; the one-step return adds γV

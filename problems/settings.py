@@ -1,10 +1,12 @@
 """The little worlds in which problems are set, and random models of them."""
 
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise, permutations
 from pathlib import Path
+from typing import Any
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.fractions import Fraction
@@ -15,7 +17,8 @@ from rldrill.problems.models import Model, Transition
 class Setting:
     """A world: what it is about, its states, the one in which it ends, and the actions; what to add where it ends.
 
-    ``moves`` holds for each action how many states further it can lead, below 0 how many back, the most usual first.
+    ``moves`` holds for each action how many states further it leads, below 0 how many back, the most usual first;
+    ``alone`` holds those that happen without an action that is named.
     """
 
     story: str
@@ -24,6 +27,7 @@ class Setting:
     terminal: str
     actions: tuple[str, ...]
     moves: tuple[tuple[int, ...], ...]
+    alone: tuple[int, ...]
 
     def __hash__(self) -> int:
         return hash(self.story)
@@ -34,41 +38,83 @@ class Setting:
 
     @property
     def onward(self) -> tuple[str, ...]:
-        """The actions that can lead on."""
+        """The actions that lead on."""
         return tuple(action for action, moves in zip(self.actions, self.moves, strict=True) if max(moves) > 0)
 
-    def reached(self, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
-        """Where an action can lead from a state, the most usual first; it goes no further than to the outer places.
+    @property
+    def returns(self) -> bool:
+        """Whether earlier states come again where no action is named."""
+        return min(self.alone) < 0
 
-        An action that the world does not have stands for all of them.
-        """
+    def steps(self, action: str) -> tuple[int, ...]:
+        """How many states further an action leads; what the world does not name stands for what happens alone."""
+        return self.moves[self.actions.index(action)] if action in self.actions else self.alone
+
+    def reached(self, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
+        """Where an action can lead from a state, the most usual first; it goes no further than to the outer places."""
         return _reached(self, places, state, action)
+
+    def seen(self, state: str, action: str) -> tuple[str, ...]:
+        """Where an action is seen to lead in a run: those that lead back do not leave everything as it is."""
+        places = (*self.states, self.terminal)
+        reached = self.reached(places, state, action)
+        still = max(self.steps(action)) > 0 or state == places[0]
+        return reached if still else tuple(place for place in reached if place != state)
 
 
 @cache
 def _reached(setting: Setting, places: tuple[str, ...], state: str, action: str) -> tuple[str, ...]:
     here = places.index(state)
-    chosen = [setting.moves[setting.actions.index(action)]] if action in setting.actions else setting.moves
-    steps = [step for moves in chosen for step in moves]
+    steps = (*setting.steps(action), 0)
     return tuple(dict.fromkeys(places[min(max(here + step, 0), len(places) - 1)] for step in steps))
+
+
+@cache
+def _written() -> dict[str, list[dict[str, Any]]]:
+    with (Path(__file__).parent / "worlds.toml").open("rb") as file:
+        return tomllib.load(file)
 
 
 @cache
 def settings() -> tuple[Setting, ...]:
     """All worlds, from ``worlds.toml``."""
-    with (Path(__file__).parent / "worlds.toml").open("rb") as file:
-        worlds = tomllib.load(file)["world"]
     return tuple(
         Setting(
             world["story"],
-            world.get("ending", ""),
+            world["ending"],
             tuple(world["states"]),
             world["terminal"],
             tuple(world["actions"]),
             tuple(map(tuple, world["moves"])),
+            tuple(world.get("alone") or dict.fromkeys(step for moves in world["moves"] for step in moves)),
         )
-        for world in worlds
+        for world in _written()["world"]
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Map:
+    """Places without an order, the one in which it ends, and actions that may lead to any place still to come."""
+
+    story: str
+    states: tuple[str, ...]
+    terminal: str
+    actions: tuple[str, ...]
+
+
+@cache
+def maps() -> tuple[Map, ...]:
+    """All maps, from ``worlds.toml``."""
+    return tuple(
+        Map(each["story"], tuple(each["states"]), each["terminal"], tuple(each["actions"]))
+        for each in _written()["map"]
+    )
+
+
+def in_order(states: Iterable[str]) -> tuple[str, ...]:
+    """States of a world, each once, from the first on; the one in which it ends is left out."""
+    named = {*states}
+    return tuple(state for world in settings() for state in world.states if state in named)
 
 
 @cache
@@ -77,10 +123,7 @@ def _ways(
 ) -> tuple[tuple[dict[str, str], tuple[tuple[str, ...], ...]], ...]:
     """All that letters can stand for, so that every move is possible; and the actions that can make each."""
     letters = sorted({letter for before, after in moves for letter in before + after} - {"."})
-    places = (*setting.states, setting.terminal)
-    reached = {
-        (state, action): {*setting.reached(places, state, action)} for state in setting.states for action in actions
-    }
+    reached = {(state, action): {*setting.seen(state, action)} for state in setting.states for action in actions}
     found = []
     for states in permutations(setting.states, len(letters)):
         named = dict(zip(letters, states, strict=True)) | {".": setting.terminal}
@@ -143,9 +186,42 @@ def draw_way(
     return tuple(named[letter] for letter in visits), (*taken, *last)
 
 
+#: No action of any world.
+_UNNAMED = ("",)
+
+
+def draw_places(rng: Draws, steps: Iterable[tuple[str, str]]) -> tuple[Setting, dict[str, str]]:
+    """A world and its states for letters, between which such steps happen without an action that is named.
+
+    Args:
+        rng: the stream of choices.
+        steps: the letters of a state and of the next one; a full stop is the end.
+    """
+    moves = tuple(dict.fromkeys(steps))
+    setting = rng.choice([setting for setting in settings() if possible(setting, moves, _UNNAMED)])
+    return setting, draw_moves(rng, setting, moves, _UNNAMED)[0]
+
+
+def draw_visits(rng: Draws, *visits: str) -> tuple[Setting, tuple[str, ...]]:
+    """A world, and the states of a run through it in which no action is named.
+
+    Args:
+        rng: the stream of choices.
+        visits: orders of visits, as ``draw_way`` takes them, one of which is chosen.
+    """
+    tour = rng.choice(visits)
+    setting, named = draw_places(rng, pairwise(tour))
+    return setting, tuple(named[letter] for letter in tour)
+
+
 def draw_setting(rng: Draws) -> Setting:
     """One of the worlds."""
     return rng.choice(settings())
+
+
+def draw_roaming(rng: Draws) -> Setting:
+    """One of the worlds in which earlier states come again where no action is named."""
+    return rng.choice([setting for setting in settings() if setting.returns])
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,14 +233,12 @@ class Shape:
         actions: actions in each of them.
         branches: how many next states an action may have at most.
         reward: the largest reward; rewards are whole numbers from minus half of it.
-        ends: whether there is a terminal state that can be reached from everywhere.
     """
 
     states: int
     actions: int
     branches: int
     reward: int = 6
-    ends: bool = True
     denominators: tuple[int, ...] = (2, 4)
 
 
@@ -192,14 +266,14 @@ def draw_targets(
 ) -> tuple[str, ...]:
     """Where an action leads, as it fits the world, but not to a place that is barred, if it can be helped.
 
-    A world's first action can lead on from every state.
+    What is most usual is always among it: no action does nothing for certain, if it can do anything.
     """
     state, action = pair
     possible = setting.reached(places, state, action)
     if barred is not None:
         possible = tuple(place for place in possible if place != barred) or possible
     chosen = rng.sample(possible, 1 + rng.below(min(shape.branches, len(possible))))
-    if action not in setting.actions[1:] and possible[0] not in chosen:
+    if possible[0] not in chosen:
         chosen = (possible[0], *chosen[1:])
     return tuple([place for place in places if place in chosen])
 
@@ -207,13 +281,11 @@ def draw_targets(
 def draw_model(rng: Draws, setting: Setting, shape: Shape) -> Model:
     """A random model of a world: first actions can lead on, and so to the end; second ones lead back."""
     states = setting.states[: shape.states]
-    ends = (setting.terminal,) if shape.ends else ()
-    places = (*states, *ends)
+    places = (*states, setting.terminal)
     rows = []
     for state in states:
         for action in setting.actions[: shape.actions]:
             targets = draw_targets(rng, setting, places, (state, action), shape)
-            if not ends and state == states[-1] and targets == (state,):  # nobody stays there for ever
-                targets = (states[0],)
             rows += draw_outcomes(rng, state, action, targets, shape)
+    ends = (setting.terminal,)
     return Model(story=setting.told(ends), transitions=tuple(rows), terminal=ends)

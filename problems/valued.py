@@ -138,7 +138,7 @@ def draw_worth(
 
     Those that are called sure have one outcome each.
     """
-    ends = (setting.terminal,) if shape.ends else ()
+    ends = (setting.terminal,)
     places = (*setting.states[: shape.states], *ends)
     certain = replace(shape, branches=1)
     rows = [

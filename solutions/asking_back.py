@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from rldrill.problems.asking_back import AskingBack, Outcome
+from rldrill.problems.asking_back import AskingBack, BackMoves, BackRun, Outcome, Rows, rival
 from rldrill.problems.exact import Parameter, shown
 from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.oracle import Answers, at
@@ -12,20 +12,31 @@ from rldrill.solutions.work import Work
 Pair: TypeAlias = tuple[str, str]
 
 
-def find(work: Work, outcome: Outcome, letter: str, Q: Mapping[Any, Value]) -> None:
+def find(given: AskingBack, outcome: Outcome, work: Work, Q: Mapping[Any, Value], table: Rows, of: str = "Q") -> None:
     """Set what a pair is worth, an expression in the letter, equal to its value; the letter's value is the answer.
+
+    Args:
+        given: the run.
+        outcome: what the pair is worth in the end.
+        work: where the steps are written.
+        Q: what pairs are worth in the end.
+        table: the action values before the run; another action there may be as good in the end.
+        of: how they are called.
 
     Raises:
         NoSolution: no value of the letter leads there, every one does, or the equation is not linear.
     """
-    work.say(f"The value of ({outcome.state}, {outcome.action}) must be ${shown(outcome.value)}$:")
-    work.answer(work.equate(letter, Q[outcome.state, outcome.action], exact(outcome.value)))
+    state, action, value = outcome
+    other = rival(given, outcome, table)
+    why = f', as ${of}("{state}", "{other}")$ is, which no update changes' if other else ""
+    work.say(f'${of}("{state}", "{action}")$ must be ${shown(value)}${why}:')
+    work.answer(work.equate(given.asked_for, Q[state, action], exact(value)))
 
 
-def answer_along(given: AskingBack, work: Work, Q: Mapping[Any, Value], pairs: Sequence[Pair]) -> None:
+def answer_along(given: BackRun | BackMoves, work: Work, Q: Mapping[Any, Value], pairs: Sequence[Pair]) -> None:
     """Answer with what these pairs are worth after a run; or with what follows from what one of them is worth."""
     if given.outcome:
-        find(work, given.outcome, given.asked_for, Q)
+        find(given, given.outcome, work, Q, given.values)
     else:
         work.answer({pair: Q[pair] for pair in pairs})
 

@@ -68,12 +68,13 @@ def find_and_finish(
     letter = find(given, work, after[first])
     if others:
         sign = shown(Parameter(given.letter))
+        found = {state: value_at(after[state], letter) for state in others}
         if any(parameters(after[state]) for state in others):
             work.say(f"With ${sign} = {to_sympy(letter)}$ in what was found above:")
         else:
             work.say(f"It does not depend on ${sign}$, and was found above:")
-        found = {state: value_at(after[state], letter) for state in others}
-        work.lines.append(Result(tuple(V(put_in_name(state)) for state in others), tuple(found.values())))
+        names = tuple(V(put_in_name(state)) for state in others)
+        work.lines.append(Result(names, tuple(found.values()), tuple(after[state] for state in others)))
         work.answer(found)
 
 

@@ -20,7 +20,7 @@ from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.inverting import inverted
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.formula.putting_in import indexed, put_in, reduced, term_by_term
+from rldrill.solutions.formula.putting_in import indexed, long_sum, put_in, reduced, term_by_term
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
@@ -92,7 +92,7 @@ class Step(_Applied):
         rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
             short = term_by_term(reduced(written)) if self.own else reduced(written)
-            rights += [alone(short), alone(inverted(short)), shown_value(self.value)]
+            rights += [alone(short), alone(inverted(short)), alone(long_sum(short)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():
@@ -152,16 +152,21 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Result:
-    """Values that a procedure gives together: the solution of a system, a table at its end."""
+    """Values that a procedure gives together: the solution of a system, a table at its end.
+
+    ``before`` holds what was found of them before, where a letter was left open in it.
+    """
 
     lefts: tuple[Expr, ...]
     values: tuple[Any, ...]
+    before: tuple[Any, ...] = ()
 
     def equations(self) -> tuple[Equation, ...]:
         """One line for every value."""
         return tuple(
-            Equation(typeset(left), (shown_value(value),), ("=",))
-            for left, value in zip(self.lefts, self.values, strict=True)
+            Equation(typeset(left), rights, ("=",) * len(rights))
+            for left, *values in zip(self.lefts, *([self.before] if self.before else []), self.values, strict=True)
+            for rights in [tuple(dict.fromkeys(map(shown_value, values)))]
         )
 
 

@@ -17,7 +17,7 @@ from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, te
 
 TITLE = "Action values from state values"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Lookahead):

@@ -27,7 +27,7 @@ from rldrill.problems.valued import draw_averaging, draw_paying, draw_values, te
 
 TITLE = "Bellman backup"
 SOURCE = "Sutton & Barto 2018, section 3.5"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Lookahead):

@@ -27,7 +27,7 @@ from rldrill.problems.valued import UNITS, draw_mixed, draw_valued, draw_values,
 
 TITLE = "Bellman residual"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6 and 11.4"
-REVISION = 5
+REVISION = 6
 
 
 class Given(ModelAndPolicy):

@@ -9,15 +9,25 @@ from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, Probability, shown
 from rldrill.problems.family import Givens, Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, Named, model_blocks
 from rldrill.problems.parts import Number, Part, Policy, Values
 from rldrill.problems.phrases import discount
 from rldrill.problems.settings import Shape, draw_setting
-from rldrill.problems.valued import RewardSought, deterministic, draw_valued, open_reward, opened, policy_values, worth
+from rldrill.problems.valued import (
+    RewardSought,
+    deterministic,
+    draw_valued,
+    open_reward,
+    opened,
+    policy_values,
+    with_reward,
+    worth,
+)
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 4
+REVISION = 5
 
 
 class Optimal(Givens):
@@ -90,22 +100,44 @@ def draw(level: int, rng: Draws) -> Optimal | Sought:
             return draw(level, rng)
         asked = rng.choice(mdp.outcomes[other, policy[other]])
         given = Sought(mdp=opened(mdp, asked), gamma=gamma, optimum={known: values[known]})
-        return given if _is_readable(given) else draw(level, rng)
+        return given if _is_telling(given) else draw(level, rng)
     shape = Shape(states=2, actions=2, branches=level, denominators=(2,))
-    mdp, _, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
+    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
+    while level == 1 and of_two_steps(mdp, gamma) != policy:
+        mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, (-5, -1))
     return Optimal(mdp=mdp, gamma=gamma)
 
 
-def _is_readable(given: Sought) -> bool:
-    """Whether the optimal values without the action are readable, and not those of what earns most at once."""
-    mdp = given.without
+def of_two_steps(mdp: Model, gamma: Fraction) -> dict[str, str]:
+    """The policy that earns most over two steps: seldom far from the best one, so a good one to start with."""
+    once = {s: max(worth(mdp, (s, a), {}, gamma) for a in actions) for s, actions in mdp.actions.items()}
+    return {s: max(actions, key=lambda a: worth(mdp, (s, a), once, gamma)) for s, actions in mdp.actions.items()}
+
+
+def _is_telling(given: Sought) -> bool:
+    """Whether the reward at which the action starts to be best needs the optimal value of the other state.
+
+    It is the difference of two values, both with what comes after them, and no reward that is printed.
+    """
+    mdp, state, row = given.without, given.state, given.row
     policies = [dict(zip(mdp.states, chosen, strict=True)) for chosen in product(*mdp.actions.values())]
     every = [policy_values(mdp, deterministic(policy), given.gamma) for policy in policies]
-    best = {state: max(values[state] for values in every) for state in mdp.states}
-    greedy = {state: max(actions, key=lambda a: worth(mdp, (state, a), {}, given.gamma))
-              for state, actions in mdp.actions.items()}  # fmt: skip
-    greedy_values = policy_values(mdp, deterministic(greedy), given.gamma)
-    return greedy_values != best and all(value.denominator <= 3 for value in best.values())
+    best = {each: max(values[each] for values in every) for each in mdp.states}
+    unpaid = with_reward(given.mdp, Fraction(0))
+    worths = {a: worth(mdp, (row.state, a), best, given.gamma) for a in mdp.actions[row.state]}
+    rival = max(worths, key=worths.__getitem__)
+    least = (best[row.state] - worth(unpaid, row[:2], best, given.gamma)) / Fraction(row.probability)
+    shift = best | {state: best[state] + 1}  # does the answer hang on the value of the other state?
+    ahead = worth(mdp, (row.state, rival), shift, given.gamma) - worth(unpaid, row[:2], shift, given.gamma)
+    at_once = [worth(mdp, (row.state, a), {}, given.gamma) - worth(unpaid, row[:2], {}, given.gamma) for a in worths]
+    return (
+        ahead != best[row.state] - worth(unpaid, row[:2], best, given.gamma)
+        and least * Fraction(row.probability) not in at_once
+        and least not in {each.reward for each in given.mdp.transitions}
+        and best[state] != given.optimum[state]
+        and least.denominator <= 3
+        and all(value.denominator <= 3 for value in best.values())
+    )
 
 
 def question(given: Optimal | Sought) -> Question:

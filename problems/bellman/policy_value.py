@@ -23,12 +23,12 @@ from rldrill.problems.models import (
 )
 from rldrill.problems.parts import Number, Part, Values
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_setting
+from rldrill.problems.settings import Setting, Shape, draw_outcomes, draw_roaming, draw_setting
 from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(ModelAndPolicy):
@@ -85,11 +85,11 @@ def draw(level: int, rng: Draws) -> Given:
     """A reward process of two states; then a policy, three states or the long run; then a number left open."""
     setting = draw_setting(rng)
     if level == 3:
-        return _left_open(rng, setting)
+        return _left_open(rng)
     gamma = rng.fraction("1/2", "2/3") if level == 1 else rng.fraction("1/2", "2/3", "4/5")
     form = "process" if level == 1 else rng.choice(("policy", "policy", "process", "average"))
     if form == "average":
-        return _recurrent(rng, setting)
+        return _recurrent(rng, draw_roaming(rng))
     if form == "policy":
         shape = Shape(states=2, actions=2, branches=2, denominators=(2,))
         mdp, policy, _ = draw_mixed(rng, setting, shape, gamma, (2, 4))
@@ -111,28 +111,30 @@ def _recurrent(rng: Draws, setting: Setting) -> Given:
     return Given(mdp=Model(story=setting.told(()), transitions=tuple(rows)), gamma=Fraction(1), average=True)
 
 
-def _left_open(rng: Draws, setting: Setting) -> Given:
+def _left_open(rng: Draws) -> Given:
     """Two states; left open is the discount, a probability of the process, or one of the policy."""
-    first, second = setting.states[:2]
     letter = rng.choice(("gamma", "process", "policy"))
+    setting = draw_setting(rng) if letter == "policy" else draw_roaming(rng)
+    first, second = setting.states[:2]
     policy: PolicyField = {}
     p = (Parameter("p"), Parameter("1-p"))
     half = rng.fraction("1/2", "1/4", "3/4")
     rewards = rng.distinct(4, -3, 6)
-    after = rng.choice(((first, setting.terminal), (second, setting.terminal), (first, second)))
+    ways = [(second, setting.terminal), (first, second)]
+    after = rng.choice(ways if letter == "policy" else [*ways, (first, setting.terminal)])
     even, gamma = Fraction(1, 2), rng.fraction("1/2", "2/3")
     if after == (second, setting.terminal):
         worth = (rewards[2] + rewards[3]) / (2 - gamma)
         if rewards[2] + gamma * worth == rewards[3]:  # both are worth the same, whatever their probabilities
-            return _left_open(rng, setting)
+            return _left_open(rng)
     if letter == "policy":
         onward, back = setting.actions[:2]
-        policy = {first: {onward: p[0], back: p[1]}, second: {onward: Fraction(1)}}
+        name = back if first in after else onward
+        policy = {first: {onward: p[0], back: p[1]}, second: {name: Fraction(1)}}
         rows = [
             Transition(first, onward, second, Fraction(1), rewards[0]),
             Transition(first, back, first, Fraction(1), rewards[1]),
         ]
-        name = onward
     else:
         stay, leave = (half, 1 - half) if letter == "gamma" else p
         name = ALONE

@@ -1,6 +1,5 @@
 """The best paths of a small graph without chance: from the start, and from every state on the way."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from typing import NamedTuple, Self
@@ -14,6 +13,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Part, Policy, Values
+from rldrill.problems.settings import maps
 
 TITLE = "Principle of optimality"
 SOURCE = "Bertsekas 2017, sections 1.3 and 2.1"
@@ -95,28 +95,15 @@ class Given(Givens):
         return frozenset(found)
 
 
-@dataclass(frozen=True, slots=True)
-class _Place:
-    story: str
-    states: tuple[str, ...]
-    goal: str
-
-
-_PLACES = (
-    _Place("A robot moves through a building to its charger.", ("door", "hall", "bend", "ramp"), "charger"),
-    _Place("A rover drives through a crater to its lander.", ("rim", "slope", "floor", "cave"), "lander"),
-    _Place("A drone carries a parcel across the town.", ("depot", "bridge", "park", "tower"), "house"),
-    _Place("A boat sails between islands to its harbour.", ("cape", "reef", "bay", "rock"), "harbour"),
-)
 #: How many states lie before the goal at each level, and how many edges there are beside those from each to the next.
 _SIZES = {1: (3, 2), 2: (4, 3), 3: (4, 4)}
 
 
 def draw(level: int, rng: Draws) -> Given:
     """Three states before the goal; then four; then more edges, and a path that must go through a state."""
-    place = rng.choice(_PLACES)
+    place = rng.choice(maps())
     count, more = _SIZES[level]
-    names = (*place.states[:count], place.goal)
+    names = (*place.states[:count], place.terminal)
     bait = 1 + rng.below(2)  # good to go to, bad to go on from: the greedy path is not the best one
     farther = [(here, after) for here in range(count) for after in range(here + 2, count + 1)]
     ways = sorted([*((here, here + 1) for here in range(count)), *rng.sample(farther, more)])
@@ -125,7 +112,7 @@ def draw(level: int, rng: Draws) -> Given:
         for here, after in ways
     )
     return Given(
-        edges=edges, start=names[0], goal=place.goal, through=names[bait] if level == 3 else None, story=place.story
+        edges=edges, start=names[0], goal=place.terminal, through=names[bait] if level == 3 else None, story=place.story
     )
 
 

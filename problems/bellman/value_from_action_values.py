@@ -17,7 +17,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "State values from action values"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):

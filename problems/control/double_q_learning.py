@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Double Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.7"
-REVISION = 6
+REVISION = 7
 DISTRACTORS = (
     "values.*",  # both tables have the values of other pairs, too
     "second.*",

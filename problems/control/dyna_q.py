@@ -20,7 +20,7 @@ from rldrill.problems.settings import draw_moves, draw_setting, possible
 
 TITLE = "Dyna-Q"
 SOURCE = "Sutton & Barto 2018, sections 8.2 and 8.3"
-REVISION = 4
+REVISION = 5
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "model.0.2",  # what the model held is replaced by what was tried last

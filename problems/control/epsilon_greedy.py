@@ -18,7 +18,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "ε-greedy policy"
 SOURCE = "Sutton & Barto 2018, sections 2.2 and 5.4"
-REVISION = 3
+REVISION = 4
 
 _MOVES = ("up", "right", "down", "left")
 

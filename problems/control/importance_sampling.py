@@ -27,7 +27,7 @@ from rldrill.problems.settings import Setting, draw_moves, possible, settings
 
 TITLE = "Importance sampling"
 SOURCE = "Sutton & Barto 2018, section 5.5"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):

@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 6
+REVISION = 7
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business

@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.4"
-REVISION = 5
+REVISION = 6
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
 )

@@ -17,7 +17,7 @@ from rldrill.problems.runs import Replacing, ShortRun, action_values_table, draw
 
 TITLE = "Sarsa(λ)"
 SOURCE = "Sutton & Barto 2018, section 12.7; 1998, section 7.5"
-REVISION = 7
+REVISION = 8
 DISTRACTORS = ("values.*",)  # a table has the values of other pairs, too
 
 _CUT = (

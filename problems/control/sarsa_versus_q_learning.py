@@ -15,7 +15,7 @@ from rldrill.problems.runs import ActionRun, Trajectory, action_values_table, ru
 
 TITLE = "Sarsa versus Q-learning"
 SOURCE = "Sutton & Barto 2018, sections 6.4 and 6.5"
-REVISION = 5
+REVISION = 6
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "alpha",  # it is printed only where a value that it has moved is used

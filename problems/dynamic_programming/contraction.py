@@ -17,7 +17,7 @@ from rldrill.problems.sweeps import counted
 
 TITLE = "Contraction of value iteration"
 SOURCE = "Puterman 1994, sections 6.2 and 6.3"
-REVISION = 3
+REVISION = 4
 
 
 def _positive(value: Fraction) -> Fraction:
@@ -58,21 +58,40 @@ class Given(Givens):
         return self.optimum or self.first or {}
 
 
+#: How near is near enough, at each level that asks for it.
+_ACCURACIES = {2: ("1", "1/2", "1/10", "1/20"), 3: ("1", "2", "3", "4", "5", "6", "8", "10", "12", "15", "20")}
+#: So many sweeps are found by multiplying, without logarithms.
+_BY_HAND = range(4, 7)
+
+
 def draw(level: int, rng: Draws) -> Given:
     """V* is known, one bound; then also how many sweeps are enough; then only the first sweep, and γ nearer to 1."""
     known = level < 3
     states = draw_setting(rng).states[: 2 if level == 1 else 2 + rng.below(level)]
     start = {state: Fraction(0) if level == 1 else rng.whole(-2, 6) for state in states}
     other = {state: value + rng.nonzero(-5, 12) for state, value in start.items()}
-    discounts = {1: ("1/2", "1/3", "1/4", "1/5"), 2: ("1/2", "1/3", "1/4"), 3: ("2/3", "3/4", "4/5", "9/10")}[level]
+    discounts = {1: ("1/2", "1/3", "1/4", "1/5"), 2: ("1/2", "1/3", "1/4"), 3: ("2/3", "3/4", "4/5")}[level]
+    gamma = rng.fraction(*discounts)
+    distance = max(abs(other[state] - value) for state, value in start.items()) / (1 if known else 1 - gamma)
+    near = [each for each in _ACCURACIES.get(level, ()) if _sweeps(distance, gamma, Fraction(each)) in _BY_HAND]
+    if level > 1 and not near:
+        return draw(level, rng)
     return Given(
         start=start,
         optimum=other if known else None,
         first=None if known else other,
-        gamma=rng.fraction(*discounts),
+        gamma=gamma,
         sweeps=2 + rng.below(2) * (level == 2),
-        accuracy=rng.fraction("1", "1/2", "1/10", "1/20") if level > 1 else None,
+        accuracy=rng.fraction(*near) if level > 1 else None,
     )
+
+
+def _sweeps(distance: Fraction, gamma: Fraction, accuracy: Fraction) -> int:
+    """How many sweeps bring a distance to at most the accuracy."""
+    sweeps = 0
+    while distance > accuracy:
+        distance, sweeps = distance * gamma, sweeps + 1
+    return sweeps
 
 
 def question(given: Given) -> Question:

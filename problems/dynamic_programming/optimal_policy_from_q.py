@@ -18,7 +18,7 @@ from rldrill.problems.valued import UNITS, tells_apart
 
 TITLE = "Optimal policy given Q"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):

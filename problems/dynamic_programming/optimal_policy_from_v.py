@@ -17,7 +17,7 @@ from rldrill.problems.valued import UNITS, check_optimal_values, draw_valued
 
 TITLE = "Optimal policy given V"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
@@ -48,7 +48,7 @@ class Given(Givens):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two states whose moves are certain; then moves that are not, or three states; then a value is missing."""
-    gamma = rng.choice(tuple(UNITS)[: min(level + 1, 3)])
+    gamma = rng.choice(tuple(UNITS)[: max(level, 2)])
     states = 2 if level == 1 else 2 + rng.below(2)
     actions = 3 if states == 2 else 2
     shape = Shape(states=states, actions=actions, branches=min(level, 2), denominators=(2,))

@@ -26,7 +26,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 6
+REVISION = 7
 
 
 class Given(ModelAndPolicy, Sweeps):

@@ -25,7 +25,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy improvement"
 SOURCE = "Sutton & Barto 2018, section 4.2"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):

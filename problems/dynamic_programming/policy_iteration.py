@@ -28,7 +28,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 4
+REVISION = 5
 
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))

@@ -18,7 +18,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Sweeps):

@@ -15,11 +15,11 @@ from rldrill.problems.models import Named, Names, check_keys
 from rldrill.problems.parts import Numbers, Part
 from rldrill.problems.phrases import discount, in_open, step_size
 from rldrill.problems.runs import Trajectory, trajectory_table
-from rldrill.problems.settings import draw_setting, draw_way
+from rldrill.problems.settings import draw_setting, draw_visits, draw_way, in_order
 
 TITLE = "Semi-gradient TD"
 SOURCE = "Sutton & Barto 2018, sections 9.3 and 10.1"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Givens):
@@ -79,16 +79,18 @@ _RUNS: tuple[tuple[str, int, bool], ...] = (
 
 def draw(level: int, rng: Draws) -> Given:
     """One step of TD(0); then two of them, or one of Sarsa; then two of Sarsa, the step size left open."""
-    setting = draw_setting(rng)
     visits, size, sarsa = {1: ("ab", 2, False), 3: ("aba", 2, True)}.get(level) or rng.choice(_RUNS)
-    choices = setting.actions[:2] if sarsa else ()
-    # a state sees the same action again, so the first step counts in the second
-    states, taken = draw_way(rng, setting, visits, choices or setting.actions, same=True)
-    named = [state for state in setting.states if state in states]
+    if sarsa:  # a state sees the same action again, so the first step counts in the second
+        setting = draw_setting(rng)
+        choices = setting.actions[:2]
+        states, taken = draw_way(rng, setting, visits, choices, same=True)
+    else:
+        (setting, states), choices, taken = draw_visits(rng, visits), (), ()
+    named = in_order(states)
     given = Given(
         trajectory=Trajectory(
             states=states,
-            actions=taken if choices else (),
+            actions=taken,
             rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
             terminal=tuple(state for state in states if state == setting.terminal),
         ),

@@ -26,11 +26,11 @@ from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked
 from rldrill.problems.runs import readable
-from rldrill.problems.settings import Setting, settings
+from rldrill.problems.settings import Map, maps
 
 TITLE = "Expected return"
 SOURCE = "Sutton & Barto 2018, sections 3.3 and 3.5"
-REVISION = 5
+REVISION = 6
 
 _MOST = 200
 
@@ -100,24 +100,24 @@ class Given(Reversible, ModelAndPolicy):
 
 #: Branches: a state, an action and where it may lead, in numbers; 3 is the end.
 Tree: TypeAlias = tuple[tuple[int, int, tuple[int, ...]], ...]
-#: Small trees, and the states to start in.
+#: Small trees, and the states to start in: at most five episodes are added up.
 _TREES: tuple[tuple[Tree, tuple[int, ...]], ...] = (
     (((0, 0, (1, 2)), (0, 1, (2, 3)), (1, 0, (3,)), (2, 0, (3,))), (0, 2)),
-    (((0, 0, (1, 3)), (1, 0, (2, 3)), (1, 1, (3,)), (2, 0, (3,))), (0, 1)),
-    (((0, 0, (1, 2)), (1, 0, (3,)), (1, 1, (2,)), (2, 0, (3,))), (0,)),
-    (((0, 0, (1,)), (0, 1, (2, 3)), (1, 0, (2, 3)), (2, 0, (3,))), (0, 1)),
+    (((0, 0, (1, 3)), (1, 0, (2, 3)), (1, 1, (3,)), (2, 0, (3,))), (0,)),
+    (((0, 0, (1, 2)), (1, 0, (3,)), (1, 1, (2,)), (2, 0, (3,))), (0, 2)),
+    (((0, 0, (1,)), (0, 1, (2, 3)), (1, 0, (2, 3)), (2, 0, (3,))), (0,)),
 )
 _FIRST_TREE: tuple[Tree, tuple[int, ...]] = (((0, 0, (1,)), (0, 1, (3,)), (1, 0, (3,))), (0, 1))
 
 
 def draw(level: int, rng: Draws) -> Given:
     """Two starts and a choice of two actions; then branches of chance; then a probability left open or asked for."""
-    setting = rng.choice(tuple(setting for setting in settings() if len(setting.onward) > 1))
+    place = rng.choice(maps())
     tree, starts = _FIRST_TREE if level == 1 else rng.choice(_TREES)
     gamma = rng.fraction("1/2") if level == 1 else rng.fraction("1/2", "4/5")
-    given = _given(level, rng, setting, tree, starts, gamma)
+    given = _given(level, rng, place, tree, starts, gamma)
     while not _all_matters(given):
-        given = _given(level, rng, setting, tree, starts, gamma)
+        given = _given(level, rng, place, tree, starts, gamma)
     mdp = given.mdp
     if level < 3:
         return given
@@ -138,9 +138,9 @@ def _with(given: Given, chances: tuple[Scalar, ...], *, by_start: bool) -> Given
     return given.model_copy(update={"policy": _policy(given.mdp, chances)})
 
 
-def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[int, ...], gamma: Fraction) -> Given:
+def _given(level: int, rng: Draws, place: Map, tree: Tree, starts: tuple[int, ...], gamma: Fraction) -> Given:
     """Numbers for a tree; what is earned last is whole when it is discounted."""
-    named = (*setting.states[:3], setting.terminal)
+    named = (*place.states[:3], place.terminal)
     quarters = level > 1 and rng.chance(Fraction(1, 2))
     rows = []
     for state, action, targets in tree:
@@ -148,8 +148,8 @@ def _given(level: int, rng: Draws, setting: Setting, tree: Tree, starts: tuple[i
         unit = gamma if targets == (3,) else Fraction(1)
         for target, chance in zip(targets, chances, strict=True):
             reward = _reward(rng, unit)
-            rows.append(Transition(named[state], setting.onward[action], named[target], chance, reward))
-    mdp = Model(story=setting.told((setting.terminal,)), transitions=tuple(rows), terminal=(setting.terminal,))
+            rows.append(Transition(named[state], place.actions[action], named[target], chance, reward))
+    mdp = Model(story=place.story, transitions=tuple(rows), terminal=(place.terminal,))
     first = rng.split(len(starts), (2, 4)) if len(starts) > 1 else (Fraction(1),)
     policy = _policy(mdp, rng.split(2, (2,) if quarters else (4,)))
     return Given(

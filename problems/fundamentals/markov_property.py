@@ -18,7 +18,7 @@ from rldrill.problems.readings import distribution, note_of
 
 TITLE = "Markov property"
 SOURCE = "Sutton & Barto 2018, section 3.1"
-REVISION = 3
+REVISION = 4
 
 
 class Seen(NamedTuple):
@@ -139,7 +139,7 @@ _STORIES = (
     _Story("A delivery van drives from town to town.", ("north", "east", "south", "west")),
     _Story("A tutoring program sets one kind of exercise after the other.", ("words", "grammar", "sounds", "reading")),
     _Story("A melody is played note by note.", ("do", "re", "mi", "fa")),
-    _Story("A help robot is given one job after the other.", ("fetch", "carry", "clean", "guide")),
+    _Story("A service robot is given one job after the other.", ("fetch", "carry", "clean", "guide")),
 )
 
 
@@ -157,9 +157,7 @@ def draw(level: int, rng: Draws) -> Given:
         totals = dict(zip(histories, rng.split(len(histories), (20,)), strict=True))
     else:
         totals = dict(zip(histories, (5 * count for count in rng.distinct(len(histories), 1, 8)), strict=True))
-    matters = _where_it_matters(rng, nows)
-    if finding:
-        matters = matters[:1]
+    matters = _where_it_matters(rng, nows, at_most=1 if finding else len(nows))
     chances = {now: rng.split(len(nexts), (5,)) for now in nows}
     given_history = {history: chances[history[1]] for history in histories}
     for now in matters:
@@ -175,11 +173,11 @@ def draw(level: int, rng: Draws) -> Given:
     return Given(table=table, asked=rng.choice(nexts), story=story.told)
 
 
-def _where_it_matters(rng: Draws, nows: tuple[str, ...]) -> tuple[str, ...]:
-    """The present states in which the history matters: in half of the problems none, else one or all."""
-    if rng.chance(Fraction(1, 2)):
-        return ()
-    return rng.choice((*((now,) for now in nows), *([nows] if len(nows) > 1 else [])))
+def _where_it_matters(rng: Draws, nows: tuple[str, ...], at_most: int) -> tuple[str, ...]:
+    """The present states in which the history matters: none, one or all; of one at most, none in half."""
+    if at_most == 1:
+        return () if rng.chance(Fraction(1, 2)) else (rng.choice(nows),)
+    return rng.choice(((), *((now,) for now in nows), nows))
 
 
 def _another(rng: Draws, chances: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
@@ -194,7 +192,8 @@ def question(given: Given) -> Question:
     weight = {row[:3]: row.weight for row in given.table}
     counts = "how often three successive states $s_{t-1}, s_t, s_{t+1}$ were observed"
     told = "the joint probability of three successive states $s_{t-1}, s_t, s_{t+1}$" if given.probabilities else counts
-    rest = "" if given.probabilities else " Take the relative frequencies in it as the probabilities of the process."
+    frequencies = "Other histories are left out. Take the relative frequencies as the probabilities of the process."
+    rest = "" if given.probabilities else f" {frequencies}"
     hidden = given.missing
     lost = " One of the counts, $x$, is not known." if hidden else ""
     blocks = (
@@ -218,16 +217,22 @@ def question(given: Given) -> Question:
             f"With this $x$: {ask[0].lower()}{ask[1:]}",
             "Is the whole table then consistent with the Markov property?",
         )
-    parts += [Part(ask, Values(f'Pr("{given.asked}"|·)', given.histories)), Part(consistent, YesNo())]
+    parts.append(Part(ask, Values(f'Pr("{given.asked}"|·)', given.histories)))
     if options := where(given):
-        asked = "For which present state $s_t$ does the distribution of $s_{t+1}$ depend on $s_{t-1}$?"
-        parts.append(Part(asked, Choice(options)))
+        told = "The Markov property asks that the distribution of $s_{t+1}$ depends on $s_t$ alone."
+        parts.append(Part(f"{told} For which present state $s_t$ does it also depend on $s_{{t-1}}$?", Choice(options)))
+    else:
+        parts.append(Part(consistent, YesNo()))
     return Question(blocks, tuple(parts))
+
+
+_PAIR = 2
 
 
 def where(given: Given) -> dict[str, str]:
     """The options of the last part: each present state, none, several; no options where there is one state only."""
     if given.missing or not 1 < len(given.present) <= 20:
         return {}
-    texts = (*given.present, "for none of them", "for more than one of them")
+    several = "for both" if len(given.present) == _PAIR else "for more than one of them"
+    texts = (*given.present, "for none of them", several)
     return dict(zip("ABCDEFGHIJKLMNOPQRSTUVWXYZ", texts, strict=False))

@@ -188,21 +188,22 @@ def _comparison(given: Compared) -> Question:
     blocks = (
         Paragraph(
             f"An episode has the rewards ${_listed(given.rewards)}$. A second one has the rewards "
-            f"${_listed(given.others)}$. Each ends after its last reward; $R_0 = r_1 + γ r_2 + …$ is its return. {told}"
+            f"${_listed(given.others)}$. Each ends after its last reward; $R_0 = r_1 + γ r_2 + …$ is the return of the "
+            f"first, $R'_0$ that of the second. {told}"
         ),
     )
     if given.sought:
         return Question(
             blocks,
             (
-                Part("For which discount $γ$ do both have the same return $R_0$?", Number()),
-                Part("Which of them has the larger return $R_0$ if $γ$ is larger than that?", Choice(EPISODES)),
+                Part("For which discount $γ$ is $R_0 = R'_0$?", Number()),
+                Part("Which of them has the larger return if $γ$ is larger than that?", Choice(EPISODES)),
             ),
         )
     return Question(
         blocks,
         (
-            Part("What is the return $R_0$ of the first and of the second, in this order?", Numbers(("R_0", "R_0′"))),
+            Part("What are the returns $R_0$ and $R'_0$, in this order?", Numbers(("R_0", "R'_0"))),
             Part("Which of them would have the larger return if nothing were discounted ($γ = 1$)?", Choice(EPISODES)),
         ),
     )

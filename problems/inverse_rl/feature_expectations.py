@@ -16,11 +16,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import discount, in_open, unknown
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_roaming
 
 TITLE = "Feature expectations from trajectories"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):
@@ -62,7 +62,7 @@ class Given(Givens):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two short trajectories; two to four longer ones; the discount left open, or asked for."""
-    setting = draw_setting(rng)
+    setting = draw_roaming(rng)
     states = setting.states[: 2 if level == 1 else 3]
     count, length = {1: (2, 3), 2: rng.choice(((2, 4), (4, 3), (3, 3))), 3: rng.choice(((2, 3), (2, 4)))}[level]
     if level == 3 and rng.chance(Fraction(2, 3)):

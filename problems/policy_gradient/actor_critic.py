@@ -19,7 +19,7 @@ from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_poli
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 5
+REVISION = 6
 
 #: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
 _DEEPEST = 3

@@ -23,11 +23,11 @@ from rldrill.problems.models import (
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, terminal_note, trace_parameter
 from rldrill.problems.runs import Trajectory, check_values, trajectory_table
-from rldrill.problems.settings import Shape, draw_outcomes, draw_setting
+from rldrill.problems.settings import Shape, draw_outcomes, draw_setting, draw_visits
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 5
+REVISION = 6
 
 
 class Lookahead(Givens):
@@ -136,10 +136,8 @@ Given = Annotated[
 
 def draw(level: int, rng: Draws) -> Given:
     """Two certain actions and V(s) given; then three actions and a policy; then GAE with λ left open."""
-    setting = draw_setting(rng)
     if level == 3:
-        first, second, third = rng.shuffled(setting.states)[:3]
-        states = (first, second, first, third, rng.choice((second, setting.terminal)))
+        setting, states = draw_visits(rng, "abacb", "abac.")
         run = Trajectory(
             states=states,
             rewards=tuple(rng.nonzero(-4, 8) for _ in states[1:]),
@@ -149,6 +147,7 @@ def draw(level: int, rng: Draws) -> Given:
         return AlongRun(
             run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=rng.fraction("1/2", "2/3", "1")
         )
+    setting = draw_setting(rng)
     actions = setting.actions[: 1 + level]
     state = rng.choice(setting.states)
     ahead_of = {a: [s for s in setting.reached(setting.states, state, a) if s != state] for a in actions}

@@ -15,7 +15,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear policy"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 3
+REVISION = 4
 
 
 class Given(Givens):

@@ -18,7 +18,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "PPO: clipped objective"
 SOURCE = "Schulman et al. 2017, section 3"
-REVISION = 3
+REVISION = 4
 
 
 class Sample(Givens):

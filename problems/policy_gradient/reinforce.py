@@ -11,7 +11,7 @@ from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, ever
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 6
+REVISION = 7
 
 
 class Given(Episode):

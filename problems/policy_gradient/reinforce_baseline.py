@@ -23,7 +23,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 6
+REVISION = 7
 
 
 class Given(Episode):

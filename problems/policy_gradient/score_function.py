@@ -24,7 +24,7 @@ from rldrill.problems.softmax import draw_log_policy, told_apart
 
 TITLE = "Score function"
 SOURCE = "Sutton & Barto 2018, eq. 13.9"
-REVISION = 3
+REVISION = 4
 
 
 class Component(NamedTuple):

@@ -19,7 +19,7 @@ from rldrill.problems.softmax import draw_log_policy
 
 TITLE = "Softmax policy"
 SOURCE = "Sutton & Barto 2018, section 13.1"
-REVISION = 3
+REVISION = 4
 
 
 class Odds(NamedTuple):

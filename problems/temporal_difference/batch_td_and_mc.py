@@ -1,6 +1,8 @@
 """What batch TD(0) and batch Monte Carlo make of the same episodes."""
 
 from collections import Counter
+from collections.abc import Mapping
+from itertools import chain, pairwise
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -13,11 +15,11 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
 from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import discount, in_open
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_places
 
 TITLE = "Batch TD(0) and batch Monte Carlo"
 SOURCE = "Sutton & Barto 2018, section 6.3"
-REVISION = 3
+REVISION = 4
 
 
 class Observed(Givens):
@@ -58,29 +60,28 @@ class Given(Givens):
         return tuple(dict.fromkeys(state for episode in self.episodes for state in episode.states))
 
 
-#: The paths of the episodes of each level, by the numbers of the states.
-_PATHS: dict[int, tuple[tuple[tuple[int, ...], ...], ...]] = {
-    1: (((0, 1), (1,), (1,), (1,)),),
+#: The visits of the episodes of each level, a letter for every state.
+_PATHS: dict[int, tuple[tuple[str, ...], ...]] = {
+    1: (("ab", "b", "b", "b"),),
     2: (
-        ((0, 1), (0, 1), (0,), (1,), (1,), (1,)),
-        ((0, 1), (1, 0), (1,), (1,), (0,)),
-        ((0, 1), (0,), (0,), (1,), (1,)),
-        ((0, 0, 1), (0, 1), (1,), (1,)),
+        ("ab", "ab", "a", "b", "b", "b"),
+        ("ab", "ba", "b", "b", "a"),
+        ("ab", "a", "a", "b", "b"),
+        ("aab", "ab", "b", "b"),
     ),
     3: (
-        ((0, 1, 2), (0, 2), (1, 2), (1, 2), (2,), (2,)),
-        ((0, 1), (1, 2), (1, 2), (2,), (2,)),
-        ((0, 1, 2), (0, 1), (1, 2), (2,)),
-        ((0, 1, 1), (1,), (0,), (1,)),
+        ("abc", "ac", "bc", "bc", "c", "c"),
+        ("ab", "bc", "bc", "c", "c"),
+        ("abc", "ab", "bc", "c"),
+        ("abb", "b", "a", "b"),
     ),
 }
 
 
 def draw(level: int, rng: Draws) -> Given:
     """Two states, and one episode through both; then more of both; then with γ left open."""
-    setting = draw_setting(rng)
-    named = rng.shuffled(setting.states)[:3]
     paths = rng.choice(_PATHS[level])
+    _, named = draw_places(rng, chain.from_iterable(map(pairwise, paths)))
     episodes = _episodes(rng, named, paths, level)
     while not _all_count(episodes):
         episodes = _episodes(rng, named, paths, level)
@@ -93,9 +94,7 @@ def draw(level: int, rng: Draws) -> Given:
     return given if all(_moves_a_mean(given, episode) for episode in episodes) else draw(level, rng)
 
 
-def _episodes(
-    rng: Draws, named: tuple[str, ...], paths: tuple[tuple[int, ...], ...], level: int
-) -> tuple[Observed, ...]:
+def _episodes(rng: Draws, named: Mapping[str, str], paths: tuple[str, ...], level: int) -> tuple[Observed, ...]:
     high = 4 if level > 1 else 3
     seen = Counter((tuple(named[place] for place in path), tuple(rng.whole(0, high) for _ in path)) for path in paths)
     return tuple(Observed(states=states, rewards=rewards, times=times) for (states, rewards), times in seen.items())

@@ -15,11 +15,11 @@ from rldrill.problems.parts import Part, Values
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.runs import Replacing
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_visits
 
 TITLE = "Eligibility traces"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Reversible):
@@ -64,13 +64,10 @@ _DECAYS = tuple(
 
 def draw(level: int, rng: Draws) -> Given:
     """Two visits and a return; then four or five visits; then mostly with a letter left open, sometimes to be found."""
-    setting = draw_setting(rng)
-    a, b, c = rng.shuffled(setting.states)[:3]
     gamma, lam = rng.choice(_DECAYS)
     if level == 1:
-        return Given(states=(a, b, a), gamma=gamma, lam=lam, asked=(2,))
-    tours = (a, b, a, c, a), (a, b, a, c, b), (a, a, b, c, a), (a, b, c, b, a), (a, b, b, a), (a, b, a, b), (a, a, b, a)
-    states = rng.choice(tours)
+        return Given(states=draw_visits(rng, "aba")[1], gamma=gamma, lam=lam, asked=(2,))
+    _, states = draw_visits(rng, "abaca", "abacb", "aabca", "abcba", "abba", "abab", "aaba")
     last = len(states) - 1
     given = Given(
         states=states,
@@ -86,7 +83,7 @@ def draw(level: int, rng: Draws) -> Given:
     if kind < 4:
         update = {"gamma": Fraction(1, 2), "lam": Fraction(1, 2)} | update
     else:
-        again = states[1] == a
+        again = states[1] == states[0]
         known = Fraction(1) if again and given.replacing else gamma * lam + again
         update |= {"known": known, "asked": (1, last), "replacing": given.replacing and not again}
     return given.model_copy(update=update)

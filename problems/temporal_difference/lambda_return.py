@@ -13,12 +13,12 @@ from rldrill.problems.models import Named, values_table
 from rldrill.problems.parts import Number, Numbers, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open, trace_parameter
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, readable, seen
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.runs import ShortRun, check_values, cut_off, draw_whole, per_step, readable, seen, told_apart
+from rldrill.problems.settings import draw_visits
 
 TITLE = "λ-return"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 4
+REVISION = 5
 #: The table gives the value of every state, that of the start too: which of them count is a part of the question.
 DISTRACTORS = ("values.*",)
 
@@ -66,32 +66,37 @@ _DECAYS = (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4))
 
 def draw(level: int, rng: Draws) -> Given:
     """An episode of two steps; then three steps, to the end or cut off; then a letter left open, or to be found."""
-    setting = draw_setting(rng)
-    end, gamma = setting.terminal, rng.fraction("1/2", "4/5", "3/4")
+    gamma = rng.fraction("1/2", "4/5", "3/4")
     lam = rng.choice([each for each in _DECAYS if each != gamma])
-    a, b, c, d = rng.shuffled(setting.states)
     if level == 1:
-        return _matters(rng, (a, b, end), end, gamma, lam)
-    longer = rng.choice(((a, b, c, end), (a, b, c, d), (a, b, a, end), (a, b, b, end)))
+        return _matters(rng, gamma, lam, "ab.")
+    longer = "abc.", "abcd", "aba.", "abb."
     if level == 2:
-        return _matters(rng, longer, end, gamma, lam)
+        return _matters(rng, gamma, lam, *longer)
     kind = rng.below(4)
     if kind == 3:
-        given = _matters(rng, rng.choice(((a, b, end), (a, b, c))), end, gamma, lam)
+        given = _matters(rng, gamma, lam, "ab.", "abc")
         return given.model_copy(update={"lam": Parameter("lambda"), "known": _average(given)})
-    given = _matters(rng, longer, end, gamma, lam)
+    given = _matters(rng, gamma, lam, *longer)
     if kind == 2:
-        return given.model_copy(update={"values": given.values | {b: Parameter("x")}, "known": _average(given)})
+        return given.model_copy(
+            update={"values": given.values | {given.trajectory.states[1]: Parameter("x")}, "known": _average(given)}
+        )
     return given.model_copy(update={"lam": Parameter("lambda")})
 
 
-def _matters(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, lam: Fraction) -> Given:
-    """A run whose λ-return depends on γ and λ."""
+def _matters(rng: Draws, gamma: Fraction, lam: Fraction, *visits: str) -> Given:
+    """A run with one of these orders of visits, whose λ-return depends on γ and λ."""
+    setting, states = draw_visits(rng, *visits)
     while True:
-        run, values = draw_whole(rng, states, end, gamma)
+        run, values = draw_whole(rng, states, setting.terminal, gamma)
         given = Given(trajectory=run, values=values, gamma=gamma, lam=lam)
-        if readable((_average(given),)) and all(
-            _average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+        if (
+            told_apart(run, values)
+            and readable((_average(given),))
+            and all(
+                _average(given) != _average(given.model_copy(update={name: Fraction(0)})) for name in ("gamma", "lam")
+            )
         ):
             return given
 

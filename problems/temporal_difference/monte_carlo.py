@@ -23,11 +23,11 @@ from rldrill.problems.runs import (
     sought_parts,
     values_asked,
 )
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_visits, in_order
 
 TITLE = "Monte Carlo prediction"
 SOURCE = "Sutton & Barto 2018, sections 5.1 and 6.1"
-REVISION = 5
+REVISION = 6
 
 #: A state; or a state and an action.
 Visited: TypeAlias = str | tuple[str, str]
@@ -102,32 +102,35 @@ Given = Annotated[Annotated[OfStates, Tag("states")] | Annotated[OfActions, Tag(
 
 def draw(level: int, rng: Draws) -> Given:
     """Two steps; then three or four that come back to a state; then a letter left open, or to be found."""
-    setting = draw_setting(rng)
-    a, b, c = rng.shuffled(setting.states)[:3]
-    tours = ((a, b, a, c), (a, b, c, a), (a, b, c, b), (a, b, a), (a, a, b))
+    tours = ("abac.", "abca.", "abcb.", "aba.", "aab.")
     if level == 1:
-        return _episode(rng, (a, b), setting.terminal)
+        return _episode(rng, "ab.")
     kind = rng.below(4)
     if level == 2 or kind == 0:
-        run = _episode(rng, rng.choice(tours), setting.terminal)
+        run = _episode(rng, *tours)
         return run if level == 2 else run.model_copy(update={"gamma": Parameter("gamma")})
     if kind == 1:
-        run = _episode(rng, rng.choice(tours[-2:]), setting.terminal)
+        run = _episode(rng, *tours[-2:])
         return run.model_copy(update={"alpha": Parameter("alpha")})
-    visited = ((a, b), (a, b, c), (a, b, b)) if kind == 2 else ((a, a), (a, a, a))  # nothing else follows from V(a)
-    run = _episode(rng, rng.choice(visited), setting.terminal)
+    visited = ("ab.", "abc.", "abb.") if kind == 2 else ("aa.", "aaa.")  # nothing else follows from V(a)
+    run = _episode(rng, *visited)
     update: dict[str, object] = {"known": _learned(run)}
-    update |= {"alpha": Parameter("alpha")} if kind == 2 else {"values": run.values | {a: Parameter("x")}}
+    update |= (
+        {"alpha": Parameter("alpha")}
+        if kind == 2
+        else {"values": run.values | {run.trajectory.states[0]: Parameter("x")}}
+    )
     return run.model_copy(update=update)
 
 
-def _episode(rng: Draws, states: tuple[str, ...], terminal: str) -> OfStates:
+def _episode(rng: Draws, *visits: str) -> OfStates:
+    setting, states = draw_visits(rng, *visits)
     gamma = rng.fraction("1/2", "3/4", "4/5")
-    rewards = draw_rewards(rng, len(states), gamma)
+    rewards = draw_rewards(rng, len(states) - 1, gamma)
     returns = _returns(rewards, gamma)
-    values = {s: rng.fitting(-4, 10, returns[states.index(s)].__ne__) for s in sorted(set(states))}
+    values = {s: rng.fitting(-4, 10, returns[states.index(s)].__ne__) for s in in_order(states)}
     return OfStates(
-        trajectory=Trajectory(states=(*states, terminal), rewards=rewards, terminal=(terminal,)),
+        trajectory=Trajectory(states=states, rewards=rewards, terminal=(setting.terminal,)),
         values=values,
         alpha=rng.fraction(*(each for each in ("1/2", "1/4", "1/5") if Fraction(each) != gamma)),
         gamma=gamma,

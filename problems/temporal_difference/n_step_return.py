@@ -15,11 +15,11 @@ from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.runs import Trajectory, check_values, draw_whole, per_step, seen
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_visits
 
 TITLE = "n-step return"
 SOURCE = "Sutton & Barto 2018, section 7.1"
-REVISION = 3
+REVISION = 4
 #: The run and the table of values are given whole: how far the return reaches into them is the question. Beyond the end
 #: of an episode it does not matter how many steps are asked for, which is a question, too.
 DISTRACTORS = ("values.*", "trajectory.rewards.*", "asked.*")
@@ -62,41 +62,38 @@ class Given(Reversible):
         return self
 
 
+#: Orders of visits to the end, and those of runs that are cut off.
+_WHOLE = "abc.", "aba.", "abb."
+_CUT_OFF = "abcd", "abac", "abbc"
+
+
 def draw(level: int, rng: Draws) -> Given:
     """Two steps; then two returns, perhaps beyond the end; then a value or γ is to be found first."""
-    setting = draw_setting(rng)
-    a, b, c, d = rng.shuffled(setting.states)
-    end, gamma = setting.terminal, rng.fraction("1/2", "4/5", "3/4")
+    gamma = rng.fraction("1/2", "4/5", "3/4")
     if level == 1:
-        return _given(rng, (a, b, rng.choice((a, c)), d), end, Fraction(1, 2), ((0, 2),))
+        return _given(rng, Fraction(1, 2), ((0, 2),), "abac", "abcd")
     if level == 3:
-        return _asked_back(rng, (a, b, c, d), end, gamma)
-    states = _visited(rng, (a, b, c), end if (whole := rng.chance(Fraction(1, 2))) else d)
+        return _asked_back(rng, gamma)
+    visits = _WHOLE if (whole := rng.chance(Fraction(1, 2))) else _CUT_OFF
     asked = rng.choice((((0, 2), (1, 2)), ((0, 1), (0, 3)), ((1, 1), (0, 3)), ((0, 2), (0, 3))))
     if whole and rng.chance(Fraction(1, 2)):
         asked = ((0, 2), (1, 4))
-    return _given(rng, states, end, gamma, asked)
+    return _given(rng, gamma, asked, *visits)
 
 
-def _visited(rng: Draws, places: tuple[str, str, str], last: str) -> tuple[str, ...]:
-    a, b, c = places
-    return (*rng.choice(((a, b, c), (a, b, a), (a, b, b))), last)
-
-
-def _asked_back(rng: Draws, places: tuple[str, str, str, str], end: str, gamma: Fraction) -> Given:
+def _asked_back(rng: Draws, gamma: Fraction) -> Given:
     """γ, or the value of a state, from one return; then another return in which it stands."""
-    a, b, c, d = places
     if rng.chance(Fraction(1, 2)):
-        states = _visited(rng, (a, b, c), end if rng.chance(Fraction(1, 2)) else d)
-        given = _given(rng, states, end, gamma, ((0, 1), rng.choice(((0, 2), (0, 3), (1, 2)))))
+        visits = _WHOLE if rng.chance(Fraction(1, 2)) else _CUT_OFF
+        given = _given(rng, gamma, ((0, 1), rng.choice(((0, 2), (0, 3), (1, 2)))), *visits)
         letter: dict[str, object] = {"gamma": Parameter("gamma")}
     else:
-        twice = (a, c, b, c)
-        states, *asked = rng.choice((
-            ((a, b, c, d), (0, 2), (1, 1)), (twice, (0, 1), (0, 3)), (twice, (0, 1), (1, 2)), (twice, (0, 3), (0, 1)),
+        twice = "acbc"
+        tour, *asked = rng.choice((
+            ("abcd", (0, 2), (1, 1)), (twice, (0, 1), (0, 3)), (twice, (0, 1), (1, 2)), (twice, (0, 3), (0, 1)),
         ))  # fmt: skip
-        given = _given(rng, states, end, gamma, tuple(asked))
-        letter = {"values": given.values | {c: Parameter("x")}}
+        given = _given(rng, gamma, tuple(asked), tour)
+        letter = {"values": given.values | {given.trajectory.states[tour.index("c")]: Parameter("x")}}
     return given.model_copy(update={**letter, "known": _worth(given, gamma, *given.asked[0])})
 
 
@@ -107,8 +104,9 @@ def _worth(given: Given, gamma: Fraction, time: int, steps: int) -> Fraction:
     return sum((gamma**late * reward for late, reward in enumerate(ahead)), Fraction(0))
 
 
-def _given(rng: Draws, states: tuple[str, ...], end: str, gamma: Fraction, asked: tuple[tuple[int, int], ...]) -> Given:
-    run, values = draw_whole(rng, states, end, gamma)
+def _given(rng: Draws, gamma: Fraction, asked: tuple[tuple[int, int], ...], *visits: str) -> Given:
+    setting, states = draw_visits(rng, *visits)
+    run, values = draw_whole(rng, states, setting.terminal, gamma)
     return Given(trajectory=run, values=values, gamma=gamma, asked=asked)
 
 

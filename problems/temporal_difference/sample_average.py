@@ -13,11 +13,11 @@ from rldrill.problems.models import Name, Named, check_keys, values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, step_size
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_setting, in_order
 
 TITLE = "Sample average"
 SOURCE = "Sutton & Barto 2018, sections 2.4 and 2.5"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Reversible):
@@ -98,7 +98,7 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _averaged(rng: Draws, states: tuple[str, ...]) -> Given:
-    named = sorted(set(states))
+    named = in_order(states)
     visits = tuple((state, rng.nonzero(-6, 12)) for state in states)
     return Given(
         values={state: _before(rng, [each for visited, each in visits if visited == state]) for state in named},

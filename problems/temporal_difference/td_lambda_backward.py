@@ -22,13 +22,14 @@ from rldrill.problems.runs import (
     readable,
     run_situation,
     sought_parts,
+    told_apart,
     values_asked,
 )
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_visits, in_order
 
 TITLE = "TD(λ), backward view"
 SOURCE = "Sutton & Barto 2018, section 12.2"
-REVISION = 4
+REVISION = 5
 
 
 class Given(ValueRun):
@@ -44,34 +45,32 @@ class Given(ValueRun):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two transitions; then two or three that come back to a state; then a letter left open, or to be found."""
-    setting = draw_setting(rng)
-    a, b, c = rng.shuffled(setting.states)[:3]
-    end = setting.terminal
     if level == 1:
-        return _run(rng, (a, b, end), end)
+        return _run(rng, "ab.")
     if level == 2:
-        tours = (a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, c, end)
-        run = _run(rng, rng.choice(tours), end)
+        run = _run(rng, "abac", "aba.", "aab.", "abb.", "abc.")
         replacing = run.model_copy(update={"replacing": len(run.visited) == 2 and rng.chance(Fraction(1, 3))})
         return replacing if _discounts(replacing) else run
     kind = rng.below(4)
     if kind == 0:
-        run = _run(rng, rng.choice(((a, b, a, end), (a, b, c, end), (a, a, b, c))), end)
+        run = _run(rng, "aba.", "abc.", "aabc")
         return run.model_copy(update={"lam": Parameter("lambda")})
     if kind == 2:  # λ decides what a state gets that comes again; the last one to be new gets the same for any λ
-        run = _run(rng, rng.choice(((a, a, b), (a, a, end))), end)
-        return run.model_copy(update={"lam": Parameter("lambda"), "known": _learned(run)[a]})
-    run = _run(rng, rng.choice(((a, b, c), (a, b, end))), end)
+        run = _run(rng, "aab", "aa.")
+        return run.model_copy(update={"lam": Parameter("lambda"), "known": _learned(run)[run.trajectory.states[0]]})
+    run = _run(rng, "abc", "ab.")
     if kind == 1:
         return run.model_copy(update={"gamma": Parameter("gamma")})
-    return run.model_copy(update={"alpha": Parameter("alpha"), "known": _learned(run)[a]})
+    return run.model_copy(update={"alpha": Parameter("alpha"), "known": _learned(run)[run.trajectory.states[0]]})
 
 
-def _run(rng: Draws, states: tuple[str, ...], end: str) -> Given:
-    """A run whose values stay readable, and depend on γ from the first state on."""
+def _run(rng: Draws, *visits: str) -> Given:
+    """A run with one of these orders of visits, whose values stay readable, and depend on γ from the first state on."""
+    setting, states = draw_visits(rng, *visits)
     while True:
-        run = _rewarded(rng, states, end)
-        if readable(_learned(run).values()) and _discounts(run):
+        run = _rewarded(rng, states, setting.terminal)
+        before = {state: Fraction(value) for state, value in run.values.items()}
+        if told_apart(run.trajectory, before) and readable(_learned(run).values()) and _discounts(run):
             return run
 
 
@@ -86,7 +85,7 @@ def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> Given:
     terminal = tuple(state for state in states if state == end)
     gamma, lam = rng.choice(_DECAYS)
     alpha = rng.fraction("1/4") if Fraction(1, 2) in (gamma, lam) else rng.fraction("1/2", "1/2", "1/4")
-    left = [state for state in sorted(set(states)) if state not in terminal]
+    left = in_order(states)
     values = draw_values(rng, left, gamma)
     V, e = values | dict.fromkeys(terminal, Fraction(0)), dict.fromkeys(left, Fraction(0))
     rewards: list[Fraction] = []

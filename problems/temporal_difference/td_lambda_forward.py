@@ -12,12 +12,21 @@ from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
 from rldrill.problems.phrases import in_open, trace_parameter
-from rldrill.problems.runs import ShortRun, ValueRun, cut_off, draw_whole, readable, run_situation, sought_parts
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.runs import (
+    ShortRun,
+    ValueRun,
+    cut_off,
+    draw_whole,
+    readable,
+    run_situation,
+    sought_parts,
+    told_apart,
+)
+from rldrill.problems.settings import draw_visits
 
 TITLE = "TD(λ), forward view"
 SOURCE = "Sutton & Barto 2018, section 12.1"
-REVISION = 3
+REVISION = 4
 
 
 class Given(ValueRun):
@@ -49,28 +58,31 @@ class Given(ValueRun):
 
 def draw(level: int, rng: Draws) -> Given:
     """The first state of two; then the first two of three, or of a run that is cut off; then a letter."""
-    setting = draw_setting(rng)
-    states = rng.shuffled(setting.states)
     if level == 1:
-        return _run(rng, (*states[:2], setting.terminal), setting.terminal, (0,))
-    longer = rng.choice(((*states[:3], setting.terminal), states[:4], (*states[:2], setting.terminal), states[:3]))
+        return _run(rng, (0,), "ab.")
+    longer = "abc.", "abcd", "ab.", "abc"
     if level == 2:
-        return _run(rng, longer, setting.terminal, rng.choice(((0, 1), (1, 0))))
+        return _run(rng, rng.choice(((0, 1), (1, 0))), *longer)
     kind = rng.below(3)
     if kind == 0:
-        return _run(rng, longer, setting.terminal, (0, 1)).model_copy(update={"lam": Parameter("lambda")})
+        return _run(rng, (0, 1), *longer).model_copy(update={"lam": Parameter("lambda")})
     asked = (0,) if kind == 1 else (0, 1)  # nothing follows from λ for the last state of a run
-    run = _run(rng, rng.choice(((*states[:2], setting.terminal), states[:3])), setting.terminal, asked)
+    run = _run(rng, asked, "ab.", "abc")
     update: dict[str, object] = {"known": _learned(run)}
-    update |= {"lam": Parameter("lambda")} if kind == 1 else {"values": run.values | {states[1]: Parameter("x")}}
+    update |= (
+        {"lam": Parameter("lambda")}
+        if kind == 1
+        else {"values": run.values | {run.trajectory.states[1]: Parameter("x")}}
+    )
     return run.model_copy(update=update)
 
 
-def _run(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]) -> Given:
+def _run(rng: Draws, asked: tuple[int, ...], *visits: str) -> Given:
     """A run with whole returns whose first update depends on all that is given, and gives a readable number."""
-    run = _whole(rng, states, end, asked)
-    while not _matters(run):
-        run = _whole(rng, states, end, asked)
+    setting, states = draw_visits(rng, *visits)
+    run = _whole(rng, states, setting.terminal, asked)
+    while not (told_apart(run.trajectory, _numbers(run)) and _matters(run)):
+        run = _whole(rng, states, setting.terminal, asked)
     return run
 
 
@@ -91,9 +103,14 @@ def _whole(rng: Draws, states: tuple[str, ...], end: str, asked: tuple[int, ...]
     return Given(trajectory=run, values=values, alpha=alpha, gamma=gamma, lam=lam, asked=asked)
 
 
+def _numbers(run: Given) -> dict[str, Fraction]:
+    """The values of a run in which nothing is left open."""
+    return {state: Fraction(value) for state, value in run.values.items()}
+
+
 def _learned(run: Given) -> Fraction:
     """The value of the first state of a run in which nothing is left open."""
-    lam, V = Fraction(run.lam), {state: Fraction(value) for state, value in run.values.items()}
+    lam, V = Fraction(run.lam), _numbers(run)
     worth = V.get(run.trajectory.states[-1], Fraction(0))
     for move in reversed(run.moves):
         worth = move.reward + Fraction(run.gamma) * ((1 - lam) * V.get(move.next, Fraction(0)) + lam * worth)

@@ -25,13 +25,14 @@ from rldrill.problems.runs import (
     readable,
     run_blocks,
     sought_parts,
+    told_apart,
     values_asked,
 )
-from rldrill.problems.settings import draw_setting
+from rldrill.problems.settings import draw_visits, in_order
 
 TITLE = "TD(0)"
 SOURCE = "Sutton & Barto 2018, section 6.1"
-REVISION = 3
+REVISION = 4
 
 
 class AlongRun(ValueRun):
@@ -60,47 +61,50 @@ Given = Annotated[Annotated[AlongRun, Tag("run")] | Annotated[Separate, Tag("tra
 
 def draw(level: int, rng: Draws) -> Given:
     """One transition; then three that come back to a state; then a letter left open, or to be found."""
-    setting = draw_setting(rng)
-    a, b, c = rng.shuffled(setting.states)[:3]
-    end = setting.terminal
     if level == 1:
-        return _run(rng, (a, b))
+        return _run(rng, "ab")
     if level == 2:
-        tour = rng.choice(((a, b, a, c), (a, b, a, end), (a, a, b, end), (a, b, b, end), (a, b, a, a)))
-        run = _run(rng, tour, end)
+        run = _run(rng, "abac", "aba.", "aab.", "abb.", "abaa")
         if rng.chance(Fraction(1, 3)):
             return run.model_copy(update={"td_errors": True})
         return run if rng.chance(Fraction(1, 2)) else _separate(run)
     kind = rng.below(4)
     if kind == 0:
-        run = _run(rng, rng.choice(((a, b, a, b), (a, b, a, end), (a, b, b, end))), end)
+        run = _run(rng, "abab", "aba.", "abb.")
         return run.model_copy(update={"alpha": Parameter("alpha")})
     if kind == 1:
-        run = _run(rng, rng.choice(((a, b, a, b), (a, b, a, c), (a, b, b, c))), end)
+        run = _run(rng, "abab", "abac", "abbc")
         return run.model_copy(update={"gamma": Parameter("gamma")})
-    run = _run(
-        rng, rng.choice(((a, b, c), (a, b, end))) if kind == 2 else rng.choice(((a, b, a, end), (a, b, a, c))), end
-    )
-    known = _learned(run)[a]
+    run = _run(rng, *(("abc", "ab.") if kind == 2 else ("aba.", "abac")))
+    first, second, *_ = run.trajectory.states
+    known = _learned(run)[first]
     if kind == 2:
         return run.model_copy(update={"alpha": Parameter("alpha"), "known": known})
-    return run.model_copy(update={"values": run.values | {b: Parameter("x")}, "known": known})
+    return run.model_copy(update={"values": run.values | {second: Parameter("x")}, "known": known})
 
 
-def _run(rng: Draws, states: tuple[str, ...], end: str = "") -> AlongRun:
-    """A run whose values stay readable."""
-    run = _rewarded(rng, states, end)
-    while not readable(_learned(run).values()):
-        run = _rewarded(rng, states, end)
+def _run(rng: Draws, *visits: str) -> AlongRun:
+    """A run with one of these orders of visits, whose values stay readable."""
+    setting, states = draw_visits(rng, *visits)
+    run = _rewarded(rng, states, setting.terminal)
+    while not (readable(_learned(run).values()) and (len(states) == _ONE_STEP or _is_told_apart(run))):
+        run = _rewarded(rng, states, setting.terminal)
     return run
+
+
+#: The states of a run of one transition.
+_ONE_STEP = 2
+
+
+def _is_told_apart(run: AlongRun) -> bool:
+    return told_apart(run.trajectory, {state: Fraction(value) for state, value in run.values.items()})
 
 
 def _rewarded(rng: Draws, states: tuple[str, ...], end: str) -> AlongRun:
     """A run after whose first updates the values are whole, and are so when they are discounted, if that can be."""
     terminal = tuple(state for state in states if state == end)
     alpha, gamma = rng.fraction("1/2", "1/4", "1/5"), rng.fraction("1/2", "1/2", "3/4", "4/5")
-    left = [state for state in sorted(set(states)) if state not in terminal]
-    values = draw_values(rng, left, gamma)
+    values = draw_values(rng, in_order(states), gamma)
     V = values | dict.fromkeys(terminal, Fraction(0))
     rewards: list[Fraction] = []
     for number, (state, next_) in enumerate(pairwise(states)):

@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import count, product
 from typing import Any, TypeAlias
 
-from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought
+from rldrill.problems.bellman.optimal_value import Given, Optimal, Sought, of_two_steps
 from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Model, equiprobable
@@ -81,9 +81,11 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     if less := [action for action in worths if action not in ends]:
         verb = "is" if len(less) == 1 else "are"
         work.say(f"{joined(less).capitalize()} {verb} worth less than ${to_sympy(target)}$.")
-    if len(ends) > 1:
-        which = "smaller" if len(ends) == 2 else "smallest"
-        work.say(f'With a greater $y$, {best} would be worth more than $V^*("{state}")$: so the {which} $y$ is right.')
+    if others := {end: action for action, end in ends.items() if end != value}:
+        more = {end: work.value(Q_STAR_FROM_V, s=state, a=best, **known, V=V | {row.state: end}) for end in others}
+        told = joined([f"${to_sympy(more[end])}$ with $y = {to_sympy(end)}$" for end in others])
+        too_much = f"{best.capitalize()} would be worth {told}, more than ${to_sympy(target)}$"
+        work.say(f"{too_much}: so $y = {to_sympy(value)}$ is right.")
     else:
         work.say(f"So {best} is best in {state}.")
     V[row.state] = work.answer(value)
@@ -97,10 +99,19 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         )
     work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
-    work.say(f'{best.capitalize()} is worth $V^*("{state}")$, and the other actions in {state} are worth less.')
+    beaten = [
+        f"{action} (${to_sympy(work.value(Q_STAR_FROM_V, s=state, a=action, **known, V=V))}$)"
+        for action in mdp.actions[state]
+        if action != best
+    ]
+    compared = f", more than {joined(beaten)}" if beaten else ""
+    work.say(f'{best.capitalize()} is worth $V^*("{state}") = {to_sympy(target)}${compared}.')
     work.answer({state: (best,)})
     work.say(f"If {row.action} is not taken in {row.state}, the optimal values follow from the other actions.")
-    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work)
+    rivals = [action for action in mdp.actions[row.state] if action != row.action]
+    start = {state: best, row.state: max(rivals, key=worths.__getitem__)}
+    policy = {each: start[each] for each in mdp.states}
+    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy)
     for other in mdp.states:
         work.step(BELLMAN_OPTIMALITY_V, s=other, V=V, **knowns.model(given.without), gamma=known["gamma"])
     work.say(f"With these values {row.action} is as good in {row.state} as the best of the others if")
@@ -114,7 +125,7 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
-        values = _iterated(given, work)
+        values = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
     else:
         values = _of_the_best(given, work, best, evaluation)
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
@@ -135,12 +146,11 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
-def _iterated(given: Optimal, work: Work) -> dict[str, Value]:
-    """Policy iteration from the policy that earns most at once, to the last values."""
+def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> dict[str, Value]:
+    """Policy iteration from a policy, to the last values."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    policy = optimum(mdp, Fraction(0)).policy
-    work.say(f"Policy iteration, starting with an action that earns most at once, $π_0$: {_told(policy)}.")
+    work.say(f"Policy iteration may start with any policy; here with $π_0$: {_told(policy)}.")
     for number in count():
         evaluate, improve, _ = of_round(number)
         values = evaluated(work, evaluate, mdp, known | {"pi": policy})

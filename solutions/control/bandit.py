@@ -1,5 +1,6 @@
 """Four kinds of bandits: sample averages, upper confidence bounds, their weight, and preferences on a gradient."""
 
+from math import isqrt
 from typing import Any
 
 from rldrill.problems.control.bandit import NEXT, Averaged, Balance, Bounds, Estimates, Given, Preferences, Pull
@@ -100,11 +101,11 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
     """The weight with which both bounds are equal; above it the arm that was pulled less often is ahead."""
     better, rarer = given.between
     known = _counted(given, averages)
-    bounds = [f"{told(averages[arm])} + c √((ln {known['t']})/{told(known['N'][arm])})" for arm in given.between]
-    work.say(
-        "The bounds are equal if $Q(a) + c √((ln t)/N(a)) = Q(b) + c √((ln t)/N(b))$, here "
-        f"${' = '.join(bounds)}$. This is solved for $c$:"
-    )
+    roots = [_root(known["t"], known["N"][arm]) for arm in given.between]
+    means = [told(averages[arm]) for arm in given.between]
+    equal = " = ".join(f"{mean} + c {root}" for mean, root in zip(means, roots, strict=True))
+    work.say(f"The bounds of {better} and {rarer} are equal if ${equal}$.")
+    work.say(f"So $c ({roots[1]} − {roots[0]}) = {means[0]} − {means[1]}${_shorter(known, better, rarer)}.")
     weight = work.answer(work.step(UCB_BALANCE, a=better, b=rarer, **known))
     work.say(
         lambda: (
@@ -113,6 +114,21 @@ def _balance(given: Balance, work: Work, averages: dict[str, Value]) -> None:
         )
     )
     work.answer({NEXT: (rarer,)})
+
+
+def _root(time: int, count: Value) -> str:
+    """The root in the bound of an arm that was pulled so often, as mathematics."""
+    return f"√((ln {time})/{told(count)})" if count != 1 else f"√(ln {time})"
+
+
+def _shorter(known: dict[str, Any], better: str, rarer: str) -> str:
+    """That one root is a multiple of the other, where the numbers of pulls are in the ratio of two squares."""
+    times = known["N"][better] / known["N"][rarer]
+    above, below = isqrt(int(times.p)), isqrt(int(times.q))
+    if (above**2, below**2) != (times.p, times.q):
+        return ""
+    one, other = (_root(known["t"], known["N"][arm]) for arm in (better, rarer))
+    return f", where ${one} = {below}/{above}·{other}$"
 
 
 def _follow_gradient(given: Preferences, work: Work) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 from rldrill.problems.control.double_q_learning import Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import find, oracle_along
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import exact, parameters, to_sympy
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.knowns import NO_ACTION
 from rldrill.solutions.numerics import np
@@ -54,7 +54,8 @@ def _learn(given: Given, work: Work, updated: Callable[[int], tuple[int, ...]]) 
             work.say(f"The transition at $t = {time}$ updates $Q_{turn}${last}:")
         tables = tables | {(table, *pair): _update(work, table, time, tables, known) for table in updated(turn)}
         if given.outcome and time == len(given.updates) - 1:
-            find(work, given.outcome, given.asked_for, {pair: tables[turn, *pair] for pair in given.updated})
+            worth = {pair: tables[turn, *pair] for pair in given.updated}
+            find(given, given.outcome, work, worth, given.values if turn == 1 else given.second, f"Q_{turn}")
             return
         later = {table for turn in given.updates[time + 1 :] for table in updated(turn)}
         for table in updated(turn):
@@ -68,6 +69,10 @@ def _update(work: Work, table: int, time: int, tables: dict[Any, Any], known: di
     best = NO_ACTION
     if known["actions"][known["S"][time + 1]] != (NO_ACTION,):
         best, *_ = work.step(DOUBLE_Q_ACTION, **known)
+        after = known["S"][time + 1]
+        worth = tables[3 - table, after, best]
+        told = "" if parameters(worth) else f" = {to_sympy(worth)}"
+        work.say(f'The target takes $Q_{3 - table}("{after}", "{best}"){told}$.')
     return work.step(DOUBLE_Q_LEARNING, selected={time + 1: best}, **known)
 
 

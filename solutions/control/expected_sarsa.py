@@ -3,7 +3,7 @@
 from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along, oracle_along
-from rldrill.solutions.exact import ONE, Value, exact
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, to_sympy
 from rldrill.solutions.greedy import best_actions, epsilon_greedy
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -29,8 +29,17 @@ def solve(given: Given, work: Work) -> None:
         values = {action: known["Q"][after, action] for action in known["actions"][after]}
         chances = _policy(given, work, time, values, written)
         known["pi"] = {(action, after): chance for action, chance in chances.items()}
+        if after not in run.terminal:
+            _tell_mean(work, after, chances, values)
         known["Q"] = known["Q"] | {pair: work.step(EXPECTED_SARSA, t=time, **known)}
     answer_along(given, work, known["Q"], given.updated)
+
+
+def _tell_mean(work: Work, state: str, chances: dict[str, Value], values: dict[str, Value]) -> None:
+    """What the next state is worth on average: the innermost bracket of the update, as far as it is a number."""
+    mean = sum((chances[action] * values[action] for action in values), ZERO)
+    if not parameters(mean):
+        work.say(f"Under the policy, the mean of the action values in {state} is ${to_sympy(mean)}$.")
 
 
 def _policy(

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from rldrill.problems.document import joined
 from rldrill.problems.dynamic_programming.value_iteration import Given
 from rldrill.problems.models import Model
 from rldrill.solutions import knowns
@@ -65,10 +66,14 @@ def _tie(state: str, work: Work, worth_of: Formula, known: dict[str, Any]) -> No
     if sign(gamma) <= 0 or sign(ONE - gamma) < 0:
         raise NoSolution(f"with no discount from 0 to 1 are both actions in {state!r} greedy; change a reward")
     below = work.answer(gamma) / 2
-    work.say(f"With a smaller discount, such as $γ = {to_sympy(below)}$:")
-    first, second = (work.step(worth_of, s=state, a=action, **known | {"gamma": below}) for action in actions)
+    first, second = (work.value(worth_of, s=state, a=action, **known | {"gamma": below}) for action in actions)
     letter = "A" if sign(first - second) > 0 else "B"
-    work.say(f"So {actions['AB'.index(letter)]} is greedy then.")
+    at_once = [work.value(worth_of, s=state, a=action, **known | {"gamma": ZERO}) for action in actions]
+    told = joined([f"{action} ${to_sympy(value)}$" for action, value in zip(actions, at_once, strict=True)])
+    work.say(
+        f"With $γ = 0$ the actions would be worth their rewards, {told}. Both values are linear in $γ$ and equal only "
+        f"at $γ = {to_sympy(gamma)}$: so {actions['AB'.index(letter)]} is greedy for every smaller $γ$."
+    )
     work.answer(letter)
 
 

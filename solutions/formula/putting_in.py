@@ -229,6 +229,21 @@ def term_by_term(expression: Expr) -> Expr:
     return Add._from_args([_with_sign(value) if value.is_Rational else term for term, value in values])
 
 
+def long_sum(expression: Expr) -> Expr:
+    """A sum of three products of numbers or more term by term, so that nobody adds them up in one go."""
+    if not expression.is_Add or sum(map(_is_product, expression.args)) < _MANY_PRODUCTS:
+        return expression
+    return term_by_term(expression)
+
+
+#: So many products are not worked out and added up at once.
+_MANY_PRODUCTS = 3
+
+
+def _is_product(term: Expr) -> bool:
+    return len([factor for factor in Mul.make_args(term) if abs(factor) != 1]) > 1 and evaluated(term).is_Rational
+
+
 def _with_sign(number: Expr) -> Expr:
     """A number as a term of a sum: a negative one is taken away."""
     return Mul(-1, -number, evaluate=False) if number.is_negative else number

@@ -1,7 +1,5 @@
 """Conditional probabilities from the table, compared history by history."""
 
-from typing import Any
-
 from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.fundamentals.markov_property import Given, Seen, where
@@ -24,7 +22,8 @@ Chances = dict[tuple[str, str, str], Value]
 
 def solve(given: Given, work: Work) -> None:
     """A count that is missing; the probability asked for after every history; of the others what is needed then."""
-    work.say("$N(s_{t-1}, s_t, s_{t+1})$ is what the table gives for three successive states.")
+    what = "here the joint probability" if given.probabilities else "the count"
+    work.say(f"$N(s_{{t-1}}, s_t, s_{{t+1}})$ is {what} of three successive states in the table.")
     whole = _completed(given, work)
     asked = _asked(whole, work)
     work.say("A decision process has the Markov property if, with its actions and rewards,")
@@ -32,7 +31,6 @@ def solve(given: Given, work: Work) -> None:
     work.say("Here only the states are considered, so it says: $Pr(s_{t+1} | s_{t-1}, s_t) = Pr(s_{t+1} | s_t)$.")
     if found := _matters(whole, asked):
         _compare(whole, work, found, asked, found)
-        _tell(given, work, found)
         rest = tuple(now for now in whole.present if now not in found)
         matters = found
         if where(given) and rest:
@@ -43,8 +41,7 @@ def solve(given: Given, work: Work) -> None:
         chances = asked | _others(whole, work, whole.present)
         matters = _matters(whole, chances)
         _compare(whole, work, whole.present, chances, matters)
-        _tell(given, work, matters)
-    _place(given, work, matters)
+    _conclude(given, work, matters)
 
 
 def _completed(given: Given, work: Work) -> Given:
@@ -99,24 +96,12 @@ def _counts(given: Given) -> dict[tuple[str, str, str], Value]:
     return knowns.Sparse({row[:3]: exact(row.weight) for row in given.table})
 
 
-def _tell(given: Given, work: Work, matters: tuple[str, ...]) -> None:
-    """Whether the table is consistent."""
-    verdict = _verdict(given, matters)
-    work.say(f"So the table is {'' if verdict[0] else 'not '}consistent with the Markov property.")
-    work.answer(verdict[0])
-
-
-def _place(given: Given, work: Work, matters: tuple[str, ...]) -> None:
-    """Where it is not, if that is asked for."""
-    _, *letter = _verdict(given, matters)
-    if letter:
-        work.say(f"The distribution of $s_{{t+1}}$ depends on $s_{{t-1}}$ {_in_words(matters)}.")
-        work.answer(*letter)
-
-
 def _conclude(given: Given, work: Work, matters: tuple[str, ...]) -> None:
-    _tell(given, work, matters)
-    _place(given, work, matters)
+    """Whether the table is consistent, or where it is not."""
+    if where(given):
+        work.say(f"The distribution of $s_{{t+1}}$ depends on $s_{{t-1}}$ {_in_words(matters)}.")
+    work.say(f"So the table is {'not ' if matters else ''}consistent with the Markov property.")
+    work.answer(_verdict(given, matters))
 
 
 def _states(given: Given) -> tuple[str, ...]:
@@ -124,13 +109,13 @@ def _states(given: Given) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*given.outcomes, *(state for row in given.table for state in row[:2]))))
 
 
-def _verdict(given: Given, matters: tuple[str, ...]) -> tuple[Any, ...]:
-    """Whether it is Markov, and the letter of the option that says where it is not."""
+def _verdict(given: Given, matters: tuple[str, ...]) -> bool | str:
+    """Whether it is Markov; or the letter of the option that says where it is not."""
     letters = {text: letter for letter, text in where(given).items()}
     if not letters:
-        return (not matters,)
+        return not matters
     *_, none, several = letters
-    return not matters, letters[none if not matters else several if len(matters) > 1 else matters[0]]
+    return letters[none if not matters else several if len(matters) > 1 else matters[0]]
 
 
 def _in_words(matters: tuple[str, ...]) -> str:
@@ -205,6 +190,16 @@ def oracle(given: Given) -> Answers:
     """An array of the counts; it is Markov in a state where the histories' rows are proportional: of rank one."""
     if given.missing is not None:
         return _proportional(given, given.missing)
+    share, broken = _of_rank_one(given)
+    options = [*where(given)]
+    if not options:
+        return [share, not broken]
+    place = -2 if not broken else -1 if len(broken) > 1 else given.present.index(broken[0])
+    return [share, options[place]]
+
+
+def _of_rank_one(given: Given) -> tuple[list[float], list[str]]:
+    """The probabilities after every history, and the present states whose rows are not proportional."""
     befores, nexts = tuple(dict.fromkeys(b for b, _ in given.histories)), given.outcomes
     counts = np.zeros((len(befores), len(given.present), len(nexts)))
     for row in given.table:
@@ -216,12 +211,7 @@ def oracle(given: Given) -> Answers:
         for before, now in given.histories
     ]
     broken = [now for j, now in enumerate(given.present) if np.linalg.matrix_rank(counts[:, j], tol=1e-9) > 1]
-    answers: list[Any] = [share, not broken]
-    options = list(where(given).items())
-    if options:
-        place = -2 if not broken else -1 if len(broken) > 1 else given.present.index(broken[0])
-        answers.append(options[place][0])
-    return answers
+    return share, broken
 
 
 def _proportional(given: Given, hidden: Seen) -> Answers:
@@ -235,4 +225,5 @@ def _proportional(given: Given, hidden: Seen) -> Answers:
     count = at(rows.get((*other, hidden.next), Fraction(0))) * rest / its_rest
     number = Fraction(count).limit_denominator(10**6)
     table = tuple(row._replace(weight=number) if row == hidden else row for row in given.table)
-    return [count, *oracle(given.model_copy(update={"table": table}))[:2]]
+    share, broken = _of_rank_one(given.model_copy(update={"table": table}))
+    return [count, share, not broken]

@@ -4,7 +4,8 @@ from importlib import import_module
 from typing import Any
 
 from rldrill.problems.runs import per_step
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, sign, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, exact, sign, to_sympy
+from rldrill.solutions.formula.notation import quantity, subscripted
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.reversible import find, tried
@@ -25,6 +26,9 @@ MISCONCEPTIONS = (FIRST_DISCOUNTED, STARTS_EARLY, UNDISCOUNTED, LINEAR_DISCOUNT,
 
 # "return" is a keyword, so the twin cannot be imported by name; hence Any.
 EPISODES = import_module("rldrill.problems.fundamentals.return").EPISODES
+
+#: The return of the second of two episodes.
+_OF_SECOND = quantity("G", subscripted("R′"))
 
 
 def solve(given: Any, work: Work) -> None:
@@ -57,30 +61,32 @@ def solve(given: Any, work: Work) -> None:
 
 def _compare(given: Any, work: Work) -> None:
     gamma = exact(given.gamma)
-    first, second = (_from_start(work, words, rewards, gamma) for words, rewards in _both(given))
+    both = [_known(rewards) for rewards in (given.rewards, given.others)]
+    first, second = (
+        work.step(RETURN, t=0, **known, gamma=gamma, into=name)
+        for known, name in zip(both, (None, _OF_SECOND), strict=True)
+    )
     if given.sought:
         work.say("They are equal where")
         same = work.answer(work.equate("gamma", first, second))
-        beyond = (ONE + same) / 2 if sign(ONE - same) > 0 else same + 1
-        work.say(f"For a larger discount, such as $γ = {to_sympy(beyond)}$:")
+        beyond = ONE if sign(ONE - same) > 0 else same + 1
+        told = f"They are equal only there. With $γ = {to_sympy(beyond)}$, which is larger, the returns are"
     else:
         work.answer((first, second))
         beyond = ONE
-        work.say("Without a discount:")
-    first, second = (_from_start(work, words, rewards, beyond) for words, rewards in _both(given))
+        told = "Without a discount, $γ = 1$, the returns are the sums of the rewards,"
+    first, second = (work.value(RETURN, t=0, **known, gamma=beyond) for known in both)
     larger = "A" if sign(first - second) > 0 else "B"
-    work.say(f"So the return of {EPISODES[larger]} episode is larger.")
+    ends = f"$R_0 = {to_sympy(first)}$ and $R'_0 = {to_sympy(second)}$"
+    work.say(f"{told} {ends}: that of {EPISODES[larger]} episode is larger.")
     work.answer(larger)
 
 
-def _both(given: Any) -> tuple[tuple[str, Any], ...]:
-    return ("first", given.rewards), ("second", given.others)
-
-
-def _from_start(work: Work, words: str, rewards: Any, gamma: Value) -> Value:
-    work.say(f"The {words} episode:")
-    r = {0: ZERO} | {time: exact(reward) for time, reward in enumerate(rewards, 1)}
-    return work.step(RETURN, t=0, r=r, T=len(rewards), gamma=gamma)
+def _known(rewards: Any) -> dict[str, Any]:
+    return {
+        "r": {0: ZERO} | {time: exact(reward) for time, reward in enumerate(rewards, 1)},
+        "T": len(rewards),
+    }
 
 
 def _step_by_step(given: Any, work: Work, known: dict[str, Any]) -> None:

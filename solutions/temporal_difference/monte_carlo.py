@@ -1,6 +1,6 @@
 """Monte Carlo from one episode: the returns backwards in time, then an update for every visit that counts."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from rldrill.problems.exact import Scalar
@@ -47,7 +47,7 @@ def _returns(given: Given, work: Work) -> tuple[Value, ...]:
 
 def _updated_pairs(given: OfActions, work: Work, returns: tuple[Value, ...]) -> dict[tuple[str, str], Value]:
     known = knowns.action_run(given)
-    for time in given.counted:
+    for time in _counted(given, work):
         new = work.step(TOWARDS_TARGET, t=time, y=dict(enumerate(returns)), **known)
         known["Q"] = known["Q"] | {given.moves[time][:2]: new}
     return {pair: known["Q"][pair] for pair in given.updated}
@@ -58,10 +58,21 @@ def _updated(
 ) -> dict[str, Value]:
     S = dict(enumerate(given.trajectory.states))
     values = {state: read(value) for state, value in given.values.items()}
-    for time in given.counted:
+    for time in _counted(given, work):
         new = work.step(MONTE_CARLO, t=time, V=values, S=S, G=dict(enumerate(returns)), alpha=read(given.alpha))
         values = values | {S[time]: new}
     return {state: values[state] for state in given.visited}
+
+
+def _counted(given: Given, work: Work) -> Iterator[int]:
+    """The times of the visits that count; of the others it is said why they do not."""
+    for time, visited in enumerate(given.occasions):
+        if time in given.counted:
+            yield time
+        else:
+            what = visited if isinstance(visited, str) else f"({', '.join(visited)})"
+            first = given.occasions.index(visited)
+            work.say(f"$t = {time}$ makes no update: the first visit to {what} was at $t = {first}$.")
 
 
 @slip(

@@ -12,9 +12,33 @@ from asking import solved
 from rldrill.problems.errors import FileError
 from rldrill.problems.valued import with_reward
 from rldrill.solutions.drawing import draw
+from rldrill.solutions.effort import points
 from rldrill.solutions.exact import exact
 
 seeds = st.integers(0, 10_000)
+
+
+def test_the_smallest_reward_is_more_than_a_glance_at_the_table() -> None:
+    for seed in range(40):
+        solution = draw("optimal-value", 3, seed)
+        given_, least = solution.problem.given, solution.answers["d"]
+        sought, rows = given_.row, given_.mdp.transitions
+        assert least not in [row.reward for row in rows]
+        at_once = {
+            action: sum(exact(row.probability) * exact(row.reward) for row in outcomes if row is not sought)
+            for (state, action), outcomes in given_.mdp.outcomes.items()
+            if state == sought.state
+        }
+        unpaid = at_once.pop(sought.action)
+        chance = exact(sought.probability)
+        assert all(unpaid + chance * least != other for other in at_once.values()), "γ and V* play no part"
+
+
+def test_optimal_values_are_evaluated_from_a_policy_that_is_near() -> None:
+    for level, most in ((1, 4), (2, 8)):
+        assert all(points(draw("optimal-value", level, seed))["a"] <= most for seed in range(40))
+
+
 weights = st.lists(st.integers(0, 4), min_size=2, max_size=2).filter(any)
 
 
