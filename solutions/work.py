@@ -19,8 +19,9 @@ from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.inverting import inverted
+from rldrill.solutions.formula.multiplying import multiplied_out
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.formula.putting_in import indexed, put_in, reduced, term_by_term
+from rldrill.solutions.formula.putting_in import indexed, put_in, reduced, term_by_term, without_slots
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
@@ -92,7 +93,10 @@ class Step(_Applied):
         rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
             short = term_by_term(reduced(written)) if self.own else reduced(written)
-            rights += [alone(short), alone(inverted(short)), shown_value(self.value)]
+            without = inverted(short)
+            after = list(multiplied_out(without))
+            before = [] if after else multiplied_out(without_slots(written))
+            rights += [*map(alone, (*before, short, without, *after)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():
