@@ -832,6 +832,10 @@ g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
 r_jk = quantity("rjk", lambda first, then: Script(variable("r"), row(first, then)))
 second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("ξ"), k) for k in by)), _POINT))
+derived_at = quantity(
+    "derivedAt",
+    lambda of, *by: row(_over_letter(of, *by) if len(by) == 1 else _second(Glyph(of.text, "variable"), *by), _POINT),
+)
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
@@ -925,6 +929,59 @@ with evaluate(False):
         hint="The same inverse as for k, times the mixed Hessian.",
         place=Place.BEYOND,
     )
+
+
+class Expansion(NamedTuple):
+    """The formulas of a backward step: the derivatives of Q, and the change of the action."""
+
+    s: Formula
+    a: Formula
+    ss: Formula
+    mixed: Formula
+    aa: Formula
+    change: Formula
+    gain: Formula
+
+
+@cache
+def expansion(*, scalar: bool, second_order: bool) -> Expansion:
+    """The formulas for vectors, or for one state and one action; of these iLQR needs no second derivatives of f."""
+    if not scalar:
+        return Expansion(DDP_S, DDP_A, DDP_SS, DDP_AS, DDP_AA, DDP_k, DDP_K)
+    q_s, q_a, q_ss, q_as, q_aa = _numbers("Q", "Q_")
+    first_s, first_a, *seconds = _numbers("r", "r_")
+    by_s, by_a, *curved = _numbers("f", "f_")
+    slope, _, curve, *_ = _numbers("V′", "V_")
+    change, gain = letter("kd", "k"), letter("Kd", "K")
+    with evaluate(False):
+        products = (curve * by_s**2, curve * by_a * by_s, curve * by_a**2)
+        hessians = [
+            Add(reward, product, *([slope * bent] if second_order else []))
+            for reward, product, bent in zip(seconds, products, curved, strict=True)
+        ]
+        return Expansion(
+            replace(DDP_S, left=q_s, right=first_s + by_s * slope, note=""),
+            replace(DDP_A, left=q_a, right=first_a + by_a * slope),
+            replace(DDP_SS, left=q_ss, right=hessians[0], note=""),
+            replace(DDP_AS, left=q_as, right=hessians[1]),
+            replace(DDP_AA, left=q_aa, right=hessians[2]),
+            replace(DDP_k, left=change, right=-(q_a / q_aa), misread={K_WITH_PLUS: q_a / q_aa}),
+            replace(DDP_K, left=gain, right=-(q_as / q_aa)),
+        )
+
+
+def _numbers(head: str, code: str) -> Any:
+    """The derivatives of a function of one state and one action: first s and a, then ss, as, aa."""
+    return tuple(letter(f"{code}{by}", _sub(head, *by)) for by in ("s", "a", "ss", "as", "aa"))
+
+
+@cache
+def derivative_of(head: str, by: str) -> Formula:
+    """What a derivative of r or f by the single state and action is, the first or the second."""
+    with evaluate(False):
+        left = quantity(f"{head}{by}At", lambda *_: _sub(head, *by))(i, j, *([g] if len(by) > 1 else []))
+        right = derived_at(put_in_name(head), *map(put_in_name, by))
+        return replace(STATE_JACOBIAN if len(by) == 1 else SECOND_DERIVATIVE, left=left, right=right)
 
 
 @cache

@@ -499,3 +499,32 @@ def test_that_the_discounted_state_goes_to_0_is_checked(seed: int) -> None:
     said = " ".join(line.text for line in solution.lines_of("c") if isinstance(line, Note))
     assert "as it must" in said
     assert ("below $1$" in said) == (solution.problem.given.gamma != 1)
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=15)
+def test_of_an_arm_at_rest_only_the_derivatives_that_count_are_worked_out(seed: int) -> None:
+    exercise = rldrill.draw("linearise", 3, seed)
+    assume("D" in exercise.solution.problem.given.where and "θ_2" in exercise.solution.problem.given.state)
+    text = "\n".join(unicode_text(block) for block in exercise.working())
+    assert "What multiplies ∂M₁/∂θ₂, ∂M₃/∂θ₂ and ∂D/∂θ₂ is 0 at the operating point, since n₁ = 0 and n₂ = 0." in text
+    assert "∂D/∂θ₂ =" not in text
+    assert "∂n₁/∂θ₂ = m₂l₁l₂ cos(θ₂)(2ω₁ω₂ + ω₂²)" in text  # in the order of n₁ itself
+
+
+def test_a_derivative_keeps_its_denominator_until_the_numbers_are_in() -> None:
+    given_ = {
+        "dynamics": {"θ": "ω", "ω": "(u - m*g*l*sin(θ))/(m*l^2)"}, "constants": {"g": 10, "l": 2, "m": 3},
+        "state": {"θ": "pi", "ω": 0}, "action": {"u": 0},
+    }  # fmt: skip
+    text = str(rldrill.read({"family": "linearise", "given": given_}).working("a"))
+    assert "∂f₂/∂θ = −(mgl cos(θ))/(ml²)" in text
+
+
+@given(seeds, st.integers(1, 2))
+@settings(deadline=None, max_examples=15)
+def test_one_state_and_one_action_need_no_matrices(seed: int, level: int) -> None:
+    exercise = rldrill.draw("ddp-backward", level, seed)
+    text = "\n".join(unicode_text(block) for block in exercise.working())
+    assert not [sign for sign in "ᵀΣξᵢⱼ⁻" if sign in text]
+    assert "Qₐₐ < 0" in text
