@@ -123,12 +123,12 @@ def draw(level: int, rng: Draws) -> Given:
     setting = draw_setting(rng)
     if level == 3:
         return _searched(rng, setting)
-    count = level
+    count = 1 if level == 1 else rng.choice((2, 2, 3))
     cuts = [rng.choice((True, True, False, False if level == 1 else None)) for _ in range(count)]
     if cuts.count(None) == count:
         return draw(level, rng)
     samples = []
-    ways = rng.shuffled((True, False))  # of two ratios beyond the range, one lies above it and one below
+    ways = [*rng.shuffled((True, False)), rng.chance(Fraction(1, 2))]  # of two ratios one lies above the range
     for state, cut, more in zip(rng.shuffled(setting.states), cuts, ways, strict=False):
         sign = rng.choice((1, -1))
         if cut is not None:
@@ -224,16 +224,19 @@ def _parts(given: Given, times: range) -> Iterator[Part]:
             return
         yield _asked("clipped term", "c", times)
     yield Part(f"What is the objective ${objective}$?", Number(), zero=True)
-    if len(times) == _CLASSIFIED:
-        yield Part("Of which objectives does clipping make the gradient zero?", Choice(CUT))
-        return
-    for time in times:
-        yield Part(f"Does clipping make the gradient $∇_θ L_{{{time}}}$ zero?", YesNo())
+    yield _cut_off(len(times))
 
 
-#: Of so many samples it is asked in one part which gradients are cut off.
-_CLASSIFIED = 2
-#: The answers, by whether the first gradient and the second one are cut off.
+def _cut_off(count: int) -> Part:
+    """Which gradients are cut off; of many samples, how many."""
+    if count == 1:
+        return Part("Does clipping make the gradient $∇_θ L_0$ zero?", YesNo())
+    if count == len(CUT) // 2:
+        return Part("Of which objectives does clipping make the gradient zero?", Choice(CUT))
+    return Part("Of how many of the objectives does clipping make the gradient zero?", Number(), zero=True)
+
+
+#: The answers of two samples, by whether the first gradient and the second one are cut off.
 CUT = {"A": "of neither", "B": "of $L_0$ only", "C": "of $L_1$ only", "D": "of both"}
 
 

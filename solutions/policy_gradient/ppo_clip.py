@@ -63,10 +63,14 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
         cuts.append(sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0)
         work.say(_reason(time, cut=cuts[-1], inside=sign(unclipped - clipped) == 0))
-        if len(times) != len(CUT) // 2:
-            work.answer(cuts[-1])
-    if len(times) == len(CUT) // 2:
-        work.answer("ABCD"[cuts[0] + 2 * cuts[1]])
+    work.answer(_told(cuts))
+
+
+def _told(cuts: Sequence[bool]) -> Any:
+    """Which gradients are cut off, as it is asked for: yes or no, an option, or of many samples how many."""
+    if len(cuts) == 1:
+        return cuts[0]
+    return "ABCD"[cuts[0] + 2 * cuts[1]] if len(cuts) == len(CUT) // 2 else ZERO + sum(cuts)
 
 
 def _ratio(work: Work, sample: Sample, known: Mapping[str, Any], time: int) -> Value:
@@ -219,12 +223,11 @@ def oracle(given: Given) -> Answers:
         return _searched(given, ratios, advantages)
     epsilon = at(given.epsilon)
     terms = (ratios * advantages, np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages)
-    cuts = _cut(ratios, advantages, epsilon)
     return (
         ratios,
         *([np.concatenate(terms)] if len(ratios) == 1 else terms),
         np.mean(_objectives(ratios, advantages, epsilon)),
-        *(["ABCD"[cuts[0] + 2 * cuts[1]]] if len(cuts) == len(CUT) // 2 else cuts),
+        _told(_cut(ratios, advantages, epsilon)),
     )
 
 
