@@ -4,7 +4,7 @@ from typing import Any
 
 from sympy import Integer, Pow, evaluate, sqrt
 
-from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, operator, row, variable, word
+from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     INFINITY,
@@ -33,7 +33,7 @@ from rldrill.solutions.formula.notation import (
 )
 
 _PI = variable("π")
-_EXPERT, _PI_1 = (Script(_PI, variable(mark)) for mark in "E1")
+_EXPERT = Script(_PI, variable("E"))
 _MU = variable("μ")
 _BAR = Accent(_MU, "bar")
 
@@ -61,8 +61,6 @@ mu_of = quantity("mu_of", lambda index, state: row(_component(_MU, index), Fence
 mu_expert = quantity("mu_expert", lambda index: row(_component(_MU, index), Fence(_EXPERT)))
 mu_bar = quantity("mu_bar", lambda index: _component(_BAR, index))
 mu_now = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI)))
-#: Those of the first new policy.
-mu_first = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI_1)))
 w = quantity("w", lambda index: _component(variable("w"), index))
 start = quantity("start_chance", conditioned("p"))
 policy = letter("policy", "π")
@@ -74,7 +72,6 @@ worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T"))
 margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
 xi = letter("xi", "ξ")
 step_length = letter("step_length", "c")
-distance = letter("distance", Fence(row(_MU, Fence(_PI_1), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
 remaining = letter("remaining", Fence(variable("w"), "‖", "‖"))
 
 
@@ -188,15 +185,6 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 3",
         hint="Close to the expert's feature expectations a policy earns nearly as much, whatever the weights.",
         sign="≈",
-    )
-    DISTANCE = Formula(
-        "feature-distance",
-        distance,
-        sqrt(SumOver((mu_first(i) - mu_expert(i)) ** 2, i, Features)),
-        title="Distance of the feature expectations",
-        source="Abbeel & Ng 2004, section 3",
-        hint="Square the differences of the components, add, and take the root.",
-        place=Place.WORKING,
     )
     _TOWARDS = mu_now(i) - mu_bar(i)
     PROJECTION_LENGTH = Formula(

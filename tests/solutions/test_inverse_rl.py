@@ -85,11 +85,18 @@ def test_with_a_weight_left_open_every_other_weight_still_counts(seed: int) -> N
 def test_all_constraints_hold_with_the_slack_and_one_is_tight(seed: int, level: int) -> None:
     solution = draw("max-margin", level, seed)
     given_, answers = solution.problem.given, solution.answers
-    need = [answers["a"][name] + exactly(rival.margin) for name, rival in given_.policies.items()]
-    left = answers["a"]["expert"] + answers["c"]
+    expert, *others = answers["a"]
+    need = [worth + exactly(rival.margin) for worth, rival in zip(others, given_.policies.values(), strict=True)]
+    left = expert + answers["c"]
     assert all(left >= right for right in need)
     assert answers["c"] == 0 or left in need
-    assert answers["b"] == sum(answers["a"]["expert"] >= right for right in need)
+    assert answers["b"] == sum(expert + exactly(given_.slack) >= right for right in need)
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_about_half_of_the_draws_need_a_slack(level: int) -> None:
+    needed = [draw("max-margin", level, seed).answers["c"] > 0 for seed in range(60)]
+    assert 20 <= sum(needed) <= 40
 
 
 @given(seeds, st.sampled_from([1, 2]))
