@@ -14,6 +14,7 @@ from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
+from rldrill.solutions.formula.common_denominator import in_one_fraction
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
@@ -96,7 +97,9 @@ class Step(_Applied):
             without = inverted(short)
             after = list(multiplied_out(without))
             before = [] if after else multiplied_out(without_slots(written))
-            rights += [*map(alone, (*before, short, without, *after)), shown_value(self.value)]
+            together = in_one_fraction(short)
+            added = [] if together is None else [together]
+            rights += [*map(alone, (*before, short, without, *after, *added)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():

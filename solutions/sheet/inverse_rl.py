@@ -43,6 +43,11 @@ def _component(head: Math, index: Math) -> Math:
     return head if index == EMPTY else Script(head, index)
 
 
+def _along(index: Math, number: Math) -> Math:
+    """What belongs to a trajectory has its number above, in brackets."""
+    return Script(_MU, None if index == EMPTY else index, Fence(number))
+
+
 def _called(policy: Math) -> Math:
     """The expert's own policy is written as formulas write it."""
     return _EXPERT if policy == name("expert") else policy
@@ -55,6 +60,10 @@ j = letter("component", EMPTY)
 tau = letter("trajectory", "τ")
 Trajectories = letter("trajectories", "D")
 s_t = quantity("visited", lambda time, _: Script(variable("s"), time))
+#: A trajectory by its number, how many there are, its states, and its discounted features.
+run, count = letter("run", "i"), letter("runs", "m")
+s_of = quantity("visited", lambda time, number: Script(variable("s"), time, Fence(number)))
+mu_along = quantity("mu_along", lambda index, number: _along(index, number))
 phi = quantity("phi", lambda index, state: row(_component(variable("φ"), index), Fence(state)))
 mu = quantity("feature_mu", lambda index: row(_component(_MU, index), Fence(_PI)))
 mu_of = quantity("mu_of", lambda index, state: row(_component(_MU, index), Fence(state)))
@@ -103,14 +112,31 @@ with evaluate(False):
         title="Feature expectations",
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
+    )
+    FEATURES_ALONG = Formula(
+        "features-along",
+        mu_along(j, run),
+        SumOver(gamma**t * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+        title="Discounted features along a trajectory",
+        source="Abbeel & Ng 2004, section 5: estimated from demonstrations",
+        hint="Discount the features of the states from t = 0 on, and add them.",
+        place=Place.WORKING,
         misread={
-            FEATURES_UNDISCOUNTED: SampleMean(
-                SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
-            ),
-            FEATURES_EARLY: SampleMean(
-                SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
-            ),
-            FEATURES_SUMMED: SumOver(_DISCOUNTED, tau, Trajectories),
+            FEATURES_UNDISCOUNTED: SumOver(phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+            FEATURES_EARLY: SumOver(gamma ** (t + 1) * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+        },
+    )
+    FEATURES_ESTIMATED = Formula(
+        "features-estimated",
+        mu(j),
+        1 / count * SumOver(mu_along(j, run), run, Trajectories),
+        title="Estimate of the feature expectations",
+        source="Abbeel & Ng 2004, section 5: estimated from demonstrations",
+        hint="Average over the trajectories.",
+        sign="≈",
+        place=Place.WORKING,
+        misread={
+            FEATURES_SUMMED: SumOver(mu_along(j, run), run, Trajectories),
         },
     )
     FEATURES_FROM = Formula(

@@ -24,7 +24,7 @@ def test_features_of_a_loop() -> None:
         motion={"go": {"x": {"y": 1}, "y": {"x": 1}}}, policy={"x": "go", "y": "go"},
         features={"x": [1], "y": [0]}, start={"x": "3/4", "y": "1/4"}, gamma="1/2",
     )  # fmt: skip
-    assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": (fmpq(7, 6),)}
+    assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": fmpq(7, 6)}
 
 
 def test_the_policy_that_matches_the_expert_by_hand() -> None:
