@@ -8,7 +8,12 @@ from rldrill.problems.exact import Scalar
 from rldrill.solutions.exact import NoSolution, Value, exact, told
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
-from rldrill.solutions.sheet.function_approximation import DISTANCE, DISTANCE_ON_A_LINE, LINEAR_STATE_VALUE
+from rldrill.solutions.sheet.function_approximation import (
+    DISTANCE,
+    DISTANCE_ON_A_LINE,
+    LINEAR_STATE_VALUE,
+    beside_a_centre,
+)
 from rldrill.solutions.softmax import by_number
 from rldrill.solutions.work import Work
 
@@ -51,10 +56,9 @@ def found(given: Centred, work: Work, distance: Mapping[int, Value]) -> Value:
     """
     sides = {}
     for number, far in distance.items():
-        centre = exact(given.centres[number - 1][0])
-        sides[number] = (centre - far, centre + far)
-        low, high = (told(side) for side in sides[number])
-        work.say(f"By $φ_{{{number}}}(s)$ the state is ${low}$ or ${high}$.")
+        known = {"centre_at": {number: exact(given.centres[number - 1][0])}, "distance": {number: far}, "i": number}
+        work.say(f"By $φ_{{{number}}}(s)$ the state is to the left or to the right of $c_{{{number}}}$:")
+        sides[number] = tuple(work.step(side, **known) for side in beside_a_centre())
     common = set.intersection(*map(set, sides.values()))
     if len(common) != 1:
         raise NoSolution("the known features do not fit exactly one state")

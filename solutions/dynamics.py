@@ -62,15 +62,27 @@ def chained(text: str, by: str, parts: tuple[str, ...]) -> Expr:
         by: the letter.
         parts: the named parts in it whose own derivative by this letter is not zero.
     """
-    (expression,) = expressions((("", text),))
-    own = readable(sympy.diff(expression, symbol(by)))
+    own = _derivative(text, by)
     written = [own] if own != 0 else []
     for part in parts:
-        factors = _factors(readable(sympy.diff(expression, symbol(part))))
+        factors = _factors(_derivative(text, part))
         written.append(sympy.Mul(*factors, part_derivative(part, by), evaluate=False))
     if len(written) < 2:
         return written[0] if written else sympy.S.Zero
     return sympy.Add(*written, evaluate=False)
+
+
+def _derivative(text: str, by: str) -> Expr:
+    """The derivative of an expression by one of its letters; a denominator without it stays as it is."""
+    (expression,) = expressions((("", text),))
+    (written,) = expressions((("", text),), evaluate=False)
+    below = [each for each in sympy.Mul.make_args(written) if each.is_Pow and each.exp == -1]
+    if len(below) == 1 and not below[0].has(symbol(by)):
+        above = readable(sympy.diff(expression * below[0].base, symbol(by)), text)
+        if above != 0 and not any(each.is_Pow and each.exp == -1 for each in sympy.Mul.make_args(above)):
+            divisor = sympy.Pow(readable(below[0].base, text), -1, evaluate=False)
+            return divisor if above == 1 else sympy.Mul(*sympy.Mul.make_args(above), divisor, evaluate=False)
+    return readable(sympy.diff(expression, symbol(by)), text)
 
 
 def _factors(expression: Expr) -> tuple[Expr, ...]:
@@ -83,7 +95,7 @@ def _factors(expression: Expr) -> tuple[Expr, ...]:
 def second(text: str, first: str, then: str) -> Expr:
     """The second derivative of an expression by two letters, as one writes it."""
     (expression,) = expressions((("", text),))
-    return readable(sympy.diff(expression, symbol(first), symbol(then)))
+    return readable(sympy.diff(expression, symbol(first), symbol(then)), text)
 
 
 @cache
@@ -94,32 +106,69 @@ def part_derivative(part: str, by: str) -> sympy.Symbol:
 
 
 @lru_cache(maxsize=4096)
-def readable(expression: Expr) -> Expr:
-    """The same expression unevaluated: quotients as quotients, numbers and letters before functions and sums."""
+def readable(expression: Expr, like: str) -> Expr:
+    """The same expression unevaluated: quotients as quotients, numbers and letters before functions and sums.
+
+    Args:
+        expression: the expression, as sympy has it.
+        like: the text that it comes from, whose order its letters keep.
+    """
     if expression.is_Add:
-        terms = sorted(map(readable, expression.args), key=_negative)
-        return sympy.Add(*terms, evaluate=False)
+        terms = sorted(expression.args, key=lambda term: (_negative(term), _places(term, like)))
+        return sympy.Add(*[readable(term, like) for term in terms], evaluate=False)
     if expression.is_Mul or (expression.is_Pow and expression.exp.is_negative):
         above, below = sympy.fraction(expression)
         if below != 1:
-            quotient = sympy.Pow(readable(below), -1, evaluate=False)
-            first = _product(above)
+            quotient = sympy.Pow(readable(below, like), -1, evaluate=False)
+            first = _product(above, like)
             return quotient if first == [sympy.S.One] else sympy.Mul(*first, quotient, evaluate=False)
-        return sympy.Mul(*_product(above), evaluate=False)
+        return sympy.Mul(*_product(above, like), evaluate=False)
     if expression.is_Pow:
-        return sympy.Pow(readable(expression.base), expression.exp, evaluate=False)
+        return sympy.Pow(readable(expression.base, like), expression.exp, evaluate=False)
     if expression.is_Function:
-        return expression.func(*map(readable, expression.args), evaluate=False)
+        return expression.func(*[readable(each, like) for each in expression.args], evaluate=False)
     return expression
 
 
-def _product(expression: Expr) -> list[Expr]:
-    factors = [readable(factor) if not factor.is_Mul else factor for factor in sympy.Mul.make_args(expression)]
-    return sorted(factors, key=lambda factor: (not factor.is_Number, not factor.is_Symbol, factor.is_Add))
+def _product(expression: Expr, like: str) -> list[Expr]:
+    number, rest = sympy.S.One, []
+    for each in sympy.Mul.make_args(expression):
+        content, primitive = each.primitive() if each.is_Add else (each, None) if each.is_Number else (1, each)
+        number *= content
+        rest += [] if primitive is None else [readable(primitive, like)]
+    factors = [*([number] if number != 1 or not rest else []), *rest]
+    return sorted(
+        factors,
+        key=lambda factor: (
+            not factor.is_Number,
+            not _is_plain(factor),
+            factor.is_Add,
+            factor.has(sympy.Function),
+            _places(factor, like),
+        ),
+    )
+
+
+def _is_plain(factor: Expr) -> bool:
+    """Whether it is a letter, or a whole power of one."""
+    return bool(factor.is_Symbol or (factor.is_Pow and factor.base.is_Symbol and factor.exp.is_Integer))
 
 
 def _negative(expression: Expr) -> bool:
     return bool(expression.could_extract_minus_sign())
+
+
+def _places(expression: Expr, like: str) -> list[int]:
+    """Where the letters of an expression come first in a text."""
+    order = _order(like)
+    return sorted(order.get(letter_, len(like)) for letter_ in expression.free_symbols)
+
+
+@lru_cache(maxsize=256)
+def _order(text: str) -> dict[sympy.Symbol, int]:
+    (expression,) = expressions((("", text),), evaluate=False)
+    found = [node for node in sympy.preorder_traversal(expression) if node.is_Symbol]
+    return {node: place for place, node in reversed(list(enumerate(found)))}
 
 
 @lru_cache(maxsize=1024)

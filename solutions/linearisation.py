@@ -1,11 +1,12 @@
 """Linearising the dynamics of a problem: derivatives in letters, then exact values at the operating point."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from sympy import Expr
 
 from rldrill.problems.angles import Angle
+from rldrill.problems.document import joined
 from rldrill.problems.expressions import letters
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.robots import Entries, System
@@ -182,31 +183,59 @@ def _jacobian(work: Work, given: System, formula: Formula, known: dict[str, Valu
 
 
 def _column(work: Work, given: System, formula: Formula, by: str, known: dict[str, Any], rule: Rule) -> list[Value]:
-    """The derivatives of all components by one letter; those of named parts first."""
-    moving: list[str] = []
+    """The derivatives of all components by one letter; those of named parts first, as far as they play a part."""
+    needed = _needed(work, given, by, known, rule)
     known = {**known, "j": by}
+    constant = []
+    for part in needed:
+        right = rule(given.where[part], by, _within(given.where[part], needed))
+        value = work.step(formula, into=partial_part, right=right, i=part, **known)
+        known[dynamics.part_derivative(part, by).name] = value
+        if value == 0:
+            constant.append(f"${part}$")
+    if constant:
+        work.say(f"So {joined(constant)} {'count as constants' if len(constant) > 1 else 'counts as a constant'} here.")
+    moving = tuple(part for part in needed if known[dynamics.part_derivative(part, by).name] != 0)
 
-    def derivative(text: str, index: int | str) -> Value:
-        component = isinstance(index, int)
-        within = letters(text)
-        right = rule(text, by, tuple(part for part in moving if part in within))
+    def derivative(text: str, index: int) -> Value:
+        right = rule(text, by, _within(text, moving))
         if right == 0:
             return ZERO
-        if not component and is_zero(value_of(right, known)):
-            work.step(formula, into=partial_part, right=right, i=index, **known)
-            return ZERO
-        if component and len(given.dynamics) == 1:
+        if len(given.dynamics) == 1:
             return work.step(formula, into=partial_part, right=right, i="f", **known)
-        return work.step(formula, into=partial if component else partial_part, right=right, i=index, **known)
+        return work.step(formula, into=partial, right=right, i=index, **known)
 
-    for part, text in given.where.items():
-        value = derivative(text, part)
-        if value != 0:
-            moving.append(part)
-            known[dynamics.part_derivative(part, by).name] = value
-        elif by in letters(text):
-            work.say(f"With $∂{part}/∂{by} = 0$ at the operating point, ${part}$ counts as a constant in what follows.")
     return [derivative(text, index) for index, text in enumerate(given.dynamics.values(), 1)]
+
+
+def _within(text: str, parts: Iterable[str]) -> tuple[str, ...]:
+    inside = letters(text)
+    return tuple(part for part in parts if part in inside)
+
+
+def _needed(work: Work, given: System, by: str, known: Mapping[str, Any], rule: Rule) -> tuple[str, ...]:
+    """The named parts whose derivative by a letter is multiplied by something that is not 0, in their order."""
+    rights: dict[str, Expr] = {}
+    for part, text in given.where.items():  # what depends on the letter, itself or through parts before it
+        right = rule(text, by, _within(text, rights))
+        if right != 0:
+            rights[part] = right
+    components = [rule(text, by, _within(text, rights)) for text in given.dynamics.values()]
+    names = {part: dynamics.part_derivative(part, by).name for part in rights}
+    without = {**known, **dict.fromkeys(names.values(), ZERO)}
+    needed: list[str] = []
+    for part in reversed(rights):
+        with_part = {**without, names[part]: ZERO + 1}
+        if any(
+            not is_zero(value_of(right, with_part) - value_of(right, without))
+            for right in (*components, *(rights[later] for later in needed))
+        ):
+            needed.append(part)
+    if idle := [f"$∂{part}/∂{by}$" for part in rights if part not in needed]:
+        rest = [f"${part} = 0$" for part in given.where if known[dynamics.code(part)] == 0]
+        since = f", since {joined(rest)}" if rest else ""
+        work.say(f"What multiplies {joined(idle)} is $0$ at the operating point{since}.")
+    return tuple(part for part in rights if part in needed)
 
 
 def _euler(work: Work, given: System, formula: Formula, value: AnyMatrix) -> AnyMatrix:

@@ -14,13 +14,15 @@ from rldrill.problems.notations import LECTURE, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
+from rldrill.solutions.formula.common_denominator import in_one_fraction
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.inverting import inverted
+from rldrill.solutions.formula.multiplying import multiplied_out
 from rldrill.solutions.formula.notation import Quantity
-from rldrill.solutions.formula.putting_in import indexed, long_sum, put_in, reduced, term_by_term
+from rldrill.solutions.formula.putting_in import indexed, long_sum, put_in, reduced, term_by_term, without_slots
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
 from rldrill.solutions.limits import bounded
 from rldrill.solutions.matrices import is_matrix
@@ -92,7 +94,12 @@ class Step(_Applied):
         rights.append(alone(written))
         if self.value is not None:  # an equation of a system has no value of its own
             short = term_by_term(reduced(written)) if self.own else reduced(written)
-            rights += [alone(short), alone(inverted(short)), alone(long_sum(short)), shown_value(self.value)]
+            without = inverted(short)
+            after = list(multiplied_out(without))
+            before = [] if after else multiplied_out(without_slots(written))
+            together = in_one_fraction(short)
+            added = [each for each in (together, long_sum(short)) if each is not None and each != short]
+            rights += [*map(alone, (*before, short, without, *after, *added)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)
         if label := self._label():

@@ -29,7 +29,7 @@ from rldrill.problems.parts import Number, Part
 
 TITLE = "Piecewise linear RBF"
 SOURCE = "Lecture sheet; triangular kernel"
-REVISION = 2
+REVISION = 3
 
 
 class Given(Centred):
@@ -132,7 +132,7 @@ def _width_sought(rng: Draws) -> Given:
 def _state_sought(rng: Draws) -> Given:
     """Two features tell the state, on one side of both centres or between them, and with it the third."""
     width = rng.whole(6, 12)
-    far = rng.distinct(rng.choice((4, 5)), 1, int(width))
+    far = rng.distinct(rng.choice((3, 4)), 1, int(width))
     centred = draw_on_a_line(rng, far)
     inside = [n for n, distance in enumerate(far, 1) if distance < width]
     known = {number: 1 - far[number - 1] / width for number in rng.sample(inside, 2)}

@@ -28,7 +28,7 @@ from rldrill.problems.phrases import in_open
 
 TITLE = "Radial basis functions"
 SOURCE = "Sutton & Barto 2018, section 9.5.5"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Centred):
@@ -100,9 +100,9 @@ def _width_sought(rng: Draws) -> Given:
     """One feature tells the width, and with it the others."""
     sigma = rng.whole(4, 6)
     if rng.choice((True, False)):
-        centred = draw_on_a_line(rng, rng.distinct(4, 1, 5))
+        centred = draw_on_a_line(rng, rng.distinct(3, 1, 5))
     else:
-        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((2, 3))]))
+        centred = draw_in_the_plane(rng, (rng.choice(_WHOLE_STEPS), *rng.shuffled(_OTHER_STEPS)[: rng.choice((1, 2))]))
     squares = [square(centred.position or (), centre) for centre in centred.centres]
     number = rng.choice([n for n, far in enumerate(squares, 1) if far in (1, 4, 9, 16, 25)])
     return Given(
@@ -112,7 +112,7 @@ def _width_sought(rng: Draws) -> Given:
 
 def _state_sought(rng: Draws) -> Given:
     """Two features tell the state, on one side of both centres or between them, and with it the third."""
-    count = rng.choice((4, 5))
+    count = rng.choice((3, 4))
     sigma, far = rng.whole(4, 6), rng.distinct(count, 1, 6)
     centred = draw_on_a_line(rng, far)
     known = {number: -(far[number - 1] ** 2) / (2 * sigma**2) for number in rng.sample(range(1, count + 1), 2)}

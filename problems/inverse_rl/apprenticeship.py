@@ -1,4 +1,4 @@
-"""Apprenticeship learning by projection: distances, projected points and the weights of the next reward."""
+"""Apprenticeship learning by projection: projected points, the weights of the next reward, and what is left."""
 
 from collections.abc import Sequence
 from math import gcd, isqrt
@@ -6,7 +6,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.document import Block, Paragraph, Table
+from rldrill.problems.document import Paragraph, Table
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, dot, shown
 from rldrill.problems.family import Givens, Question
@@ -14,11 +14,11 @@ from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.features import FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
+from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo, label
 
 TITLE = "Apprenticeship learning"
 SOURCE = "Abbeel & Ng 2004, section 3.1"
-REVISION = 5
+REVISION = 6
 
 Mu = tuple[Fraction, ...]
 
@@ -161,7 +161,7 @@ def _shares(point: Mu, mu: Mu, expert: Mu) -> tuple[Fraction, Fraction]:
 
 
 def question(given: Given) -> Question:
-    """The vectors; a distance, then projection and weights policy by policy, then the distance left."""
+    """The vectors; how far to go, then projection and weights policy by policy, then the distance left."""
     count, size = len(given.policies), len(given.expert)
     named = (("μ(π_E)", given.expert), *((f"μ(π_{{{n}}})", mu) for n, mu in enumerate((given.first, *given.policies))))
     blocks = (
@@ -174,38 +174,30 @@ def question(given: Given) -> Question:
             rows=tuple((f"${name}$", *(f"${shown(value)}$" for value in mu)) for name, mu in named),
         ),
         Paragraph(
-            "The projection method keeps a point $μ̄$, at first $μ(π_0)$. After each new policy $π_i$ it moves to the "
-            "orthogonal projection of $μ(π_E)$ onto the line through $μ̄$ and $μ(π_i)$; the weights of the next reward "
+            "The projection method keeps a point $μ̄$, at first $μ(π_0)$. After each new policy $π_k$ it moves to the "
+            "orthogonal projection of $μ(π_E)$ onto the line through $μ̄$ and $μ(π_k)$; the weights of the next reward "
             "are then $w = μ(π_E) − μ̄$."
         ),
     )
     point = Numbers(tuple(f"μ̄_{{{index}}}" for index in range(1, size + 1)))
     weights = Numbers(tuple(f"w_{{{index}}}" for index in range(1, size + 1)))
-    parts = [Part("What is the Euclidean distance $‖μ(π_1) − μ(π_E)‖$?", Number())] if not given.candidates else []
+    share = "Which share $c$ of the way from $μ̄$ to $μ(π_1)$ does it go first?"
+    parts = [] if given.candidates else [Part(share, Number())]
     for number in range(1, count + 1):
         parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{number}$?", point))
         parts.append(Part(f"What are the weights ${_written(weights, 'w')}$ then?", weights, zero=True))
     if given.candidates:
-        options = dict(zip(given.candidates, given.candidates, strict=True))
-        parts.append(Part(f"Which of these policies is $π_{count + 1}$?", Choice(options)))
+        options = {name: f"$μ(π) = ({', '.join(map(shown, mu))})$" for name, mu in given.candidates.items()}
+        best = f"the one of these with the greatest $w^⊤ μ(π)$ for the weights of ({label(len(parts) - 1)})"
+        parts.append(Part(f"The next policy $π_{count + 1}$ is {best}. Which one?", Choice(options)))
         parts.append(Part(f"What is ${_written(point, 'μ̄')}$ after $π_{count + 1}$?", point))
     last = count + bool(given.candidates)
     parts.append(Part(f"What is the remaining distance $‖w‖$ to the expert after $π_{last}$?", Number()))
     if given.tolerance is not None:
         parts.append(Part(f"The method stops when $‖w‖ ≤ {shown(given.tolerance)}$. Does it stop now?", YesNo()))
-    return Question((*blocks, *_candidates(given)), tuple(parts))
+    return Question(blocks, tuple(parts))
 
 
 def _written(entries: Numbers, letter: str) -> str:
     """A vector with the names of its components."""
     return f"{letter} = ({', '.join(entries.entries)})"
-
-
-def _candidates(given: Given) -> tuple[Block, ...]:
-    if not given.candidates:
-        return ()
-    number = len(given.policies) + 1
-    told = f"The next policy $π_{number}$ is the one of these with the greatest $w^⊤ μ(π)$ for the last weights:"
-    header = ("", *(f"component ${index}$" for index in range(1, len(given.expert) + 1)))
-    rows = tuple((name, *(f"${shown(value)}$" for value in mu)) for name, mu in given.candidates.items())
-    return Paragraph(told), Table(header=header, rows=rows)

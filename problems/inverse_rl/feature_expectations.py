@@ -147,7 +147,7 @@ def question(given: Given) -> Question:
     )
     if given.estimate is not None:
         told = f"The estimate for the expert's policy is $μ_1(π) = {shown(given.estimate)}$."
-        others = tuple(f"μ_{{{index}}}" for index in range(2, given.size + 1))
+        others = tuple(f"μ_{{{index}}}(π)" for index in range(2, given.size + 1))
         rest = (
             Part("What is the estimate of $μ_2(π)$ then?", Number())
             if given.size == 2
@@ -156,4 +156,4 @@ def question(given: Given) -> Question:
         return Question(blocks, (Part(f"{told} What is the discount $γ$?", Number()), rest))
     opened = in_open(given)
     ask = f"What is the estimate of the feature expectations $μ(π)$ of the expert's policy{opened}?"
-    return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}" for index in range(1, given.size + 1)))),))
+    return Question(blocks, (Part(ask, Numbers(tuple(f"μ_{{{index}}}(π)" for index in range(1, given.size + 1)))),))

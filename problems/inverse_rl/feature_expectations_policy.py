@@ -243,9 +243,11 @@ def question(given: Given) -> Question:
         )
         for number in numbers
     ]
-    entries = tuple(f"μ_{{{number}}}" for number in numbers)
-    ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
-    parts.append(Part(ask, Numbers(entries)))
+    if given.size == 1:
+        parts.append(Part(f"What is $μ_1(π)$ from the start distribution{in_open(given)}?", Number()))
+    else:
+        ask = f"What are the feature expectations $μ(π)$ from the start distribution{in_open(given)}?"
+        parts.append(Part(ask, Numbers(tuple(f"μ_{{{number}}}(π)" for number in numbers))))
     return Question(blocks, tuple(parts))
 
 

@@ -13,11 +13,13 @@ from rldrill.problems.feature_vectors import check_lengths
 from rldrill.problems.features import MOST_FEATURES, FeatureVector
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Part, Values
+from rldrill.problems.parts import Number, Numbers, Part, Values
 
 TITLE = "Max-margin constraints"
 SOURCE = "Ratliff, Bagnell & Zinkevich 2006"
-REVISION = 5
+REVISION = 6
+#: Constraints that hold without slack hold with any, and some need more.
+DISTRACTORS = ("slack",)
 
 EXPERT = "expert"
 _LOW = str.maketrans(digits, "₀₁₂₃₄₅₆₇₈₉")
@@ -46,6 +48,11 @@ class Given(Givens):
     )
     expert: FeatureVector = Field(description="The expert's feature expectations.")
     policies: dict[Name, Rival] = Field(min_length=1, max_length=20, description="The other policies by their names.")
+    slack: Exact = Field(
+        default=Fraction(0),
+        ge=0,
+        description="The slack with which it is asked how many constraints hold; 0 if left out.",
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -86,7 +93,7 @@ class Given(Givens):
 def draw(level: int, rng: Draws) -> Given:
     """Two policies and two features; two or three of each; the weight from which on all constraints hold."""
     size, count = (2, 2) if level == 1 else (rng.choice((2, 3)), rng.choice((2, 3)))
-    holding = rng.chance(Fraction(1, 4))
+    holding = rng.chance(Fraction(1, 2))
     while True:
         w = tuple(rng.nonzero(-2, 3) for _ in range(size))
         expert = tuple(rng.whole(1, 6) for _ in range(size))
@@ -102,13 +109,10 @@ def draw(level: int, rng: Draws) -> Given:
             opened = _opened(rng, given)
             if opened:
                 return opened
-        elif (
-            0 not in missing
-            and len(set(missing)) == count
-            and (max(missing) < 0) == holding
-            and (holding or min(missing) < 0 or level == 1)
-        ):
-            return given
+            continue
+        slack = rng.whole(1, 4)
+        if 0 not in missing and slack not in missing and len(set(missing)) == count and (max(missing) < 0) == holding:
+            return given.model_copy(update={"slack": slack})
 
 
 def _opened(rng: Draws, given: Given) -> Given | None:
@@ -136,7 +140,7 @@ def question(given: Given) -> Question:
     weights = ", ".join(f"w_{{{index}}} = {shown(weight)}" for index, weight in zip(components, given.w, strict=True))
     opened = f", where ${shown(given.asked_for)}$ is left open" if given.asked_for else ""
     rows = (
-        ("expert, $π_E$", *(f"${shown(value)}$" for value in given.expert), "–"),
+        ("$π_E$", *(f"${shown(value)}$" for value in given.expert), "–"),
         *(
             (name, *(f"${shown(value)}$" for value in rival.mu), f"${shown(rival.margin)}$")
             for name, rival in given.policies.items()
@@ -170,11 +174,11 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part(
-                "What is the value $w^⊤ μ(π)$ of each policy, the expert's included?",
-                Values("w^⊤ μ", (EXPERT, *given.policies)),
+                "What is the value $w^⊤ μ(π)$ of each policy, the expert's first?",
+                Numbers(tuple(f"w^⊤ μ({name})" for name in ("π_E", *(f'"{name}"' for name in given.policies)))),
                 zero=True,
             ),
-            Part("How many of the constraints hold with $ξ = 0$?", Number(), zero=True),
+            Part(f"How many of the constraints hold with $ξ = {shown(given.slack)}$?", Number(), zero=True),
             Part("What is the smallest $ξ ≥ 0$ with which all of them hold?", Number(), zero=True),
         ),
     )

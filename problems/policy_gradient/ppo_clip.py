@@ -13,7 +13,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.features import ActionPreferences
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Name
-from rldrill.problems.parts import Number, Numbers, Part, YesNo
+from rldrill.problems.parts import Choice, Number, Numbers, Part, YesNo
 from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "PPO: clipped objective"
@@ -63,7 +63,7 @@ class Sample(Givens):
 class Given(Givens):
     """Samples of the old policy, and the clipping range ε.
 
-    Without ``epsilon`` it is asked for: that which gives the ``objective``, or the largest that cuts off a gradient.
+    Without ``epsilon`` it is asked for: that which gives the ``objective``, or that below which a gradient is cut off.
     """
 
     samples: tuple[Sample, ...] = Field(min_length=1, max_length=20, description="The actions that were taken.")
@@ -108,25 +108,27 @@ _MORE = (("1/2", "3/4"), ("2/5", "3/5"), ("1/5", "3/10"), ("1/4", "1/2"), ("1/5"
 _LESS = tuple((new, old) for old, new in _MORE)
 _NEAR = (("1/2", "11/20"), ("1/2", "9/20"), ("2/5", "9/25"), ("1/5", "9/50"))
 #: The same where the new policy has the preferences ln n and 0: old probability, n, and which of them is taken. No
-#: ratio is 2 or more, so that some ε below 1 reaches it.
-_MORE_BY_PREFERENCE = (("9/20", 2, 0), ("11/20", 3, 0), ("9/20", 3, 0), ("3/5", 4, 0), ("1/2", 2, 0), ("2/5", 2, 0))
-_LESS_BY_PREFERENCE = (("9/20", 2, 1), ("7/20", 3, 1), ("9/20", 3, 1), ("7/20", 4, 1), ("11/20", 2, 1), ("1/2", 3, 1))
+#: ratio is 2 or more, so that some ε below 1 reaches it, and all are different.
+_BY_PREFERENCE = {
+    True: (("1/2", 2, 0), ("1/2", 3, 0), ("3/5", 3, 0), ("1/2", 4, 0)),
+    False: (("1/2", 2, 1), ("1/2", 3, 1), ("1/3", 3, 1), ("1/3", 4, 1)),
+}
 
 
 def draw(level: int, rng: Draws) -> Given:
-    """One sample; then two; then the clipping range is found, from the objective or as the largest that cuts.
+    """One sample; then two; then the clipping range is found, from the objective or as that below which it cuts.
 
     In half of the samples clipping cuts off the gradient.
     """
     setting = draw_setting(rng)
     if level == 3:
         return _searched(rng, setting)
-    count = level
+    count = 1 if level == 1 else rng.choice((2, 2, 3))
     cuts = [rng.choice((True, True, False, False if level == 1 else None)) for _ in range(count)]
     if cuts.count(None) == count:
         return draw(level, rng)
     samples = []
-    ways = rng.shuffled((True, False))  # of two ratios beyond the range, one lies above it and one below
+    ways = [*rng.shuffled((True, False)), rng.chance(Fraction(1, 2))]  # of two ratios one lies above the range
     for state, cut, more in zip(rng.shuffled(setting.states), cuts, ways, strict=False):
         sign = rng.choice((1, -1))
         if cut is not None:
@@ -149,10 +151,11 @@ def _searched(rng: Draws, setting: Setting) -> Given:
     by_objective = rng.choice((True, False))
     cuts = rng.shuffled((True, False, False)) if by_objective else rng.choice(_SOME_CUT)
     samples, objective = [], Fraction(0)
-    epsilon = rng.fraction("1/10", "1/5", "3/20")
+    epsilon = rng.fraction("1/10", "1/5")
+    changes = {more: iter(rng.shuffled(_BY_PREFERENCE[more])) for more in (True, False)}
     for state, cut in zip(rng.shuffled(setting.states), cuts, strict=False):
         more = rng.choice((True, False))
-        old, number, taken = rng.choice(_MORE_BY_PREFERENCE if more else _LESS_BY_PREFERENCE)
+        old, number, taken = next(changes[more])
         order = rng.shuffled(setting.actions[:2])
         preferences = {order[0]: Logarithm(f"ln {number}"), order[1]: Fraction(0)}
         advantage = (1 if more == cut else -1) * rng.whole(1, 6)
@@ -166,7 +169,7 @@ def _searched(rng: Draws, setting: Setting) -> Given:
 
 
 #: Of which samples clipping can cut off the gradient: of some, not of all.
-_SOME_CUT = tuple(cuts for cuts in product((True, False), repeat=4) if len(set(cuts)) > 1)
+_SOME_CUT = tuple(cuts for cuts in product((True, False), repeat=3) if len(set(cuts)) > 1)
 
 
 def question(given: Given) -> Question:
@@ -206,19 +209,44 @@ def _terms(given: Given) -> str:
 
 def _parts(given: Given, times: range) -> Iterator[Part]:
     yield _asked("probability ratio", "ρ", times)
+    objective = "L" if len(times) > 1 else "L_0"
     if given.epsilon is None and given.objective is None:
-        for time in times:
-            yield Part(f"Is there an $ε > 0$ for which clipping makes the gradient of $L_{{{time}}}$ zero?", YesNo())
-        yield Part("Below which $ε$ does clipping make at least one of the gradients zero?", Number())
+        yield _thresholds(times)
+        yield Part(f"Which value does ${objective}$ approach as $ε$ goes to $0$?", Number(), zero=True)
         return
-    yield _asked("unclipped term", "u", times)
-    if given.epsilon is None:
-        yield Part("What is the clipping range $ε$?", Number())
-        return
-    yield _asked("clipped term", "c", times)
-    yield Part(f"What is the objective ${'L' if len(times) > 1 else 'L_0'}$?", Number(), zero=True)
-    for time in times:
-        yield Part(f"Does clipping make the gradient $∇_θ L_{{{time}}}$ zero?", YesNo())
+    if len(times) == 1 and given.epsilon is not None:
+        terms = Numbers(("u_0", "c_0"))
+        yield Part("What are the unclipped term $u_0$ and the clipped term $c_0$?", terms)
+    else:
+        yield _asked("unclipped term", "u", times)
+        if given.epsilon is None:
+            yield Part("What is the clipping range $ε$?", Number())
+            return
+        yield _asked("clipped term", "c", times)
+    yield Part(f"What is the objective ${objective}$?", Number(), zero=True)
+    yield _cut_off(len(times))
+
+
+def _cut_off(count: int) -> Part:
+    """Which gradients are cut off; of many samples, how many."""
+    if count == 1:
+        return Part("Does clipping make the gradient $∇_θ L_0$ zero?", YesNo())
+    if count == len(CUT) // 2:
+        return Part("Of which objectives does clipping make the gradient zero?", Choice(CUT))
+    return Part("Of how many of the objectives does clipping make the gradient zero?", Number(), zero=True)
+
+
+#: The answers of two samples, by whether the first gradient and the second one are cut off.
+CUT = {"A": "of neither", "B": "of $L_0$ only", "C": "of $L_1$ only", "D": "of both"}
+
+
+def _thresholds(times: range) -> Part:
+    names = tuple(f"ε_{{{time}}}" for time in times)
+    if len(names) == 1:
+        ask = "Below which $ε$ does clipping make the gradient of $L_0$ zero ($0$, if no $ε$ does)?"
+        return Part(ask, Number(), zero=True)
+    ask = "For every sample: below which $ε_t$ does clipping make the gradient of $L_t$ zero ($0$, if no $ε$ does)?"
+    return Part(ask, Numbers(names), zero=True)
 
 
 def _asked(what: str, letter: str, times: range) -> Part:

@@ -1,5 +1,6 @@
 """The distance from every centre, then its bump; or backwards, from known features. Exponentials stay as they are."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from rldrill.problems.function_approximation.rbf import Given
@@ -15,8 +16,9 @@ from rldrill.solutions.sheet.function_approximation import (
     RBF,
     SIGMA_NOT_SQUARED,
     WIDTH_FROM_RBF,
+    logarithm_of_rbf,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Step, Work
 
 MISCONCEPTIONS = (HALF_FORGOTTEN, SIGMA_NOT_SQUARED, NORM_NOT_SQUARED)
 
@@ -30,15 +32,13 @@ def solve(given: Given, work: Work) -> None:
     others = tuple(number for number in range(1, len(given.centres) + 1) if number not in logarithms)
     state: tuple[Value, ...] = ()
     if given.position is None:
-        work.recall(RBF)
-        work.say("Solved for the distance:")
+        _with_logarithms(work, "the distance", logarithms, sigma=known["sigma"])
         far = {number: work.step(DISTANCE_FROM_RBF, s="s", i=number, **known) for number in logarithms}
         state = (work.answer(found(given, work, far)),)
     if given.sigma is None:
         (number,) = logarithms
         measures = distances(given, work, of=logarithms)
-        work.recall(RBF)
-        work.say("Solved for $σ$:")
+        _with_logarithms(work, "$σ$", logarithms, **measures)
         known["sigma"] = work.answer(work.step(WIDTH_FROM_RBF, i=number, **known, **measures))
     known |= distances(given, work, state, of=others)
     values = tuple(work.step(RBF, i=number, **known) for number in others)
@@ -46,6 +46,15 @@ def solve(given: Given, work: Work) -> None:
         values = work.answer(values)
     if given.theta:
         value_of_state(work, given.theta, values)
+
+
+def _with_logarithms(work: Work, sought: str, of: Iterable[int], **known: Any) -> None:
+    """The equations of the features that are known, in which one thing is not."""
+    work.recall(RBF)
+    work.say("The logarithm of both sides:")
+    formula = logarithm_of_rbf()
+    work.lines += [Step(formula, formula.right, {**known, "i": number, "s": "s"}, None, "=") for number in of]
+    work.say(f"Solved for {sought}:")
 
 
 def oracle(given: Given) -> Answers:

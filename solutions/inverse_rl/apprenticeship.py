@@ -12,7 +12,6 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     APPRENTICESHIP,
-    DISTANCE,
     PROJECTION,
     PROJECTION_LENGTH,
     REMAINING,
@@ -26,7 +25,7 @@ Point: TypeAlias = dict[int, Any]
 
 
 def solve(given: Given, work: Work) -> None:
-    """A distance; for every policy the projected point and the weights; the distance that is left."""
+    """For every policy how far to go, the projected point and the weights; the distance that is left."""
     _project(given, work, lambda projected, _: projected)
 
 
@@ -36,13 +35,12 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     known: dict[str, Any] = {"features": features, "mu_expert": _vector(given.expert)}
     point, weights = _vector(given.first), {}
     policies = [_vector(mu) for mu in given.policies]
-    work.say("The aim is a policy with the expert's feature expectations:")
-    work.recall(APPRENTICESHIP)
-    if not given.candidates:
-        work.answer(work.step(DISTANCE, mu_now=policies[0], **known))
-    for mu in policies:
+    for number, mu in enumerate(policies):
         known |= {"mu_now": mu, "mu_bar": point}
-        moved = work.answer(_moved(work, features, known))
+        length = _length(work, known)
+        if not number and not given.candidates:
+            length = work.answer(length)
+        moved = work.answer(_moved(work, features, known, length))
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         pointing = work.answer(tuple(work.step(WEIGHTS, component=index, **known) for index in features))
@@ -50,9 +48,12 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
     if given.candidates:
         mu = _next(given.candidates, work, weights)
         known |= {"mu_now": mu, "mu_bar": point}
-        point = dict(zip(features, work.answer(_moved(work, features, known)), strict=True))
+        moved = work.answer(_moved(work, features, known, _length(work, known)))
+        point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         weights = {index: work.step(WEIGHTS, component=index, **known) for index in features}
+    work.say("What is left is how far the method still is from its aim:")
+    work.recall(APPRENTICESHIP)
     left = work.answer(work.step(REMAINING, w=weights, features=features))
     if given.tolerance is not None:
         limit = exact(given.tolerance)
@@ -63,9 +64,12 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         work.answer(stops)
 
 
-def _moved(work: Work, features: tuple[int, ...], known: dict[str, Any]) -> tuple[Any, ...]:
+def _length(work: Work, known: dict[str, Any]) -> Any:
     work.say("The projection lies the share $c$ of the way from $μ̄$ to $μ(π)$:")
-    length = work.step(PROJECTION_LENGTH, **known)
+    return work.step(PROJECTION_LENGTH, **known)
+
+
+def _moved(work: Work, features: tuple[int, ...], known: dict[str, Any], length: Any) -> tuple[Any, ...]:
     return tuple(work.step(PROJECTION, component=index, step_length=length, **known) for index in features)
 
 
@@ -80,7 +84,7 @@ def _next(candidates: dict[str, Any], work: Work, weights: Point) -> Point:
     best, *others = arg_max(tuple(worth), tuple(worth.values()))
     if others:
         raise NoSolution(f"{best} and {others[0]} are equally good for the weights; change one of them")
-    work.say(f"Policy {best} has the greatest value: it comes next.")
+    work.say(f"Policy {best} has the greatest value for these weights: it comes next.")
     return _vector(candidates[work.answer(best)])
 
 
@@ -105,7 +109,10 @@ def oracle(given: Given) -> Answers:
     expert, point, *policies = (
         np.array([at(value) for value in mu]) for mu in (given.expert, given.first, *given.policies)
     )
-    answers: list[Any] = [] if given.candidates else [np.linalg.norm(policies[0] - expert)]
+    answers: list[Any] = []
+    if not given.candidates:
+        way = policies[0] - point
+        answers.append(way @ (_nearest(point, policies[0], expert) - point) / (way @ way))
     for mu in policies:
         point = _nearest(point, mu, expert)
         answers += [point, expert - point]

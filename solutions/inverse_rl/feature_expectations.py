@@ -10,7 +10,9 @@ from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.inverse_rl import (
     FEATURE_EXPECTATIONS,
+    FEATURES_ALONG,
     FEATURES_EARLY,
+    FEATURES_ESTIMATED,
     FEATURES_SUMMED,
     FEATURES_UNDISCOUNTED,
 )
@@ -20,19 +22,19 @@ MISCONCEPTIONS = (FEATURES_UNDISCOUNTED, FEATURES_EARLY, FEATURES_SUMMED)
 
 
 def solve(given: Given, work: Work) -> None:
-    """One application for every component."""
-    runs = dict(enumerate(given.trajectories))
+    """The estimates of all components; where the discount is asked for, it follows from the first."""
+    runs = dict(enumerate(given.trajectories, 1))
     known: dict[str, Any] = {
         "gamma": exact(given.gamma),
         "phi": knowns.features(given.features),
         "visited": {(time, run): state for run, states in runs.items() for time, state in enumerate(states)},
         "last": {run: len(states) - 1 for run, states in runs.items()},
         "trajectories": tuple(runs),
+        "runs": exact(len(runs)),
     }
-    count = len(runs)
-    over = f"the mean over the $m = {count}$ trajectories" if count > 1 else "the sum along the one trajectory"
     work.recall(FEATURE_EXPECTATIONS)
-    work.say(f"The expectation is estimated by {over}:")
+    several = "mean over the trajectories, whose sums come first" if len(runs) > 1 else "sum along the one trajectory"
+    work.say(f"The expectation is estimated by the {several}:")
     if given.estimate is None:
         work.answer(_estimates(work, known, range(1, given.size + 1)))
         return
@@ -44,7 +46,13 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _estimates(work: Work, known: dict[str, Any], components: range) -> tuple[Value, ...]:
-    return tuple(work.step(FEATURE_EXPECTATIONS, component=index, **known) for index in components)
+    """Component by component, the sums of all trajectories and their mean."""
+    runs = known["trajectories"]
+    estimates = []
+    for index in components:
+        sums = {(index, run): work.step(FEATURES_ALONG, component=index, run=run, **known) for run in runs}
+        estimates.append(work.step(FEATURES_ESTIMATED, component=index, mu_along=sums, **known))
+    return tuple(estimates)
 
 
 def oracle(given: Given) -> Answers:

@@ -53,7 +53,7 @@ def solve(given: Given, work: Work) -> None:
     begins = {"start_chance": knowns.values(given.start_chances), "states": states, "mu_of": expectations}
     total = tuple(work.step(FEATURES_FROM_START, component=index, **begins) for index in range(1, given.size + 1))
     if given.matched is None:
-        work.answer(total)
+        work.answer(total if len(total) > 1 else total[0])
     else:
         work.say(f"This must equal the expert's ${shown(given.matched)}$:")
         work.answer(work.equate(given.asked_for, total[0], exact(given.matched)))
@@ -129,7 +129,7 @@ def _from_start(given: Given, chance: float) -> float:
         for state, row in given.policy.items()
     }
     *_, total = _pushed(given.model_copy(update={"policy": policy, "matched": None}))
-    return float(total[0])
+    return float(total)
 
 
 def _pushed(given: Given) -> Answers:
@@ -149,4 +149,5 @@ def _pushed(given: Given) -> Answers:
         total = total + moved @ total
         moved = moved @ moved
     begins = np.array([at(chance) for chance in given.start_chances.values()])
-    return [*total.T, begins @ total]
+    start = begins @ total
+    return [*total.T, start if len(start) > 1 else start[0]]

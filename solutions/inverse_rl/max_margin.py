@@ -4,7 +4,6 @@ from typing import Any
 
 from flint import fmpq
 
-from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
 from rldrill.problems.inverse_rl.max_margin import EXPERT, Given
 from rldrill.solutions import knowns
@@ -17,7 +16,7 @@ from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """Values; then constraint by constraint with ξ = 0; then the slack."""
+    """Values; then constraint by constraint with a slack; then the slack that is needed."""
     mus = {EXPERT: given.expert} | {name: rival.mu for name, rival in given.policies.items()}
     known: dict[str, Any] = {
         "w": dict(enumerate(map(exact, given.w), 1)),
@@ -29,14 +28,18 @@ def solve(given: Given, work: Work) -> None:
     if given.asked_for:
         _balance(given, work, given.asked_for, worth, margins)
         return
-    worth = work.answer(worth)
+    worth = dict(zip(worth, work.answer(tuple(worth.values())), strict=True))
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
-    work.say("With $ξ = 0$ the left side must be at least as great as every right side.")
-    violated = tuple(name for name in given.policies if not _holds(work, name, sides))
-    holding = len(given.policies) - len(violated)
+    work.say(f"With $ξ = {shown(given.slack)}$ the left side must be at least as great as the right side:")
+    holding = sum([_holds(work, name, sides, exact(given.slack)) for name in given.policies])
     count = f"{holding or 'none'} of the {len(given.policies)} constraints {'hold' if holding > 1 else 'holds'}"
-    work.say(f"With $ξ = 0$ {_told(violated)}: {count}.")
-    work.answer(fmpq(len(given.policies) - len(violated)))
+    work.say(f"So {count}.")
+    work.answer(fmpq(holding))
+    violated = tuple(
+        name
+        for name in given.policies
+        if sign(worth[EXPERT] - work.value(MAX_MARGIN, policy=name, xi=ZERO, **sides)) < 0
+    )
     slack = work.answer(work.step(SLACK, policies=tuple(given.policies), violated=violated, **sides))
     if not violated and slack == 0:
         work.say("No constraint is violated, so no slack is needed.")
@@ -69,8 +72,8 @@ def _balance(given: Given, work: Work, letter: str, worth: dict[str, Any], margi
     work.answer(enough)
 
 
-def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
-    known = sides | {"policy": name, "xi": ZERO}
+def _holds(work: Work, name: str, sides: dict[str, Any], slack: fmpq) -> bool:
+    known = sides | {"policy": name, "xi": slack}
     left = sides["worth_expert"]
     holds = sign(left - work.value(MAX_MARGIN, **known)) >= 0
     relation = "≥" if holds else "<"
@@ -78,14 +81,6 @@ def _holds(work: Work, name: str, sides: dict[str, Any]) -> bool:
     compared = f"$w^⊤ μ(π_E) = {shown(left)} {relation} {shown(right)}$"
     work.say(f"{compared}: this constraint {'holds' if holds else 'is violated'}.")
     return holds
-
-
-def _told(violated: tuple[str, ...]) -> str:
-    return (
-        f"the left side is too small for {joined(list(violated))}"
-        if violated
-        else "the left side is great enough for every policy"
-    )
 
 
 def _margins_decide(given: Given) -> bool:
@@ -125,4 +120,4 @@ def oracle(given: Given) -> Answers:
     for _ in range(200):
         middle = (low + high) / 2
         low, high = (low, middle) if (values[0] + middle >= needed).all() else (middle, high)
-    return (values, (values[0] >= needed - 1e-12).sum(), high)
+    return (values, (values[0] >= needed - at(given.slack) - 1e-12).sum(), high)

@@ -6,24 +6,20 @@ from typing import Any
 from rldrill.problems.linear_methods.ddp_backward import Given
 from rldrill.solutions import dynamics, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, exact, sign
-from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.formula.nodes.leaves import put_in_name
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.linear_methods import (
     DDP,
-    DDP_A,
-    DDP_AA,
-    DDP_AS,
-    DDP_K,
-    DDP_S,
-    DDP_SS,
     INPUT_JACOBIAN,
     K_WITH_PLUS,
     SECOND_DERIVATIVE,
     STATE_JACOBIAN,
-    DDP_k,
+    Expansion,
+    derivative_of,
+    expansion,
     ilqr,
     partial,
     partial_part,
@@ -38,13 +34,32 @@ def solve(given: Given, work: Work) -> None:
     Q = _expanded(given, work)
     if not _is_negative(Q["Q_aa"]):
         raise NoSolution("Q has no greatest value in a, since Q_aa is not negative")
-    _maximum(work, Q)
+    _maximum(given, work, Q)
 
 
-def _maximum(work: Work, Q: Mapping[str, AnyMatrix]) -> None:
+def _maximum(given: Given, work: Work, Q: Mapping[str, AnyMatrix]) -> None:
+    formulas, of = _formulas(given), "Q_{a a}"
+    negative = f"${of} < 0$" if len(given.action) == 1 else f"${of}$ is negative definite"
+    work.say(f"{negative}: where the derivative by the action is $0$, $Q$ is greatest.")
     work.recall(DDP)
-    work.answer(work.step(DDP_k, **Q))
-    work.answer(work.step(DDP_K, **Q))
+    work.answer(_applied(given, work, formulas.change, Q))
+    work.answer(_applied(given, work, formulas.gain, Q))
+
+
+def _is_scalar(given: Given) -> bool:
+    return len(given.state) == len(given.action) == 1
+
+
+def _formulas(given: Given) -> Expansion:
+    return expansion(scalar=_is_scalar(given), second_order=given.second_order)
+
+
+def _applied(given: Given, work: Work, formula: Formula, known: Mapping[str, Any], right: Any = None) -> AnyMatrix:
+    """A formula of matrices; those of one state and one action are numbers."""
+    if not _is_scalar(given):
+        return work.step(formula, right=right, **known)
+    numbers = {code: value[0, 0] if matrices.is_matrix(value) else value for code, value in known.items()}
+    return matrices.matrix([[work.step(formula, **numbers)]])
 
 
 def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
@@ -60,36 +75,44 @@ def _expanded(given: Given, work: Work) -> dict[str, AnyMatrix]:
     if len(texts) == 1:
         texts = {"f": texts[1]}  # no index where there is one component
     Q = {}
-    work.say(
-        "$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation; $r$ is differentiated in the same way."
-    )
-    for code, by, formula, gradient in (
-        ("s", names, STATE_JACOBIAN, DDP_S), ("a", actions, INPUT_JACOBIAN, DDP_A),
-    ):  # fmt: skip
-        known[f"r_{code}"] = matrices.column(_first(work, formula, values, given.reward, "r", name) for name in by)
-        known[f"f_{code}"] = matrices.matrix(
-            [_first(work, formula, values, text, index, name) for name in by] for index, text in texts.items()
+    scalar, formulas = _is_scalar(given), _formulas(given)
+    if not scalar:
+        work.say(
+            "$f_s$ and $f_a$ are the matrices $A$ and $B$ of the linearisation; $r$ is differentiated in the same way."
         )
-        Q[f"Q_{code}"] = work.answer(work.step(gradient, **known))
-    work.say(
-        "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its entries. "
-        "Those that are zero are not written down."
-    )
+    for code, by, formula, gradient in (
+        ("s", names, STATE_JACOBIAN, formulas.s), ("a", actions, INPUT_JACOBIAN, formulas.a),
+    ):  # fmt: skip
+        of_r, of_f = (derivative_of(head, code) if scalar else formula for head in "rf")
+        known[f"r_{code}"] = matrices.column(_first(work, of_r, values, given.reward, "r", name) for name in by)
+        known[f"f_{code}"] = matrices.matrix(
+            [_first(work, of_f, values, text, index, name) for name in by] for index, text in texts.items()
+        )
+        Q[f"Q_{code}"] = work.answer(_applied(given, work, gradient, known))
+    if not scalar:
+        work.say(
+            "In second derivatives $ξ$ stands for state and action together: $ξ_j$ and $ξ_k$ are any two of its "
+            "entries."
+        )
+    work.say("Second derivatives that are not written down are $0$.")
     known["components"] = tuple(range(1, len(texts) + 1)) if given.second_order else ()
     if not given.second_order:
-        work.say("iLQR leaves out the sums with the second derivatives of $f$.")
+        work.say(f"iLQR leaves out the {'products' if scalar else 'sums'} with the second derivatives of $f$.")
     for code, formula, rows, columns in (
-        ("ss", DDP_SS, names, names),
-        ("as", DDP_AS, actions, names),
-        ("aa", DDP_AA, actions, actions),
+        ("ss", formulas.ss, names, names),
+        ("as", formulas.mixed, actions, names),
+        ("aa", formulas.aa, actions, actions),
     ):
-        known[f"r_{code}"] = _second(work, values, given.reward, "r", rows, columns)
+        of_r, of_f = (derivative_of(head, code) for head in "rf") if scalar else (reward_second(), SECOND_DERIVATIVE)
+        known[f"r_{code}"] = _second(work, of_r, values, given.reward, "r", rows, columns)
         known[f"fi{code}"] = {
-            number: _second(work, values, text, index, rows, columns)
+            number: _second(work, of_f, values, text, index, rows, columns)
             for number, (index, text) in enumerate(texts.items(), 1)
             if given.second_order
         }
-        Q[f"Q_{code}"] = work.answer(work.step(formula, right=None if given.second_order else ilqr(formula), **known))
+        known |= {f"f_{code}": bent for bent in known[f"fi{code}"].values() if scalar}
+        right = None if given.second_order or scalar else ilqr(formula)
+        Q[f"Q_{code}"] = work.answer(_applied(given, work, formula, known, right))
     return Q
 
 
@@ -102,7 +125,13 @@ def _first(work: Work, formula: Any, values: Mapping[str, Value], text: str, of:
 
 @dynamics.at_operating_point()
 def _second(
-    work: Work, values: Mapping[str, Value], text: str, of: int | str, rows: tuple[str, ...], columns: tuple[str, ...]
+    work: Work,
+    formula: Formula,
+    values: Mapping[str, Value],
+    text: str,
+    of: int | str,
+    rows: tuple[str, ...],
+    columns: tuple[str, ...],
 ) -> AnyMatrix:
     """A Hessian; every second derivative is worked out once."""
     found: dict[frozenset[str], Value] = {}
@@ -113,7 +142,6 @@ def _second(
                 indices = {"i": of, "j": first, "g": then}
                 found[frozenset((first, then))] = ZERO
                 if right != 0:
-                    formula = reward_second() if of == "r" else SECOND_DERIVATIVE
                     into = _second_of(of) if isinstance(of, str) else second
                     value = work.step(formula, into=into, right=right, **{**values, **indices})
                     found[frozenset((first, then))] = value
@@ -139,7 +167,7 @@ def _is_negative(matrix: AnyMatrix) -> bool:
 
 def other_method(given: Given, work: Work) -> None:
     """DDP for iLQR, iLQR for DDP; whatever Q is then, the formulas give a k and a K."""
-    _maximum(work, _expanded(given.model_copy(update={"second_order": not given.second_order}), work))
+    _maximum(given, work, _expanded(given.model_copy(update={"second_order": not given.second_order}), work))
 
 
 ILQR_FOR_DDP = slip(

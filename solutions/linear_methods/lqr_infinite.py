@@ -1,15 +1,19 @@
 """The scalar Riccati equation by its quadratic; a larger system by its modes, if it has any, else in decimals."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import sympy
 from flint import fmpq
+from sympy import Expr
 
+from rldrill.problems.document import joined
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.linear_methods.lqr_infinite import Given
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import ZERO, NoSolution, Value, decimal, exact, is_rational, to_sympy, told
+from rldrill.solutions.formula.putting_in import put_in, sum_of
 from rldrill.solutions.matrices import AnyMatrix
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
@@ -18,8 +22,12 @@ from rldrill.solutions.riccati import Regulator, stationary
 from rldrill.solutions.sheet.linear_methods import (
     OTHER_ROOT,
     POSITIVE_S,
+    Modes,
+    ScalarSystem,
     Stationary,
     back_from_modes,
+    of_a_mode,
+    scalar_system,
 )
 from rldrill.solutions.sheet.linear_methods import stationary as stationary_formulas
 from rldrill.solutions.work import Equality, Step, Work
@@ -40,20 +48,46 @@ def solve(given: Given, work: Work) -> None:
         work.say(f"The gain follows from this ${given.notation.value}$, and is rounded likewise.")
         L = work.answer(_rounded(work.value(formulas.gain, **system)))
     elif (modes := _modes(regulator)) is not None and _is_diagonal(modes.in_modes(P)):
-        L = work.answer(_gain_by_modes(work, given, formulas, modes, P, regulator.gamma))
+        L = work.answer(_gain_by_modes(work, given, modes, P, regulator.gamma))
     else:
         L = work.answer(work.step(formulas.gain, **system))
     letters = {f"{given.notation.gain}i": L}
     closed = work.step(formulas.closed_loop, Ai=regulator.A, Bi=regulator.B, **letters)
-    if closed.nrows() == 1 and given.gamma == 1:
-        loop = f"A − B {given.notation.gain}"
-        value = closed[0, 0]
-        work.say(lambda: f"${loop} {_told(value)}$ is between $−1$ and $1$: stable, as it must be.")
+    if (factors := _factors(regulator, closed)) is not None:
+        work.say(lambda: _goes_to_zero(given, factors))
     work.answer(closed)
 
 
-def _told(value: Value) -> str:
-    return f"= {told(value)}" if is_rational(value) else f"≈ {decimal(value, 4)}"
+def _factors(regulator: Regulator, closed: AnyMatrix) -> tuple[Value, ...] | None:
+    """What the closed loop multiplies the state with, or each of its modes."""
+    if closed.nrows() == 1:
+        return (closed[0, 0],)
+    modes = _modes(regulator)
+    if modes is None or not _is_diagonal(looped := modes.in_modes(closed)):
+        return None
+    return tuple(looped[i, i] for i in range(looped.nrows()))
+
+
+def _goes_to_zero(given: Given, factors: tuple[Value, ...]) -> str:
+    """That the state goes to 0, as it must: the condition that the question states, checked."""
+    many = len(factors) > 1
+    numbers = joined([f"${told(factor) if is_rational(factor) else decimal(factor, 4)}$" for factor in factors])
+    loop = f"The modes are multiplied by {numbers}" if many else f"$A − B {given.notation.gain}$"
+    if given.gamma == 1:
+        if many:
+            return f"{loop} at every time, all between $−1$ and $1$: the state goes to $0$, as it must."
+        value = f"= {told(factors[0])}" if is_rational(factors[0]) else f"≈ {decimal(factors[0], 4)}"
+        return f"$A − B {given.notation.gain} {value}$ is between $−1$ and $1$: stable, as it must be."
+    gamma = exact(given.gamma)
+    squares = joined([f"${told(gamma)}·{_squared(each)} = {told(gamma * each**2)}$" for each in dict.fromkeys(factors)])
+    lead = f"The modes are multiplied by {numbers}, and " if many else f"$γ (A − B {given.notation.gain})^2$ is "
+    below = "both below" if " and " in squares else "below"
+    return f"{lead}{squares}, {below} $1$: $γ^{{t/2}} {given.notation.state}_t$ goes to $0$, as it must."
+
+
+def _squared(number: Value) -> str:
+    written = told(number)
+    return f"{written}^2" if written.isdigit() else f"({written})^2"
 
 
 def _price(given: Given, work: Work, formulas: Stationary, regulator: Regulator) -> None:
@@ -102,12 +136,15 @@ def _value(work: Work, given: Given, formulas: Stationary, regulator: Regulator)
         work.say(_in_costs(given))
     A, B = regulator.A, regulator.B
     if A.nrows() == B.ncols() == 1:
-        work.say("With the gain put in:")
-        numbers = [getattr(regulator, name)[0, 0] for name in "ABQRN"]
-        return matrices.matrix([[_root(work, given, formulas, numbers)]])
+        numbers = {name: getattr(regulator, name)[0, 0] for name in "ABQRN"}
+        return matrices.matrix([[_root(work, given, numbers)]])
     if (modes := _modes(regulator)) is not None:
-        return _by_modes(work, given, formulas, modes)
+        return _by_modes(work, given, modes)
     return _in_decimals(work, given, regulator)
+
+
+def _system(given: Given, modes: Modes) -> ScalarSystem:
+    return scalar_system(given.notation, discounted=given.gamma != 1, crossed=given.N is not None, modes=modes)
 
 
 def _in_costs(given: Given) -> str:
@@ -118,43 +155,28 @@ def _in_costs(given: Given) -> str:
     return f"$P$ is the {what} of the value; for the cost-to-go, $S = −P$, it reads {riccati}."
 
 
-def _quadratic(given: Given) -> str:
-    """The scalar equation, cleared of its denominator."""
-    P, costs = given.notation.value, given.notation.costs
-    squared, product = _coefficients(given)
-    ahead, crossed = "" if given.gamma == 1 else "γ ", "" if not given.N else " + N" if costs else " − N"
-    bracket = f"R + {squared} {P}" if costs else f"{squared} {P} − R"
-    cost, square = "Q" if costs else "−Q", f"{ahead and 'γ^2 '}A^2 B^2 {P}^2"
-    return (
-        f"Multiplied by its denominator this is ${P} ({bracket}) = ({cost} + {ahead}A^2 {P})({bracket}) − "
-        f"({ahead}A B {P}{crossed})^2$. Multiplied out, ${square}$ cancels; collected, with $β$ for what stands at "
-        f"${P}$, it is ${squared} {P}^2 {'−' if costs else '+'} β {P} − {product} = 0$:"
-    )
-
-
-def _which(given: Given) -> str:
+def _which(given: Given, value: str) -> str:
     """Why one of the two roots is the value."""
-    squared, product = _coefficients(given)
     what, never, side = (
         ("a cost", "negative", "positive") if given.notation.costs else ("a value", "positive", "negative")
     )
-    below = squared if squared == "B^2" else f"({squared})"
     return (
-        f"The product of its roots, $−{product}/{below}$, is not positive, so at most one root is {side}; {what} here "
-        f"is never {never}, so ${given.notation.value}$ is that one."
+        f"The product of the two roots is not positive, so at most one of them is {side}; {what} here is never "
+        f"{never}, so ${value}$ is that one."
     )
 
 
-def _coefficients(given: Given) -> tuple[str, str]:
-    """What stands at the square, and alone."""
-    return "B^2" if given.gamma == 1 else "γ B^2", "(Q R − N^2)" if given.N else "Q R"
+def _letter(name: str, modes: Modes, mode: int | str) -> str:
+    """The letter of a number, in a sentence."""
+    if modes is Modes.NONE:
+        return name
+    return f"{name}_{mode}" if modes is Modes.ENTRIES else f"{name}\u0302_{mode}"
 
 
-def _root(
-    work: Work, given: Given, formulas: Stationary, numbers: Sequence[fmpq], *, told_before: bool = False
-) -> Value:
+def _root(work: Work, given: Given, numbers: Mapping[str, fmpq], modes: Modes = Modes.NONE, mode: int = 0) -> Value:
     """The scalar P: the root that makes the closed loop stable."""
-    a, b, q, r, n = numbers
+    system = _system(given, modes)
+    a, b, q, r, n = (numbers[name] for name in "ABQRN")
     gamma: fmpq = exact(given.gamma)
     if r == 0 and (b == 0 or q == 0):
         raise NoSolution("some action costs nothing and changes nothing that does, so no single one is the best")
@@ -164,37 +186,55 @@ def _root(
     if b == 0 and gamma * a * a >= 1:
         raise NoSolution("no action has an effect on a part of the state that does not go to 0 by itself")
     if b == 0:
-        work.say(_unmoved(given))
+        work.say(_unmoved(given, modes, mode))
         value = cost / (1 - gamma * a * a) * (1 if given.notation.costs else -1)
-        work.give(formulas.root, value)
+        work.give(system.root, value, i=mode)
         return value
     if r and cost == 0 and gamma * left * left == 1:
         raise NoSolution("to bring the state to 0 can be made as cheap as one likes, so no action is the best")
-    known = {"Ak": a, "Bk": b, "Qk": q, "Rk": r, "Nk": n, "gamma": gamma}
-    work.lines.append(Step(formulas.scalar, formulas.scalar.right, known, None, "="))
-    if not told_before:
-        work.say(_quadratic(given))
-    beta: Value = work.step(formulas.beta, **known)
-    P = generator(given.notation.value)
-    linear = P * beta * (-1 if given.notation.costs else 1)
-    work.lines.append(Equality(P * P * (gamma * b * b) + linear - (q * r - n * n), (ZERO,)))
-    if not told_before:
-        work.say(_which(given))
-    found: Value = work.step(formulas.root, betak=beta, **known)
+    known = {**system.letters.known(mode, **numbers), "gamma": gamma}
+    if mode > 1:
+        work.say(f"Likewise ${_letter(given.notation.value, modes, mode)}$:")
+    else:
+        work.say("The best gain for a value of the next states is:")
+        work.recall(system.gain)
+        work.say("Put into the equation:")
+    work.lines.append(Step(system.equation, system.equation.right, known, None, "="))
+    if mode <= 1:
+        work.say("This is multiplied by its denominator, multiplied out and collected:")
+        work.lines += [Equality(line, (right,)) for line, right in system.cleared]
+        work.say(f"With $β$ for what stands at ${_letter(given.notation.value, modes, 'i')}$:")
+    beta: Value = work.step(system.beta, **known)
+    known |= system.letters.known(mode, beta=beta)
+    quadratic = put_in(system.quadratic, known)
+    of_unknown = (gamma * b * b, beta * (-1 if given.notation.costs else 1), n * n - q * r)
+    work.lines += [Equality(quadratic, (ZERO,)), Equality(_polynomial(of_unknown, system, known), (ZERO,))]
+    if mode <= 1:
+        work.say(_which(given, _letter(given.notation.value, modes, mode)))
+    found: Value = work.step(system.root, **known)
     if is_rational(found) and found != 0 and (other := (n * n - q * r) / (gamma * b * b * found)) != 0:
         side = "negative" if given.notation.costs else "positive"
         work.say(f"The other root, ${told(other)}$, is {side}, so it is not the one.")
     return found
 
 
-def _unmoved(given: Given) -> str:
+def _polynomial(coefficients: Sequence[Value], system: ScalarSystem, known: Mapping[str, Any]) -> Expr:
+    """What is 0 for P, worked out: the coefficients of its square, of itself, and what stands alone."""
+    unknown = put_in(system.letters.value, known)
+    powers = (unknown**2, unknown, sympy.S.One)
+    terms = (to_sympy(number) * power for number, power in zip(coefficients, powers, strict=True))
+    return sum_of(term for term in terms if term != 0)
+
+
+def _unmoved(given: Given, modes: Modes, mode: int) -> str:
     """What is left of the equation where B is 0."""
-    _, _, L, P, in_costs = given.notation
-    cost = "Q − N^2/R" if given.N else "Q"
-    signed = cost if in_costs else f"−({cost})" if given.N else "−Q"
-    gamma, gain = "" if given.gamma == 1 else "γ ", "N/R" if given.N else "0"
-    gains = f"gain is ${gain}$" if L == "L" and gain == "0" else f"gain is ${L} = {gain}$"
-    return f"No action has an effect here, so the {gains}, and ${P} = {signed} + {gamma}A^2 {P}$:"
+    A, Q, R, N, P, L = (
+        _letter(name, modes, mode) for name in ("A", "Q", "R", "N", given.notation[3], given.notation[2])
+    )
+    cost = f"{Q} − {N}^2/{R}" if given.N else Q
+    signed = cost if given.notation.costs else f"−({cost})" if given.N else f"−{Q}"
+    gamma, gain = "" if given.gamma == 1 else "γ ", f"{N}/{R}" if given.N else "0"
+    return f"No action has an effect here, so the gain is ${L} = {gain}$, and ${P} = {signed} + {gamma}{A}^2 {P}$:"
 
 
 class _Modes(NamedTuple):
@@ -208,13 +248,18 @@ class _Modes(NamedTuple):
         return self.T.inv() * matrix * self.T
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """What every mode is."""
-        if self.T[0, 1] != 0:
-            return tuple(
-                f"the {what} of the two states and of the actions, over $√2$" for what in ("sum", "difference")
-            )
-        return tuple(f"entry {mode + 1} of the state" for mode in range(self.T.nrows()))
+    def kind(self) -> Modes:
+        """Whether they are the entries of the state."""
+        return Modes.SUM_AND_DIFFERENCE if self.T[0, 1] != 0 else Modes.ENTRIES
+
+    def numbers(self, mode: int) -> dict[str, fmpq]:
+        """A, B, Q, R and N of a mode, the first of which is 1."""
+        return {name: matrix[mode - 1, mode - 1] for name, matrix in zip("ABQRN", self.split, strict=True)}
+
+    @property
+    def counted(self) -> range:
+        """The numbers of the modes."""
+        return range(1, self.T.nrows() + 1)
 
 
 def _modes(regulator: Regulator) -> _Modes | None:
@@ -234,28 +279,60 @@ def _is_diagonal(matrix: AnyMatrix) -> bool:
     return all(entry == 0 for i, line in enumerate(matrix.tolist()) for j, entry in enumerate(line) if i != j)
 
 
-def _by_modes(work: Work, given: Given, formulas: Stationary, modes: _Modes) -> AnyMatrix:
-    roots = []
-    work.say("With the gain put in, every mode has its own equation:")
+def _by_modes(work: Work, given: Given, modes: _Modes) -> AnyMatrix:
+    """Every mode has a P of its own."""
     letters = "ABQRN" if given.N else "ABQR"
-    for mode, what in enumerate(modes.names):
-        numbers = [matrix[mode, mode] for matrix in modes.split]
-        told = ", ".join(f"{name} = {number}".replace("-", "−") for name, number in zip(letters, numbers, strict=False))
-        work.say(f"Mode {mode + 1}, {what}, is a system of its own with ${told}$:")
-        roots.append(_root(work, given, formulas, numbers, told_before=mode > 0))
+    if modes.kind is Modes.ENTRIES:
+        work.say("All matrices are diagonal, so every entry of the state is a system of its own:")
+    else:
+        _taken_apart(work, modes, letters)
+    for mode in modes.counted:
+        numbers = modes.numbers(mode)
+        own = ", ".join(f"{_letter(name, modes.kind, mode)} = {told(numbers[name])}" for name in letters)
+        work.say(f"{_called(modes, mode)}: ${own}$.")
+    roots = [_root(work, given, modes.numbers(mode), modes.kind, mode) for mode in modes.counted]
     return _back(work, modes, given.notation.value, roots)
 
 
-def _gain_by_modes(
-    work: Work, given: Given, formulas: Stationary, modes: _Modes, P: AnyMatrix, gamma: fmpq
-) -> AnyMatrix:
+def _called(modes: _Modes, mode: int) -> str:
+    if modes.kind is Modes.ENTRIES:
+        return f"Entry {mode}"
+    return f"Mode {mode}, the {('sum', 'difference')[mode - 1]}"
+
+
+def _taken_apart(work: Work, modes: _Modes, letters: str) -> None:
+    """What every matrix does to the sum and to the difference."""
+    work.say(
+        "The modes are the sum and the difference of the two states, and of the two actions, each over $√2$, so that "
+        "the squares add up to the same. The columns of $T$, $(1, 1)$ and $(1, −1)$, point along them, and every "
+        "matrix multiplies each column by a number, its number in that mode:"
+    )
+    same = []
+    for name, split in zip(letters, modes.split, strict=False):
+        if split[0, 0] == split[1, 1]:
+            same.append(f"${name}$")
+            continue
+        on_columns, of_columns = of_a_mode(name)
+        matrix = modes.T * split * modes.T.inv()
+        known = {f"{name}i": matrix, f"{name}m": split, "modes": modes.T}
+        work.lines.append(
+            Equality(on_columns, (put_in(on_columns, known), matrix * modes.T, put_in(of_columns, known), of_columns))
+        )
+    if same:
+        work.say(f"{joined(same)} {'are multiples' if len(same) > 1 else 'is a multiple'} of $I$.")
+
+
+def _gain_by_modes(work: Work, given: Given, modes: _Modes, P: AnyMatrix, gamma: fmpq) -> AnyMatrix:
     """The gain of every mode, then of the states."""
-    gains, hat = [], modes.in_modes(P)
-    for mode, what in enumerate(modes.names):
-        work.say(f"Mode {mode + 1}, {what}:")
-        system = {f"{name}i": _single(matrix[mode, mode]) for name, matrix in zip("ABQRN", modes.split, strict=True)}
-        system |= {f"{given.notation.value}i": _single(hat[mode, mode]), "gamma": gamma}
-        gains.append(work.step(formulas.gain, **system)[0, 0])
+    system, hat = _system(given, modes.kind), modes.in_modes(P)
+    gains = [
+        work.step(
+            system.gain,
+            **system.letters.known(mode, **modes.numbers(mode), value=hat[mode - 1, mode - 1]),
+            gamma=gamma,
+        )
+        for mode in modes.counted
+    ]
     return _back(work, modes, given.notation.gain, gains)
 
 
@@ -263,11 +340,11 @@ def _back(work: Work, modes: _Modes, head: str, entries: list[Value]) -> AnyMatr
     """A matrix of the states from its entries in the modes."""
     size = len(entries)
     diagonal = matrices.matrix([[entries[i] if i == j else 0 for j in range(size)] for i in range(size)])
-    if matrices.identity(size) == modes.T:
+    if modes.kind is Modes.ENTRIES:
         work.say("These are the entries of the diagonal:")
         work.lines.append(Equality(back_from_modes(head).left, (diagonal,)))
         return diagonal
-    work.say("Back in the entries of the state, with the modes as the columns of $T$:")
+    work.say("Back in the entries of the state, where $T^{−1} = 1/2·T$, since $T^2 = 2 I$:")
     back: AnyMatrix = work.step(back_from_modes(head), modes=modes.T, **{f"{head}m": diagonal})
     return back
 

@@ -1,12 +1,12 @@
 """Ratio, the two terms and their minimum for every sample; then the mean."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from rldrill.problems.exact import Weight, shown
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.policy_gradient.ppo_clip import Given, Sample
-from rldrill.solutions.answers.kinds import text_of
+from rldrill.problems.policy_gradient.ppo_clip import CUT, Given, Sample
 from rldrill.solutions.exact import ZERO, NoSolution, Value, absolute, exact, largest, sign, simplest, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import Array, np
@@ -44,20 +44,33 @@ def solve(given: Given, work: Work, objective_of: Callable[[Work, Mapping[str, A
     }
     known["rho"] = _given(work, [_ratio(work, sample, known, time) for time, sample in enumerate(given.samples)])
     if given.epsilon is None and given.objective is None:
-        _largest_that_cuts(work, known)
+        _thresholds(work, known)
         return
-    known["unclipped"] = _given(work, [work.step(PPO_UNCLIPPED, t=time, **known) for time in times])
-    if given.objective is not None:
-        _from_the_objective(work, known, exact(given.objective))
-        return
-    known["clipped"] = _given(work, [_clipped(work, known, time) for time in times])
+    unclipped = [work.step(PPO_UNCLIPPED, t=time, **known) for time in times]
+    if len(times) == 1 and given.epsilon is not None:
+        both = work.answer((unclipped[0], _clipped(work, known, 0)))
+        known |= {"unclipped": {0: both[0]}, "clipped": {0: both[1]}}
+    else:
+        known["unclipped"] = _given(work, unclipped)
+        if given.objective is not None:
+            _from_the_objective(work, known, exact(given.objective))
+            return
+        known["clipped"] = _given(work, [_clipped(work, known, time) for time in times])
     objective = {time: objective_of(work, known, time) for time in times}
     work.answer(work.step(PPO_BATCH, L_t=objective, **known) if len(times) > 1 else objective[0])
+    cuts = []
     for time in times:
         unclipped, clipped = known["unclipped"][time], known["clipped"][time]
-        cut = sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0
-        work.say(_reason(time, cut=cut, inside=sign(unclipped - clipped) == 0))
-        work.answer(cut)
+        cuts.append(sign(unclipped - clipped) != 0 and sign(objective[time] - clipped) == 0)
+        work.say(_reason(time, cut=cuts[-1], inside=sign(unclipped - clipped) == 0))
+    work.answer(_told(cuts))
+
+
+def _told(cuts: Sequence[bool]) -> Any:
+    """Which gradients are cut off, as it is asked for: yes or no, an option, or of many samples how many."""
+    if len(cuts) == 1:
+        return cuts[0]
+    return "ABCD"[cuts[0] + 2 * cuts[1]] if len(cuts) == len(CUT) // 2 else ZERO + sum(cuts)
 
 
 def _ratio(work: Work, sample: Sample, known: Mapping[str, Any], time: int) -> Value:
@@ -104,33 +117,33 @@ def _can_be_cut(known: Mapping[str, Any], time: int) -> bool:
     return sign(known["rho"][time] - 1) * sign(known["A_t"][time]) > 0
 
 
-def _largest_that_cuts(work: Work, known: Mapping[str, Any]) -> None:
-    """Which gradients can be cut off at all, and the largest ε that cuts off one of them."""
+def _thresholds(work: Work, known: Mapping[str, Any]) -> None:
+    """Below which ε every gradient is cut off, and what is left of the objective where all of them are."""
     for formula in (PPO_UNCLIPPED, PPO_CLIPPED, PPO):
         work.recall(formula)
-    cut = []
+    bounds: dict[int, Value] = {}
     for time, ratio in known["rho"].items():
-        possible = _can_be_cut(known, time)
         wanted, moved = _words(known["A_t"][time]), _words(ratio - 1)
-        conclusion = "yes, for a small $ε$" if possible else "no, the unclipped term is never the larger one"
-        work.say(
-            f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely: {conclusion}."
-        )
-        work.answer(possible)
-        cut += [time] if possible else []
-    if not cut:
-        raise NoSolution("clipping cuts off none of these gradients, whatever ε is")
-    bounds = []
-    for time in cut:
-        above = sign(known["rho"][time] - 1) > 0
+        said = f"The advantage $A_{{{time}}}$ is {_SIGNS[wanted]}, and the action has become {moved} likely"
+        if not _can_be_cut(known, time):
+            work.say(f"{said}: $u_{{{time}}}$ is never the larger term, so no $ε$ cuts off this gradient: $0$.")
+            bounds[time] = ZERO
+            continue
+        above = sign(ratio - 1) > 0
         bound = "upper" if above else "lower"
-        work.say(f"The gradient of $L_{{{time}}}$ is zero until the {bound} bound reaches $ρ_{{{time}}}$:")
+        work.say(f"{said}: $c_{{{time}}}$ is the smaller term until the {bound} bound reaches $ρ_{{{time}}}$:")
         edge = 1 + known["epsilon"] if above else 1 - known["epsilon"]
-        bounds.append(work.equate("epsilon", edge, known["rho"][time]))
-    if len(bounds) > 1:
-        most = text_of(largest(bounds))
-        work.say(f"At least one gradient is zero as long as $ε$ is below the largest of these, ${most}$.")
-    work.answer(largest(bounds))
+        bounds[time] = work.equate("epsilon", edge, ratio)
+    _given(work, list(bounds.values()))
+    left = {}
+    for time in bounds:
+        if _can_be_cut(known, time):
+            left[time] = known["A_t"][time]
+            work.say(f"As $ε$ goes to $0$, $ρ_{{{time}}}$ is clipped to $1$: $L_{{{time}}}$ goes to $A_{{{time}}}$.")
+        else:
+            work.say(f"$L_{{{time}}}$ stays the unclipped term:")
+            left[time] = work.step(PPO_UNCLIPPED, t=time, **known)
+    work.answer(work.step(PPO_BATCH, L_t=left, **known) if len(left) > 1 else left[0])
 
 
 def _words(number: Value) -> str:
@@ -209,12 +222,12 @@ def oracle(given: Given) -> Answers:
     if given.epsilon is None:
         return _searched(given, ratios, advantages)
     epsilon = at(given.epsilon)
+    terms = (ratios * advantages, np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages)
     return (
         ratios,
-        ratios * advantages,
-        np.minimum(np.maximum(ratios, 1 - epsilon), 1 + epsilon) * advantages,
+        *([np.concatenate(terms)] if len(ratios) == 1 else terms),
         np.mean(_objectives(ratios, advantages, epsilon)),
-        *_cut(ratios, advantages, epsilon),
+        _told(_cut(ratios, advantages, epsilon)),
     )
 
 
@@ -230,18 +243,26 @@ def _cut(ratios: Array, advantages: Array, epsilon: float) -> list[bool]:
     return [bool(one == other) for one, other in zip(*moved, strict=True)]
 
 
+def _is_cut(ratios: Array, advantages: Array, time: int, epsilon: float) -> bool:
+    return _cut(ratios, advantages, epsilon)[time]
+
+
 def _searched(given: Given, ratios: Array, advantages: Array) -> Answers:
-    """Halving: the objective grows with ε, and the number of gradients that are cut off falls."""
+    """Halving: the objective grows with ε, and a gradient that is cut off is cut off no more."""
 
-    def too_small(epsilon: float) -> bool:
-        if given.objective is None:
-            return any(_cut(ratios, advantages, epsilon))
-        return bool(np.mean(_objectives(ratios, advantages, epsilon)) < at(given.objective))
+    def edge(too_small: Callable[[float], bool]) -> float:
+        low, high = 0.0, 1.0
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if too_small(middle) else (low, middle)
+        return low
 
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if too_small(middle) else (low, middle)
     if given.objective is None:
-        return (ratios, *_cut(ratios, advantages, 1e-5), low)
-    return (ratios, ratios * advantages, low)
+        edges = [edge(partial(_is_cut, ratios, advantages, time)) for time in range(len(ratios))]
+        return (ratios, edges, np.mean(_objectives(ratios, advantages, 0.0)))
+    wanted = at(given.objective)
+    return (
+        ratios,
+        ratios * advantages,
+        edge(lambda epsilon: bool(np.mean(_objectives(ratios, advantages, epsilon)) < wanted)),
+    )

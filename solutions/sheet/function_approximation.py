@@ -3,6 +3,8 @@
 The values and updates that are linear in these features are not printed there.
 """
 
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from sympy import Abs, Integer, Rational, evaluate, exp
@@ -287,3 +289,18 @@ with evaluate(False):
             SARSA_FEATURES_OF_NEXT: theta_vector + alpha * delta(t) * f_vector(S(t + 1), A(t + 1)),
         },
     )
+
+
+@cache
+def logarithm_of_rbf() -> Formula:
+    """The radial basis function with the logarithm taken on both sides, as a step on the way to what is sought."""
+    with evaluate(False):
+        return replace(DISTANCE_FROM_RBF, left=log_phi(i, s), right=-(1 / (2 * sigma**2)) * distance(i) ** 2)
+
+
+@cache
+def beside_a_centre() -> tuple[Formula, Formula]:
+    """The two places on a line that are at a distance from a centre: on the left of it, and on the right."""
+    with evaluate(False):
+        left, right = centre_at(i) - distance(i), centre_at(i) + distance(i)
+        return replace(DISTANCE_ON_A_LINE, left=place, right=left), replace(DISTANCE_ON_A_LINE, left=place, right=right)

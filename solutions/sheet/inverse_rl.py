@@ -4,7 +4,7 @@ from typing import Any
 
 from sympy import Integer, Pow, evaluate, sqrt
 
-from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, operator, row, variable, word
+from rldrill.problems.mathematics import EMPTY, Accent, Fence, Math, Script, listed, name, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     INFINITY,
@@ -33,7 +33,7 @@ from rldrill.solutions.formula.notation import (
 )
 
 _PI = variable("π")
-_EXPERT, _PI_1 = (Script(_PI, variable(mark)) for mark in "E1")
+_EXPERT = Script(_PI, variable("E"))
 _MU = variable("μ")
 _BAR = Accent(_MU, "bar")
 
@@ -41,6 +41,11 @@ _BAR = Accent(_MU, "bar")
 def _component(head: Math, index: Math) -> Math:
     """A vector is written without an index until one of its components is put in."""
     return head if index == EMPTY else Script(head, index)
+
+
+def _along(index: Math, number: Math) -> Math:
+    """What belongs to a trajectory has its number above, in brackets."""
+    return Script(_MU, None if index == EMPTY else index, Fence(number))
 
 
 def _called(policy: Math) -> Math:
@@ -55,14 +60,16 @@ j = letter("component", EMPTY)
 tau = letter("trajectory", "τ")
 Trajectories = letter("trajectories", "D")
 s_t = quantity("visited", lambda time, _: Script(variable("s"), time))
+#: A trajectory by its number, how many there are, its states, and its discounted features.
+run, count = letter("run", "i"), letter("runs", "m")
+s_of = quantity("visited", lambda time, number: Script(variable("s"), time, Fence(number)))
+mu_along = quantity("mu_along", lambda index, number: _along(index, number))
 phi = quantity("phi", lambda index, state: row(_component(variable("φ"), index), Fence(state)))
 mu = quantity("feature_mu", lambda index: row(_component(_MU, index), Fence(_PI)))
 mu_of = quantity("mu_of", lambda index, state: row(_component(_MU, index), Fence(state)))
 mu_expert = quantity("mu_expert", lambda index: row(_component(_MU, index), Fence(_EXPERT)))
 mu_bar = quantity("mu_bar", lambda index: _component(_BAR, index))
 mu_now = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI)))
-#: Those of the first new policy.
-mu_first = quantity("mu_now", lambda index: row(_component(_MU, index), Fence(_PI_1)))
 w = quantity("w", lambda index: _component(variable("w"), index))
 start = quantity("start_chance", conditioned("p"))
 policy = letter("policy", "π")
@@ -74,7 +81,6 @@ worth_expert = letter("worth_expert", row(Script(variable("w"), above=word("T"))
 margin = quantity("margin", lambda of: row(variable("m"), Fence(listed((_EXPERT, of)))))
 xi = letter("xi", "ξ")
 step_length = letter("step_length", "c")
-distance = letter("distance", Fence(row(_MU, Fence(_PI_1), operator("−"), _MU, Fence(_EXPERT)), "‖", "‖"))
 remaining = letter("remaining", Fence(variable("w"), "‖", "‖"))
 
 
@@ -106,14 +112,31 @@ with evaluate(False):
         title="Feature expectations",
         source="Abbeel & Ng 2004, section 2",
         hint="Discount the features of the states along every trajectory from t = 0 on, then average the trajectories.",
+    )
+    FEATURES_ALONG = Formula(
+        "features-along",
+        mu_along(j, run),
+        SumOver(gamma**t * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+        title="Discounted features along a trajectory",
+        source="Abbeel & Ng 2004, section 5: estimated from demonstrations",
+        hint="Discount the features of the states from t = 0 on, and add them.",
+        place=Place.WORKING,
         misread={
-            FEATURES_UNDISCOUNTED: SampleMean(
-                SumOver(phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
-            ),
-            FEATURES_EARLY: SampleMean(
-                SumOver(gamma ** (t + 1) * phi(j, s_t(t, tau)), t, Counting(0, Last(tau), INFINITY)), tau, Trajectories
-            ),
-            FEATURES_SUMMED: SumOver(_DISCOUNTED, tau, Trajectories),
+            FEATURES_UNDISCOUNTED: SumOver(phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+            FEATURES_EARLY: SumOver(gamma ** (t + 1) * phi(j, s_of(t, run)), t, Counting(0, Last(run), INFINITY)),
+        },
+    )
+    FEATURES_ESTIMATED = Formula(
+        "features-estimated",
+        mu(j),
+        1 / count * SumOver(mu_along(j, run), run, Trajectories),
+        title="Estimate of the feature expectations",
+        source="Abbeel & Ng 2004, section 5: estimated from demonstrations",
+        hint="Average over the trajectories.",
+        sign="≈",
+        place=Place.WORKING,
+        misread={
+            FEATURES_SUMMED: SumOver(mu_along(j, run), run, Trajectories),
         },
     )
     FEATURES_FROM = Formula(
@@ -188,15 +211,6 @@ with evaluate(False):
         source="Abbeel & Ng 2004, section 3",
         hint="Close to the expert's feature expectations a policy earns nearly as much, whatever the weights.",
         sign="≈",
-    )
-    DISTANCE = Formula(
-        "feature-distance",
-        distance,
-        sqrt(SumOver((mu_first(i) - mu_expert(i)) ** 2, i, Features)),
-        title="Distance of the feature expectations",
-        source="Abbeel & Ng 2004, section 3",
-        hint="Square the differences of the components, add, and take the root.",
-        place=Place.WORKING,
     )
     _TOWARDS = mu_now(i) - mu_bar(i)
     PROJECTION_LENGTH = Formula(

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from enum import Enum
 from functools import cache
 from math import factorial
 from typing import Any, NamedTuple
 
-from sympy import Add, Expr, Mul, Pow, evaluate, exp, sqrt
+from sympy import Add, Expr, Mul, Pow, Rational, S, evaluate, exp, sqrt
 
 from rldrill.problems.linear_quadratic import Notation
 from rldrill.problems.mathematics import (
@@ -308,7 +309,7 @@ Pm = letter("Pm", Accent(variable("P"), "hat"), matrix=True)
 closed = letter("closed", Script(variable("A"), variable("L")), matrix=True)
 a1, b1, q1, r1 = (letter(code, glyph) for code, glyph in (("Ak", "A"), ("Bk", "B"), ("Qk", "Q"), ("Rk", "R")))
 n1 = letter("Nk", "N")
-p1, beta = letter("Pk", "P"), letter("betak", "β")
+p1, l1, beta = letter("Pk", "P"), letter("Lk", "L"), letter("betak", "β")
 
 with evaluate(False):
     LQR_STATIONARY = Formula(
@@ -350,9 +351,9 @@ with evaluate(False):
     LQR_MODES = Formula(
         "lqr-modes",
         Pi,
-        modes * Pm * Pow(modes, -1),
-        title="LQR of a system that falls apart into modes",
-        source="Golub & Van Loan 2013, section 7.1: similarity",
+        Rational(1, 2) * modes * Pm * modes,
+        title="LQR of two states that fall apart into sum and difference",
+        source="Golub & Van Loan 2013, section 7.1: similarity, with T² = 2 I",
         hint="Solve one scalar problem for each mode, and transform back.",
         place=Place.WORKING,
     )
@@ -386,17 +387,128 @@ def back_from_modes(head: str) -> Formula:
         return LQR_MODES
     with evaluate(False):
         of_modes = letter(f"{head}m", Accent(variable(head), "hat"), matrix=True)
-        right = modes * of_modes * Pow(modes, -1)
+        right = Rational(1, 2) * modes * of_modes * modes
     return replace(LQR_MODES, left=letter(f"{head}i", head, matrix=True), right=right)
+
+
+class Letters(NamedTuple):
+    """The numbers of a scalar system, or of mode i: those of its dynamics and costs, what is found, and β."""
+
+    A: Expr
+    B: Expr
+    Q: Expr
+    R: Expr
+    N: Expr
+    value: Expr
+    gain: Expr
+    beta: Expr
+
+    def known(self, mode: int, **numbers: Any) -> dict[str, Any]:
+        """Numbers as the formulas take them, by the names of the fields."""
+        letters = {name: getattr(self, name) for name in numbers}
+        if not mode:
+            return {letters[name].name: number for name, number in numbers.items()}
+        return {"i": mode} | {letters[name].code: {mode: number} for name, number in numbers.items()}
+
+
+class Modes(Enum):
+    """The modes of a system: none, since it is scalar; entries of the state, A₁; sum and difference, Â₁."""
+
+    NONE = 0
+    ENTRIES = 1
+    SUM_AND_DIFFERENCE = 2
+
+
+@cache
+def _letters_of(notation: Notation, modes: Modes) -> Letters:
+    if modes is Modes.NONE:
+        value, gain = (letter(f"{glyph}k", glyph) for glyph in (notation.value, notation.gain))
+        return Letters(a1, b1, q1, r1, n1, value, gain, beta)
+
+    def numbered(glyph: str) -> Expr:
+        hat = modes is Modes.SUM_AND_DIFFERENCE and glyph != "β"
+        head = Accent(variable(glyph), "hat") if hat else variable(glyph)
+        return quantity(f"{glyph}{'hat' if hat else 'entry'}", subscripted(head))(i)
+
+    return Letters(*map(numbered, ("A", "B", "Q", "R", "N", notation.value, notation.gain, "β")))
+
+
+class ScalarSystem(NamedTuple):
+    """The formulas of the infinite horizon of a scalar system, or of one mode."""
+
+    letters: Letters
+    #: The Riccati equation with the gain put in, in which only P is left.
+    equation: Formula
+    #: The same without its denominator, multiplied out, and collected: both sides of every line.
+    cleared: tuple[tuple[Expr, Expr], ...]
+    beta: Formula
+    #: What is 0 for P, with β.
+    quadratic: Expr
+    root: Formula
+    gain: Formula
+
+
+@cache
+def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes: Modes = Modes.NONE) -> ScalarSystem:
+    """The scalar problem in the letters of one convention, or in those of a mode."""
+    letters = _letters_of(notation, modes)
+    A, B, Q, R, N, P, L, b = letters
+    plain, costs = not (notation.costs or discounted or crossed), notation.costs
+    own = plain and modes is Modes.NONE
+    with evaluate(False):
+        ahead = (gamma,) if discounted else ()
+        twice = (gamma**2,) if discounted else ()
+        price, both = Mul(*ahead, B**2, P), Mul(*ahead, B, P, A)
+        turned = (both + N if costs else both - N) if crossed else both
+        bracket, cost = (R + price, Q) if costs else (price - R, -Q)
+        kept = Mul(*ahead, A**2, P)
+        square, curved = Mul(*ahead, B**2, P**2), Mul(*twice, A**2, B**2, P**2)
+        bought, paid = Mul(*ahead, B**2, Q, P), Mul(*ahead, A**2, R, P)
+        beta_right = Mul(*ahead, B**2, Q) + (Mul(*ahead, A**2) - 1) * R
+        product = Q * R
+        mixed: tuple[Expr, ...] = ()
+        if crossed:
+            cross = Mul(2, *ahead, A, B, N)
+            mixed = (Mul(cross, P, -1) if costs else Mul(cross, P), -(N**2))
+            beta_right = beta_right - cross
+            product = product - N**2
+        multiplied = (
+            (Add(R * P, square), Add(Q * R, bought, paid, curved, -curved, *mixed))
+            if costs
+            else (square - R * P, Add(-bought, Q * R, curved, -paid, -curved, *mixed))
+        )
+        quadratic = Add(square, -b * P if costs else b * P, -product)
+        root = b + sqrt(b**2 + Mul(4, *ahead, B**2, product))
+        misread = {OTHER_ROOT: -(b - sqrt(b**2 + 4 * B**2 * Q * R)) / (2 * B**2)} if plain else {}
+        best = Mul(turned, Pow(bracket, -1))
+        cost_to_go = {POSITIVE_S: Mul(-1, B, P, A, Pow(-(B**2) * P - R, -1))} if plain else {}
+        return ScalarSystem(
+            letters,
+            replace(LQR_STATIONARY, left=P, right=cost + kept - Mul(turned**2, Pow(bracket, -1)), note=""),
+            (
+                (P * bracket, (cost + kept) * bracket - turned**2),
+                multiplied,
+                (Add(square, Mul(-1, beta_right, P) if costs else Mul(beta_right, P), -product), S.Zero),
+            ),
+            LQR_BETA if own else replace(LQR_BETA, left=b, right=beta_right, note=""),
+            quadratic,
+            LQR_ROOT
+            if own
+            else replace(
+                LQR_ROOT,
+                left=P,
+                right=(root if costs else -root) / Mul(2, *ahead, B**2),
+                misread=misread,
+                note="",
+            ),
+            replace(LQR_STATIONARY_GAIN, left=L, right=best, misread=cost_to_go),
+        )
 
 
 class Stationary(NamedTuple):
     """The formulas of the infinite horizon in the letters of one convention."""
 
     equation: Formula
-    scalar: Formula
-    beta: Formula
-    root: Formula
     gain: Formula
     closed_loop: Formula
 
@@ -404,9 +516,8 @@ class Stationary(NamedTuple):
 @cache
 def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Stationary:
     """The infinite horizon as it is written in a convention; the sheet's own formulas, where nothing is added."""
-    scalar = _scalar(notation, discounted=discounted, crossed=crossed)
     if not (notation.costs or discounted or crossed):
-        return Stationary(LQR_STATIONARY, scalar, LQR_BETA, LQR_ROOT, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
+        return Stationary(LQR_STATIONARY, LQR_STATIONARY_GAIN, LQR_CLOSED_LOOP)
     value, gain = letter(f"{notation.value}i", notation.value, matrix=True), letter(f"{notation.gain}i", notation.gain,
                                                                                     matrix=True)  # fmt: skip
     loop = letter(f"closed{notation.gain}", Script(variable("A"), variable(notation.gain)), matrix=True)
@@ -418,12 +529,6 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
         if crossed:
             turned = turned + (Ni if notation.costs else -Ni)
             both = both + Transposed(Ni) if notation.costs else both - Transposed(Ni)
-        beta_right = Mul(*ahead, b1**2, q1) + (Mul(*ahead, a1**2) - 1) * r1
-        product = q1 * r1
-        if crossed:
-            beta_right = beta_right - Mul(2, *ahead, a1, b1, n1)
-            product = product - n1**2
-        root = beta + sqrt(beta**2 + Mul(4, *ahead, b1**2, product))
         return Stationary(
             replace(
                 LQR_STATIONARY,
@@ -431,27 +536,17 @@ def stationary(notation: Notation, *, discounted: bool, crossed: bool) -> Statio
                 right=(Qi if notation.costs else -Qi) + Mul(*ahead, Transposed(Ai), value, Ai) - turned * gain,
                 note="",
             ),
-            scalar,
-            replace(LQR_BETA, right=beta_right, note=""),
-            replace(
-                LQR_ROOT, left=scalar.left, right=(root if notation.costs else -root) / Mul(2, *ahead, b1**2),
-                misread={}, note="",
-            ),
             replace(LQR_STATIONARY_GAIN, left=gain, right=Pow(bracket, -1) * both, misread={}),
             replace(LQR_CLOSED_LOOP, left=loop, right=Ai - Bi * gain),
-        )  # fmt: skip
+        )
 
 
-def _scalar(notation: Notation, *, discounted: bool, crossed: bool) -> Formula:
-    """The Riccati equation of a scalar system with the gain put in, in which only P is left."""
+@cache
+def of_a_mode(name: str) -> tuple[Expr, Expr]:
+    """What a matrix makes of the columns of T: A T, and T Â."""
+    hat = letter(f"{name}m", Accent(variable(name), "hat"), matrix=True)
     with evaluate(False):
-        ahead, value = (gamma,) if discounted else (), letter(f"{notation.value}k", notation.value)
-        price, turned = Mul(*ahead, b1**2, value), Mul(*ahead, a1, b1, value)
-        if crossed:
-            turned = turned + n1 if notation.costs else turned - n1
-        bracket, cost = (r1 + price, q1) if notation.costs else (price - r1, -q1)
-        right = cost + Mul(*ahead, a1**2, value) - Mul(turned**2, Pow(bracket, -1))
-    return replace(LQR_STATIONARY, left=value, right=right, note="")
+        return letter(f"{name}i", name, matrix=True) * modes, modes * hat
 
 
 # Linearisation --------------------------------------------------------------------------------------
@@ -737,6 +832,10 @@ g = letter("g", "k")
 f_ijk = quantity("fijk", lambda line, first, then: Script(variable("f"), row(line, punctuation(","), first, then)))
 r_jk = quantity("rjk", lambda first, then: Script(variable("r"), row(first, then)))
 second_at = quantity("secondAt", lambda line, *by: row(_second(line, *(Script(variable("ξ"), k) for k in by)), _POINT))
+derived_at = quantity(
+    "derivedAt",
+    lambda of, *by: row(_over_letter(of, *by) if len(by) == 1 else _second(Glyph(of.text, "variable"), *by), _POINT),
+)
 Components = letter("components", "n")
 kd, Kd = letter("kd", "k", matrix=True), letter("Kd", "K", matrix=True)
 _DDP = "Tassa, Erez & Todorov 2012, with rewards for costs"
@@ -830,6 +929,59 @@ with evaluate(False):
         hint="The same inverse as for k, times the mixed Hessian.",
         place=Place.BEYOND,
     )
+
+
+class Expansion(NamedTuple):
+    """The formulas of a backward step: the derivatives of Q, and the change of the action."""
+
+    s: Formula
+    a: Formula
+    ss: Formula
+    mixed: Formula
+    aa: Formula
+    change: Formula
+    gain: Formula
+
+
+@cache
+def expansion(*, scalar: bool, second_order: bool) -> Expansion:
+    """The formulas for vectors, or for one state and one action; of these iLQR needs no second derivatives of f."""
+    if not scalar:
+        return Expansion(DDP_S, DDP_A, DDP_SS, DDP_AS, DDP_AA, DDP_k, DDP_K)
+    q_s, q_a, q_ss, q_as, q_aa = _numbers("Q", "Q_")
+    first_s, first_a, *seconds = _numbers("r", "r_")
+    by_s, by_a, *curved = _numbers("f", "f_")
+    slope, _, curve, *_ = _numbers("V′", "V_")
+    change, gain = letter("kd", "k"), letter("Kd", "K")
+    with evaluate(False):
+        products = (curve * by_s**2, curve * by_a * by_s, curve * by_a**2)
+        hessians = [
+            Add(reward, product, *([slope * bent] if second_order else []))
+            for reward, product, bent in zip(seconds, products, curved, strict=True)
+        ]
+        return Expansion(
+            replace(DDP_S, left=q_s, right=first_s + by_s * slope, note=""),
+            replace(DDP_A, left=q_a, right=first_a + by_a * slope),
+            replace(DDP_SS, left=q_ss, right=hessians[0], note=""),
+            replace(DDP_AS, left=q_as, right=hessians[1]),
+            replace(DDP_AA, left=q_aa, right=hessians[2]),
+            replace(DDP_k, left=change, right=-(q_a / q_aa), misread={K_WITH_PLUS: q_a / q_aa}),
+            replace(DDP_K, left=gain, right=-(q_as / q_aa)),
+        )
+
+
+def _numbers(head: str, code: str) -> Any:
+    """The derivatives of a function of one state and one action: first s and a, then ss, as, aa."""
+    return tuple(letter(f"{code}{by}", _sub(head, *by)) for by in ("s", "a", "ss", "as", "aa"))
+
+
+@cache
+def derivative_of(head: str, by: str) -> Formula:
+    """What a derivative of r or f by the single state and action is, the first or the second."""
+    with evaluate(False):
+        left = quantity(f"{head}{by}At", lambda *_: _sub(head, *by))(i, j, *([g] if len(by) > 1 else []))
+        right = derived_at(put_in_name(head), *map(put_in_name, by))
+        return replace(STATE_JACOBIAN if len(by) == 1 else SECOND_DERIVATIVE, left=left, right=right)
 
 
 @cache

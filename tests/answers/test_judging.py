@@ -256,7 +256,7 @@ def other(policy: Solution) -> str:
 def test_a_word_names_the_only_mistake_that_fits() -> None:
     diagram = judge(draw("backup-diagram-name", 1, 1), "a", "a")
     assert diagram.outcome is not Outcome.MISCONCEPTION or diagram.says == diagram.misconceptions[0].says
-    yes = judge(draw("ppo-clip", 1, 11), "e", "yes")
+    yes = judge(draw("ppo-clip", 1, 11), "d", "yes")
     assert "Or:" not in yes.says
 
 

@@ -29,6 +29,7 @@ from rldrill.solutions.sheet.beyond_the_sheet import JOINT_RATES
 from rldrill.solutions.sheet.control import EPSILON_GREEDY, IMPORTANCE_RATIO, UCB
 from rldrill.solutions.sheet.dynamic_programming import MAX_NORM, POLICY_IMPROVEMENT_THEOREM
 from rldrill.solutions.sheet.fundamentals import RELATIVE_FREQUENCY, RETURN
+from rldrill.solutions.sheet.linear_methods import LQR_PRODUCT
 from rldrill.solutions.sheet.temporal_difference import SAMPLE_AVERAGE, TD_ZERO, of_a_visit
 from rldrill.solutions.work import Step, Work
 
@@ -228,7 +229,15 @@ def test_the_inverse_of_a_2_by_2_matrix_is_worked_out() -> None:
     # −6·6 − 0·6 = −36; the diagonal is exchanged, the other two entries are negated.
     J, v = fmpq_mat(2, 2, [-6, 0, 6, 6]), fmpq_mat(2, 1, [-18, 6])
     assert written(JOINT_RATES, Jac=J, velocity=v) == (
-        "ω = [−6 0 ; 6 6]⁻¹[−18 ; 6] = −1/36[6 0 ; −6 −6][−18 ; 6] = [3 ; −2]"
+        "ω = [−6 0 ; 6 6]⁻¹[−18 ; 6] = −1/36[6 0 ; −6 −6][−18 ; 6] = −1/36[6·(−18) ; −6·(−18) + (−6)·6] = [3 ; −2]"
+    )
+
+
+def test_a_product_of_matrices_is_worked_out_two_at_a_time_and_entry_by_entry() -> None:
+    # B'P = (−2, −6), then (−2 − 6, −6); a state of 2 and 1 is worth −3·4 − 1.
+    B, P, A = fmpq_mat(2, 1, [1, 2]), fmpq_mat(2, 2, [-2, 0, 0, -3]), fmpq_mat(2, 2, [1, 0, 1, 1])
+    assert written(LQR_PRODUCT, Bt={0: B}, Pt={1: P}, At={0: A}, t=0) == (
+        "G₀ = [1 ; 2]ᵀ[−2 0 ; 0 −3][1 0 ; 1 1] = [−2 −6][1 0 ; 1 1] = [−2·1 + (−6)·1 −6·1] = [−8 −6]"
     )
 
 

@@ -188,3 +188,12 @@ def test_features_of_states_and_actions_have_one_letter_everywhere() -> None:
             for level in (1, 2, 3):
                 exercise = rldrill.draw(name, level, seed)
                 assert "φ(s, a)" not in f"{exercise.question()} {exercise.working()}", exercise.id
+
+
+@pytest.mark.parametrize("name", ["rbf", "piecewise-linear-rbf"])
+def test_finding_the_state_earns_more_than_putting_it_in(name: str) -> None:
+    for seed in range(20):
+        exercise = rldrill.draw(name, 3, seed)
+        if exercise.solution.problem.given.position is None:  # type: ignore[attr-defined]
+            found, *put_in = [part.points for part in exercise.parts]
+            assert found >= max(put_in, default=0)

@@ -4,6 +4,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+import sympy
 from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -11,8 +12,11 @@ from hypothesis import strategies as st
 import rldrill
 from asking import solved
 from rldrill.problems.errors import FileError
+from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.drawing import draw
-from rldrill.solutions.exact import sign
+from rldrill.solutions.exact import sign, to_sympy
+from rldrill.solutions.formula.common_denominator import in_one_fraction
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.rational import generator
 
 quick = settings(deadline=None, max_examples=25)
@@ -36,7 +40,7 @@ def test_a_constant_feature_without_an_end_is_worth_a_geometric_series(value: st
         **given_ | {"motion": motion, "features": features, "gamma": gamma, "terminal": []},
     )
     assert set(answers["a"].values()) == {exactly(Fraction(value) / (1 - Fraction(gamma)))}
-    assert answers["b"] == (answers["a"][states[0]],)
+    assert answers["b"] == answers["a"][states[0]]
 
 
 @given(seeds)
@@ -85,11 +89,18 @@ def test_with_a_weight_left_open_every_other_weight_still_counts(seed: int) -> N
 def test_all_constraints_hold_with_the_slack_and_one_is_tight(seed: int, level: int) -> None:
     solution = draw("max-margin", level, seed)
     given_, answers = solution.problem.given, solution.answers
-    need = [answers["a"][name] + exactly(rival.margin) for name, rival in given_.policies.items()]
-    left = answers["a"]["expert"] + answers["c"]
+    expert, *others = answers["a"]
+    need = [worth + exactly(rival.margin) for worth, rival in zip(others, given_.policies.values(), strict=True)]
+    left = expert + answers["c"]
     assert all(left >= right for right in need)
     assert answers["c"] == 0 or left in need
-    assert answers["b"] == sum(answers["a"]["expert"] >= right for right in need)
+    assert answers["b"] == sum(expert + exactly(given_.slack) >= right for right in need)
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_about_half_of_the_draws_need_a_slack(level: int) -> None:
+    needed = [draw("max-margin", level, seed).answers["c"] > 0 for seed in range(60)]
+    assert 20 <= sum(needed) <= 40
 
 
 @given(seeds, st.sampled_from([1, 2]))
@@ -167,7 +178,7 @@ def test_an_open_discount_gives_a_rational_function() -> None:
     # One state that is never left: 1 + γ + γ² + … = 1/(1 − γ).
     forever = {"motion": {"go": {"a": {"a": 1}}}, "policy": {"a": "go"}, "features": {"a": [1]}, "start": {"a": 1}}
     answers = solved("feature-expectations-policy", **forever, gamma="gamma")
-    assert answers["b"] == (1 / (1 - generator("gamma")),)
+    assert answers["b"] == 1 / (1 - generator("gamma"))
 
 
 def test_the_number_of_constraints_that_hold_is_told() -> None:
@@ -176,3 +187,23 @@ def test_the_number_of_constraints_that_hold_is_told() -> None:
         told = str(exercise.working("b"))
         holding = exercise.solve()["b"]
         assert f"{holding or 'none'} of the {len(exercise.problem.given.policies)} constraints" in told  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_every_trajectory_has_a_line_of_its_own(level: int) -> None:
+    for seed in range(10):
+        exercise = rldrill.draw("feature-expectations", level, seed)
+        given_: Any = exercise.solution.problem.given
+        text = str(exercise.working())
+        for number, states in enumerate(given_.trajectories, 1):
+            digits = str(number).translate(str.maketrans("123456789", "¹²³⁴⁵⁶⁷⁸⁹"))
+            (line,) = {line for line in text.splitlines() if line.strip().startswith(f"μ₁⁽{digits}⁾ =")}
+            assert line.count("·") == len(states)
+
+
+def test_quotients_in_a_letter_are_brought_to_a_common_denominator() -> None:
+    # 1/2 + 3/(2 − q) = (2 − q + 6)/(4 − 2q).
+    q = generator("q")
+    total = in_one_fraction(to_sympy(3 / (2 - q)) + sympy.Rational(1, 2))
+    assert total is not None
+    assert unicode(typeset(total)) == "(2 − q + 6)/(4 − 2q)"

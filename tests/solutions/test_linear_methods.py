@@ -3,6 +3,7 @@
 from fractions import Fraction
 from json import dumps, loads
 from typing import Any
+from unicodedata import normalize
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from rldrill.solutions import dynamics, matrices, surds
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import sign, simplest, to_sympy
 from rldrill.solutions.linear_methods.ddp_backward import _is_negative
-from rldrill.solutions.work import Step
+from rldrill.solutions.work import Equality, Note, Step
 
 whole = st.integers(-3, 3)
 positive = st.integers(1, 4)
@@ -419,8 +420,9 @@ def test_the_scalar_riccati_equation_is_solved_with_its_numbers() -> None:
     exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": [[1]], "B": [[1]], "Q": [[2]], "R": [[4]]}})
     working = str(exercise.working("a"))
     # −2 + P − P²/(P − 4), times P − 4: P² − 4P = −2P + 8 + P² − 4P − P², so P² + 2P − 8 = 0, whose roots are −4 and 2.
-    assert "P = −2 + 1²·P − (1·1·P)²/(1²·P − 4)" in working
-    assert "−8 + 2P + P² = 0" in working
+    assert "P = −2 + 1²·P − (1·P·1)²/(1²·P − 4)" in working
+    assert "1²·P² + 2P − 2·4 = 0" in working
+    assert "P² + 2P − 8 = 0" in working
     assert exercise.solve()["a"][0, 0] == -4
     assert exercise.parts[0].points >= 3
 
@@ -469,3 +471,60 @@ def test_what_was_worked_out_with_a_price_is_not_worked_out_again(name: str) -> 
             assert exercise.parts[1].points == 1
             return
     raise AssertionError
+
+
+@pytest.mark.parametrize("options", [{}, {"gamma": "1/2"}, {"N": [["1/4"]]}, {"N": [["1/4"]], "convention": "xuKP"}])
+def test_the_riccati_equation_is_cleared_of_its_denominator_line_by_line(options: dict[str, Any]) -> None:
+    exercise = rldrill.read({"family": "lqr-infinite", "given": {"A": 2, "B": 1, "Q": 3, "R": 2, **options}})
+    cleared = [line for line in exercise.solution.lines_of("a") if isinstance(line, Equality)][:3]
+    first, *others = (sympy.expand(to_sympy(line.left) - to_sympy(line.rights[0])) for line in cleared)
+    assert len(others) == 2
+    assert all(sympy.expand(first - other) == 0 for other in others)
+
+
+def test_the_modes_have_letters_of_their_own_and_come_from_the_matrices() -> None:
+    # Q (1, 1) = (6, 6) and Q (1, −1) = (2, −2): Q̂ = diag(6, 2); A swaps the entries: Â = diag(1, −1).
+    system = {"A": [[0, 1], [1, 0]], "B": [[1, 0], [0, 1]], "Q": [[4, 2], [2, 4]], "R": [[12, 0], [0, 12]]}
+    exercise = rldrill.read({"family": "lqr-infinite", "given": system})
+    text = normalize("NFC", "\n".join(unicode_text(block) for block in exercise.working()))
+    assert "QT = [4  2 ; 2  4][1  1 ; 1  −1] = [6  2 ; 6  −2] = [1  1 ; 1  −1][6  0 ; 0  2] = TQ\u0302" in text
+    assert normalize("NFC", "Mode 1, the sum: Â₁ = 1, B̂₁ = 1, Q̂₁ = 6, R̂₁ = 12.") in text
+    assert text.count("P = ") == 3  # its equation, and the way back: nothing else is called P
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=20)
+def test_that_the_discounted_state_goes_to_0_is_checked(seed: int) -> None:
+    solution = draw("lqr-infinite", 2, seed)
+    said = " ".join(line.text for line in solution.lines_of("c") if isinstance(line, Note))
+    assert "as it must" in said
+    assert ("below $1$" in said) == (solution.problem.given.gamma != 1)
+
+
+@given(seeds)
+@settings(deadline=None, max_examples=15)
+def test_of_an_arm_at_rest_only_the_derivatives_that_count_are_worked_out(seed: int) -> None:
+    exercise = rldrill.draw("linearise", 3, seed)
+    assume("D" in exercise.solution.problem.given.where and "θ_2" in exercise.solution.problem.given.state)
+    text = "\n".join(unicode_text(block) for block in exercise.working())
+    assert "What multiplies ∂M₁/∂θ₂, ∂M₃/∂θ₂ and ∂D/∂θ₂ is 0 at the operating point, since n₁ = 0 and n₂ = 0." in text
+    assert "∂D/∂θ₂ =" not in text
+    assert "∂n₁/∂θ₂ = m₂l₁l₂ cos(θ₂)(2ω₁ω₂ + ω₂²)" in text  # in the order of n₁ itself
+
+
+def test_a_derivative_keeps_its_denominator_until_the_numbers_are_in() -> None:
+    given_ = {
+        "dynamics": {"θ": "ω", "ω": "(u - m*g*l*sin(θ))/(m*l^2)"}, "constants": {"g": 10, "l": 2, "m": 3},
+        "state": {"θ": "pi", "ω": 0}, "action": {"u": 0},
+    }  # fmt: skip
+    text = str(rldrill.read({"family": "linearise", "given": given_}).working("a"))
+    assert "∂f₂/∂θ = −(mgl cos(θ))/(ml²)" in text
+
+
+@given(seeds, st.integers(1, 2))
+@settings(deadline=None, max_examples=15)
+def test_one_state_and_one_action_need_no_matrices(seed: int, level: int) -> None:
+    exercise = rldrill.draw("ddp-backward", level, seed)
+    text = "\n".join(unicode_text(block) for block in exercise.working())
+    assert not [sign for sign in "ᵀΣξᵢⱼ⁻" if sign in text]
+    assert "Qₐₐ < 0" in text

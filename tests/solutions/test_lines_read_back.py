@@ -15,6 +15,9 @@ from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.text import Unreadable, read_number
 from rldrill.solutions.drawing import draw
 from rldrill.solutions.exact import to_sympy
+from rldrill.solutions.formula.notation import Quantity
+from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.matrices import is_matrix
 from rldrill.solutions.rational import RationalFunction
 from rldrill.solutions.solution import Solution
@@ -33,7 +36,7 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
     """The sides of the equations that are solved in front of the reader, and what the unknowns in them are."""
     group: list[Equality] = []
     for line in solution.lines:
-        letters = {letter.name: letter for each in group for side in sides(each) for letter in side.free_symbols}
+        letters = {unicode(typeset(letter)): letter for each in group for letter in unknowns(each)}
         if isinstance(line, Step) and (letter := letters.get(unicode(line.equation().left))):  # P = −b − √… ends it
             yield from ((sides(each), {letter: to_sympy(line.value)}) for each in group)
             group = []
@@ -42,13 +45,19 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
             for each in line.lines():
                 if isinstance(each, Equality):
                     yield sides(each), found
-        if isinstance(line, Equality) and not any(map(is_matrix, line.rights)):
+        if isinstance(line, Equality) and not any(map(is_matrix, line.rights)) and len(unknowns(line)) < 3:
             group.append(line)
             left, right = sides(line)[0], sides(line)[-1]
             if left.is_Symbol and not right.has(left):  # γ = 3/4 ends it
                 yield from ((sides(each), {left: right}) for each in group)
                 group = []
     assert not group
+
+
+def unknowns(line: Equality) -> set[Expr]:
+    """The letters of an equation; many of them stand in one of formulas, which is not solved for a number."""
+    found = set().union(*(side.free_symbols | side.atoms(Quantity) for side in sides(line)))
+    return {each for each in found if not any(each in other.free_symbols for other in found - {each})}
 
 
 def sides(line: Equality) -> list[Expr]:
@@ -93,7 +102,7 @@ def test_every_line_has_the_value_of_its_step(name: str) -> None:
 def test_every_equation_that_is_solved_holds_for_what_is_found(name: str) -> None:
     for solution in drawn(name):
         for equal, found in equations(solution):
-            first, *others = (side.xreplace(found) for side in equal)
+            first, *others = (evaluated(side).xreplace(found) for side in equal)
             assert all(sympy.simplify(first - other) == 0 for other in others), (solution.problem.identity, equal)
 
 

@@ -168,16 +168,17 @@ def test_without_a_change_of_policy_the_objective_is_the_advantage(chance: str, 
     sample = {"state": "s", "action": "left", "old": chance, "new": chance, "advantage": advantage}
     answers = solved("ppo-clip", samples=[sample], epsilon=epsilon)
     assert answers["a"] == 1
-    assert str(answers["d"]) == advantage
-    assert answers["e"] is False
+    assert str(answers["c"]) == advantage
+    assert answers["d"] is False
 
 
 @given(st.integers(0, 10_000))
 @settings(deadline=None, max_examples=25)
 def test_the_clipped_objective_never_exceeds_the_unclipped_one(seed: int) -> None:
     answers = rldrill.draw("ppo-clip", level=1, seed=seed).solve()
-    assert answers["d"] <= answers["b"]
-    assert answers["e"] == (answers["d"] < answers["b"])
+    unclipped, _ = answers["b"]
+    assert answers["c"] <= unclipped
+    assert answers["d"] == (answers["c"] < unclipped)
 
 
 @given(st.lists(texts, min_size=3, max_size=3), st.lists(texts, min_size=2, max_size=2), discounts)
@@ -298,10 +299,25 @@ def test_the_clipping_range_follows_from_the_objective() -> None:
         solved("ppo-clip", samples=[sample("3/4", 2), sample("3/4", 1)], objective=1)
 
 
-def test_the_largest_clipping_range_that_cuts() -> None:
-    # Ratios 3/2, 1/2 and 1/4 with the advantages 1, −1 and 1: only the first two can be cut off, up to 1/2 each.
+def test_below_which_clipping_range_a_gradient_is_cut_off() -> None:
+    # Ratios 3/2, 1/2 and 1/4 with the advantages 1, −1 and 1: the first two are cut off, up to 1/2 each, and go to
+    # their advantages; the third keeps 1/4. The mean of 1, −1 and 1/4 is 1/12.
     answers = solved("ppo-clip", samples=[sample("3/4", 1), sample("1/4", -1), sample("1/8", 1)])
-    assert [answers[label] for label in "bcde"] == [True, True, False, fmpq(1, 2)]
+    assert answers["b"] == (fmpq(1, 2), fmpq(1, 2), 0)
+    assert answers["c"] == fmpq(1, 12)
+
+
+@pytest.mark.parametrize(("first", "second", "option"), [(1, 1, "B"), (-1, -1, "C"), (1, -1, "D"), (-1, 1, "A")])
+def test_of_two_gradients_it_is_told_which_are_cut_off(first: int, second: int, option: str) -> None:
+    # Ratios 3/2 and 1/2: a positive advantage is cut off above the range, a negative one below it.
+    answers = solved("ppo-clip", samples=[sample("3/4", first), sample("1/4", second)], epsilon="1/5")
+    assert answers["e"] == option
+
+
+def test_samples_of_a_clipping_range_that_is_asked_for_are_different() -> None:
+    for seed in range(25):
+        samples = rldrill.draw("ppo-clip", 3, seed).solution.answers["a"]
+        assert len(set(samples)) == len(samples)
 
 
 def test_x_follows_from_how_often_actions_are_taken() -> None:

@@ -24,7 +24,7 @@ def test_features_of_a_loop() -> None:
         motion={"go": {"x": {"y": 1}, "y": {"x": 1}}}, policy={"x": "go", "y": "go"},
         features={"x": [1], "y": [0]}, start={"x": "3/4", "y": "1/4"}, gamma="1/2",
     )  # fmt: skip
-    assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": (fmpq(7, 6),)}
+    assert answers == {"a": {"x": fmpq(4, 3), "y": fmpq(2, 3)}, "b": fmpq(7, 6)}
 
 
 def test_the_policy_that_matches_the_expert_by_hand() -> None:
@@ -44,10 +44,9 @@ def test_the_discount_is_found_from_an_estimate() -> None:
 
 
 def test_a_projection_in_the_plane() -> None:
-    # From (0, 0) towards (4, 0) with the expert at (3, 2): the foot is (3, 0), w = (0, 2) and 2 is left;
-    # (4, 0) itself is √(1 + 4) away.
+    # From (0, 0) towards (4, 0) with the expert at (3, 2): 3/4 of the way, to (3, 0), w = (0, 2) and 2 is left.
     answers = solved("apprenticeship", expert=[3, 2], first=[0, 0], policies=[[4, 0]])
-    assert answers["a"] == sympy.sqrt(5)
+    assert answers["a"] == fmpq(3, 4)
     assert answers["b"] == (fmpq(3), fmpq(0))
     assert answers["c"] == (fmpq(0), fmpq(2))
     assert answers["d"] == 2
@@ -72,7 +71,8 @@ def test_the_slack_of_two_constraints() -> None:
     # w = (1, 2): the expert is worth 8, the others 5 + 4 = 9 and 6 + 1 = 7 with their margins; so one holds, ξ = 1.
     others = {"x": {"mu": [1, 2], "margin": 4}, "y": {"mu": [0, 3], "margin": 1}}
     answers = solved("max-margin", w=[1, 2], expert=[2, 3], policies=others)
-    assert answers == {"a": {"expert": fmpq(8), "x": fmpq(5), "y": fmpq(6)}, "b": fmpq(1), "c": fmpq(1)}
+    assert answers == {"a": (fmpq(8), fmpq(5), fmpq(6)), "b": fmpq(1), "c": fmpq(1)}
+    assert solved("max-margin", w=[1, 2], expert=[2, 3], policies=others, slack=1)["b"] == 2
 
 
 def test_the_weight_from_which_on_all_constraints_hold() -> None:

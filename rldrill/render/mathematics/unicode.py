@@ -1,5 +1,7 @@
 """Mathematics on one line of Unicode, for terminals."""
 
+import re
+
 from rldrill.problems.document import pieces
 from rldrill.problems.mathematics import (
     Accent,
@@ -24,6 +26,8 @@ ABOVE = dict(
         strict=True,
     )
 )
+_LARGE = str.maketrans({small: large for large, small in ABOVE.items()})
+_SMALL_POWER = re.compile(f"(?<![^\\W\\d_])e([{re.escape(''.join(ABOVE.values()))}]+)")
 _PARTIAL = Glyph("∂", "variable")
 _DIFFERENTIALS = (_PARTIAL, Glyph("d", "variable"), Script(_PARTIAL, above=Glyph("2", "number")))
 _MARKS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
@@ -42,7 +46,7 @@ def unicode(math: Math) -> str:
             return _row(tuple(map(unmarked, items)))
         case Fraction(numerator, denominator):
             above = unicode(numerator).strip() if _is_plain_product(numerator) else _grouped(numerator)
-            return f"{above}/{_grouped(denominator)}"
+            return _one_way(f"{above}/{_grouped(denominator)}")
         case Script(body, below, above):
             return _script(body, below, above)
         case Fence(body, left, right):
@@ -58,6 +62,13 @@ def unicode(math: Math) -> str:
         case Tabular(rows, left, right):
             lines = ["  ".join(unicode(cell) for cell in line) for line in rows]
             return f"{left}{' ; '.join(lines)}{right}"
+
+
+def _one_way(quotient: str) -> str:
+    """A quotient in which powers of e are written in one way: exp(0) beside exp(ln 2)."""
+    if "exp(" not in quotient:
+        return quotient
+    return _SMALL_POWER.sub(lambda power: f"exp({power[1].translate(_LARGE)})", quotient)
 
 
 def unmarked(math: Math) -> Math:

@@ -47,6 +47,7 @@ class Blocks(Node):
     """
 
     is_commutative = False
+    look = Look.GRID
     value = staticmethod(stacked)
 
     def __new__(cls, rows: int, *blocks: Any) -> "Blocks":
