@@ -322,17 +322,17 @@ def test_yes_and_no_may_be_truth_values_and_students_numbers(folder: Path) -> No
 def test_an_id_may_be_typed_with_or_without_its_revision(folder: Path) -> None:
     (row,) = judged(folder, f'"{NOW}" = {{a = "1"}}')
     assert row.problem == NOW
-    assert judged(folder, '"td-zero/1/7" = {a = "1"}')[0].problem == NOW
+    assert judged(folder, '"td-zero/1/62590" = {a = "1"}')[0].problem == NOW
 
 
 # --- faults -----------------------------------------------------------------------------------------------
 
 HEAD = "student,problem,part,answer\n"
 #: An ID with the revision of this release.
-NOW = f"td-zero/1/7@{family('td-zero').revision}"
+NOW = f"td-zero/1/62590@{family('td-zero').revision}"
 FAULTY = [
-    ("a.toml", 'td-zero/1/7 = "1"', "Problem IDs stand in quotes"),
-    ("a.toml", '[td-zero/1/7]\na = "1"', "Problem IDs stand in quotes"),
+    ("a.toml", 'td-zero/1/62590 = "1"', "Problem IDs stand in quotes"),
+    ("a.toml", '[td-zero/1/62590]\na = "1"', "Problem IDs stand in quotes"),
     ("a.toml", 'colour = "red"', "'colour' is neither a problem ID"),
     ("a.toml", 'colour = "red"\n[answers]\n"td.toml" = 1', "'colour' stands outside 'answers'"),
     ("a.toml", 'answers = 3', "'answers' must be a table"),
@@ -342,8 +342,8 @@ FAULTY = [
     ("a.toml", '"td.toml" = {b = 1}', "there is no part 'b'; td.toml has a."),
     ("a.toml", '"return.toml" = 1', "the part is missing; return.toml has a, b."),
     ("a.toml", '"return.toml" = {a = 1, A = 2}', "return.toml (a) is answered twice"),
-    ("a.toml", f'"td-zero/1/7" = "1"\n"{NOW}" = "2"', f"{NOW} (a) is answered twice"),
-    ("a.toml", '"td-zero/1/7@99" = "1"', "is of revision 99"),
+    ("a.toml", f'"td-zero/1/62590" = "1"\n"{NOW}" = "2"', f"{NOW} (a) is answered twice"),
+    ("a.toml", '"td-zero/1/62590@99" = "1"', "is of revision 99"),
     ("a.toml", '"td-zeri/1/7" = "1"', "There is no family 'td-zeri'"),
     ("a.toml", '"none.toml" = "1"', "none.toml: there is no such file"),
     ("a.toml", '"broken.toml" = "1"', "broken.toml, line 1"),
@@ -365,7 +365,7 @@ FAULTY = [
     ("a.csv", HEAD + "Ann,return.toml,,1\n", "line 2: the part is missing"),
     ("a.csv", HEAD + "Ann,,a,1\n", "line 2: '' is neither a problem ID"),
     ("a.csv", HEAD + "Ann,td-zero/4/7,a,1\n", "line 2: 'td-zero/4/7' is neither a problem ID"),
-    ("a.csv", HEAD + "Ann,td-zero/1/7@98,a,1\n", "line 2: td-zero/1/7@98 is of revision 98"),
+    ("a.csv", HEAD + "Ann,td-zero/1/62590@98,a,1\n", "line 2: td-zero/1/62590@98 is of revision 98"),
     ("a.csv", HEAD + "Ann,none.json,a,1\n", "line 2: "),
     ("a.csv", HEAD + "\x1b[31mAnn,td.toml,a,1\n", "'student' holds a character that cannot be printed"),
     ("a.jsonl", '{"problem": "td.toml", "answer": 1}\n{"problem": \n', "line 2, column"),
@@ -639,11 +639,11 @@ def test_the_examples_say_what_their_comments_say() -> None:
     assert [
         (row.problem.split("@")[0], row.part, row.judged.verdict) for row in rows(verify([EXAMPLES / "answers.toml"]))
     ] == [
-        ("td-zero/1/7", "a", "right"),
+        ("td-zero/1/62590", "a", "right"),
         ("return/1/430", "a", "misconception"),
         ("return/1/430", "b", "follow-through"),
-        ("n-step-return/2/2761", "a", "unreadable"),
-        ("n-step-return/2/2761", "b", "right"),
+        ("n-step-return/2/269", "a", "unreadable"),
+        ("n-step-return/2/269", "b", "right"),
         ("bayes-rule/1/7", "a", "right"),
         ("return/2/5940", "a", "wrong"),
         ("return/2/5940", "b", "right"),

@@ -140,7 +140,7 @@ def test_the_points_of_a_part_are_earned_by_its_steps() -> None:
 
 
 def test_every_update_of_three_that_are_alike_earns_a_point_of_three() -> None:
-    exercise = draw("td-zero", 2, 7)
+    exercise = draw("td-zero", 2, 1)
     assert exercise.parts[0].points == 3
     assert [points for _, points in exercise.scheme("a")] == [1, 1, 1]
 
@@ -167,13 +167,13 @@ def test_twelve_problems_for_an_hour_take_seven_pages_at_most(tmp_path: Path) ->
 
 
 def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
-    long, short = draw("expected-return", 3, 6), draw("markov-property", 1, 1)
+    long, short = draw("batch-td-and-mc", 3, 0), draw("markov-property", 1, 1)
     rooms = {
         (item.problem.family.name, part.label): space_of(item, part, "normal")
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["expected-return", "a"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
+    assert rooms["batch-td-and-mc", "a"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
     part = long.parts[0]
@@ -372,7 +372,7 @@ def test_a_manifest_prints_the_same_bytes_again_and_keys_alone(tmp_path: Path) -
     there, again, keys = tmp_path / "there", tmp_path / "again", tmp_path / "keys"
     for folder in (there, again, keys):
         folder.mkdir()
-    _, said = run("return", "td-zero/1/7", "-n", 2, "--seed", 4, "--versions", 2, "-o", there / "a.pdf")
+    _, said = run("return", "td-zero/1/62590", "-n", 2, "--seed", 4, "--versions", 2, "-o", there / "a.pdf")
     assert "2 versions: shared problems 0, shared answers 0" in said
     data = json.loads((there / "a.json").read_text())
     assert data["typst"]
@@ -441,7 +441,7 @@ def test_a_blueprint_is_written_read_and_printed(tmp_path: Path, monkeypatch: py
 def test_names_ids_and_files_are_mixed(tmp_path: Path) -> None:
     mine = tmp_path / "mine.toml"
     mine.write_text('family = "return"\n[given]\ngamma = "1/2"\nrewards = [1, 4]\ntime = 0\n')
-    run("td-zero/1/7", mine, "bellman", "-n", 4, "--seed", 1, "-x", "policy-value", "-o", tmp_path / "a.pdf")
+    run("td-zero/1/62590", mine, "bellman", "-n", 4, "--seed", 1, "-x", "policy-value", "-o", tmp_path / "a.pdf")
     problems = json.loads((tmp_path / "a.json").read_text())["versions"][0]["problems"]
     assert [problem["family"] for problem in problems[:2]] == ["td-zero", "return"]
     assert len(problems) == 4

@@ -112,11 +112,11 @@ def test_what_cannot_be_read_costs_nothing() -> None:
 
 
 def test_how_an_answer_was_read_is_told_only_where_it_was_typed_otherwise() -> None:
-    # One value is asked for, which has a name: V(even) = 2 + 1/5·(−1 + 1/2·8 − 2) = 11/5.
-    typist, _, _ = quiz("11/5", names=("td-zero/1/3",))
+    # One value is asked for, which has a name: V(slope) = 8 + 1/4·(−3 + 1/2·8 − 8) = 25/4.
+    typist, _, _ = quiz("25/4", names=("td-zero/1/3",))
     assert "Right." in typist.seen
     assert "read as" not in typist.seen
-    assert "read as even: 11/5" in quiz("2 1/5", names=("td-zero/1/3",))[0].seen
+    assert "read as slope: 25/4" in quiz("6 1/4", names=("td-zero/1/3",))[0].seen
 
 
 def test_hint_first_the_formula_then_the_sentence() -> None:

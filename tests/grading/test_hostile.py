@@ -45,11 +45,11 @@ def command(*arguments: object, **options: object) -> "subprocess.CompletedProce
 @pytest.mark.parametrize(
     "content",
     [
-        ("student;problem;part;answer\r\nAnn;td-zero/1/7;a;5,25\r\n").encode("utf-16"),
-        b"\xef\xbb\xbfsep=;\r\nstudent;problem;part;answer\r\nAnn;td-zero/1/7;a;5,25\r\n",
-        b'student,problem,part,answer\rAnn,td-zero/1/7,a,"=""5.25"""\r',
-        "student,problem,part,answer\nA\u200cn\u200dn,td-zero/1/7,a,5.25\n",
-        "Student\u00a0Name\tProblem\tPart\tAnswer\nAnn\u00a0Lee\ttd-zero/1/7\ta\t5.25\n",
+        ("student;problem;part;answer\r\nAnn;td-zero/1/62590;a;5,25\r\n").encode("utf-16"),
+        b"\xef\xbb\xbfsep=;\r\nstudent;problem;part;answer\r\nAnn;td-zero/1/62590;a;5,25\r\n",
+        b'student,problem,part,answer\rAnn,td-zero/1/62590,a,"=""5.25"""\r',
+        "student,problem,part,answer\nA\u200cn\u200dn,td-zero/1/62590,a,5.25\n",
+        "Student\u00a0Name\tProblem\tPart\tAnswer\nAnn\u00a0Lee\ttd-zero/1/62590\ta\t5.25\n",
     ],
 )
 def test_what_spreadsheets_and_scripts_make_of_a_file_is_read(tmp_path: Path, content: str | bytes) -> None:
@@ -61,7 +61,7 @@ def test_what_spreadsheets_and_scripts_make_of_a_file_is_read(tmp_path: Path, co
     ["3-Apr", "Apr-03", "4-Mar", "03. Apr", "3-Apr-24", "2024-04-03", "2024-04-03 00:00:00", "3.4.2024", "3/4/2024"],
 )
 def test_a_fraction_that_became_a_date_is_recognised_and_said(tmp_path: Path, date: str) -> None:
-    (part,) = verify([written(tmp_path, "a.csv", f"{HEAD}Ann,td-zero/1/7,a,{date}\n")]).parts
+    (part,) = verify([written(tmp_path, "a.csv", f"{HEAD}Ann,td-zero/1/62590,a,{date}\n")]).parts
     assert part.judged.verdict == "unreadable"
     assert "is a date: a spreadsheet makes one of a fraction such as 3/4" in part.judged.reason
     assert (part.line, part.column) == (2, 4)
@@ -69,7 +69,7 @@ def test_a_fraction_that_became_a_date_is_recognised_and_said(tmp_path: Path, da
 
 def test_escape_codes_are_never_echoed(tmp_path: Path) -> None:
     evil = "\x1b]0;mine\x07\x9b31m\u202e"
-    content = f"{HEAD}Ann,td-zero/1/7,a,{evil}\nA{evil},td-zero/1/7,a,1\nBen,{evil},a,1\nBen,td-zero/1/7,{evil},1\n"
+    content = f"{HEAD}Ann,td-zero/1/62590,a,{evil}\nA{evil},td-zero/1/62590,a,1\nBen,{evil},a,1\nBen,td-zero/1/62590,{evil},1\n"
     path = written(tmp_path, "a.csv", content)
     report = verify([path])
     texts = [form.written(report, "key") for form in (data, github, gradescope, junit, page, tables, text)]
@@ -96,11 +96,11 @@ def test_pipes_devices_and_loops_are_refused_at_once(tmp_path: Path) -> None:
 
 def test_deep_and_long_tables_are_refused_in_a_sentence(tmp_path: Path) -> None:
     for name, content in {
-        "a.json": '{"td-zero/1/7": ' + "[" * 100_000,
+        "a.json": '{"td-zero/1/62590": ' + "[" * 100_000,
         "b.json": '{"a":' * 5000 + "1" + "}" * 5000,
-        "c.toml": f'"td-zero/1/7" = {"[" * 3000}',
-        "d.toml": f'"td-zero/1/7" = {"9" * 100_000}',
-        "e.json": f'{{"td-zero/1/7": {"9" * 100_000}}}',
+        "c.toml": f'"td-zero/1/62590" = {"[" * 3000}',
+        "d.toml": f'"td-zero/1/62590" = {"9" * 100_000}',
+        "e.json": f'{{"td-zero/1/62590": {"9" * 100_000}}}',
     }.items():
         (refusal,) = verify([written(tmp_path, name, content)]).refused
         assert len(refusal.says) < 400
@@ -118,14 +118,14 @@ def test_paths_in_a_manifest_open_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("code", ["../x", "/etc/x", "A\n", "a b", "", "\x1b[31m", "A" * 9])
 def test_the_code_of_a_version_leads_nowhere(tmp_path: Path, code: str) -> None:
-    problem = {"id": "td-zero/1/7@3", "parts": [{"part": "a", "points": 1}], "problem": {}}
+    problem = {"id": "td-zero/1/62590@4", "parts": [{"part": "a", "points": 1}], "problem": {}}
     data = {"format": 2, "rldrill": "0", "title": "t", "seed": 1, "versions": [{"code": code, "problems": [problem]}]}
     with pytest.raises(FileError, match=r"the manifest is damaged at versions\.1\.code"):
         printed(written(tmp_path, "exam.json", json.dumps(data)))
 
 
 def test_a_closed_output_is_no_reason_to_fail(tmp_path: Path) -> None:
-    path = written(tmp_path, "a.csv", HEAD + "Ann,td-zero/1/7,a,5.25\n")
+    path = written(tmp_path, "a.csv", HEAD + "Ann,td-zero/1/62590,a,5.25\n")
     for streams in (">&- 2>&-",):
         line = f'"{sys.executable}" -m rldrill verify "{path}" {streams}'
         assert subprocess.run(line, shell=True, check=False, timeout=60, stderr=subprocess.DEVNULL).returncode == 0
@@ -143,7 +143,7 @@ def test_any_roster_is_read_or_refused(tmp_path: Path, head: bytes, content: byt
     path = written(tmp_path, "roster.csv", head + content)
     manifest = tmp_path / "exam.json"
     if not manifest.exists():
-        problem = {"id": "td-zero/1/7@2", "parts": [{"part": "a", "points": 1}], "problem": {}}
+        problem = {"id": "td-zero/1/62590@2", "parts": [{"part": "a", "points": 1}], "problem": {}}
         versions = [{"code": code, "problems": [problem]} for code in "AB"]
         manifest.write_text(json.dumps({"format": 2, "rldrill": "0", "title": "t", "seed": 1, "versions": versions}))
     with contextlib.suppress(UserError):
@@ -185,16 +185,16 @@ def test_any_manifest_is_read_or_refused(tmp_path: Path, content: object) -> Non
 @pytest.mark.parametrize(
     ("name", "content"),
     [
-        ("a.toml", '"td-zero/1/7".' + "a." * 100_000 + "b = 1"),  # the library takes 5 GB for it
-        ("a.toml", '["td-zero/1/7" .' + " '' . " * 100_000 + "b]"),
+        ("a.toml", '"td-zero/1/62590".' + "a." * 100_000 + "b = 1"),  # the library takes 5 GB for it
+        ("a.toml", '["td-zero/1/62590" .' + " '' . " * 100_000 + "b]"),
         ("a.toml", "x = {" + '"\\"" . ' * 50_000 + "b = 1}"),
         ("a.toml", "\n" * 900_000 + "="),
-        ("a.toml", '"td-zero/1/7" = "' + '\\"' * 400_000 + '"'),
-        ("a.toml", '"td-zero/1/7" = [' + "1," * 2_000_000 + "]"),
-        ("a.json", '{"td-zero/1/7": [' + "1," * 2_000_000 + "1]}"),
-        ("a.csv", "problem,answer" + ",x" * 100_000 + "\ntd-zero/1/7,1" + "," * 100_000 + "\n"),
-        ("a.csv", HEAD + "A" + "\u0301\u0316" * 500_000 + ",td-zero/1/7,a,1\n"),
-        ("a.csv", HEAD + 'A,td-zero/1/7,a,"\n' * 10_000),
+        ("a.toml", '"td-zero/1/62590" = "' + '\\"' * 400_000 + '"'),
+        ("a.toml", '"td-zero/1/62590" = [' + "1," * 2_000_000 + "]"),
+        ("a.json", '{"td-zero/1/62590": [' + "1," * 2_000_000 + "1]}"),
+        ("a.csv", "problem,answer" + ",x" * 100_000 + "\ntd-zero/1/62590,1" + "," * 100_000 + "\n"),
+        ("a.csv", HEAD + "A" + "\u0301\u0316" * 500_000 + ",td-zero/1/62590,a,1\n"),
+        ("a.csv", HEAD + 'A,td-zero/1/62590,a,"\n' * 10_000),
     ],
 )
 def test_no_small_file_takes_long(tmp_path: Path, name: str, content: str) -> None:
@@ -205,8 +205,8 @@ def test_no_small_file_takes_long(tmp_path: Path, name: str, content: str) -> No
 
 
 def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
-    long = "".join(f"{name},td-zero/1/7,a,{'9' * 200_000}\n" for name in "ABCDEFGHIJKLMNOPQRSTUVWXY")
-    found = verdicts(written(tmp_path, "a.csv", f"{HEAD}{long}Zoe,td-zero/1/7,a,5.25\n"))
+    long = "".join(f"{name},td-zero/1/62590,a,{'9' * 200_000}\n" for name in "ABCDEFGHIJKLMNOPQRSTUVWXY")
+    found = verdicts(written(tmp_path, "a.csv", f"{HEAD}{long}Zoe,td-zero/1/62590,a,5.25\n"))
     assert found.pop("Zoe") == "right"
     assert set(found.values()) == {"unreadable"}
 
@@ -214,7 +214,7 @@ def test_a_long_answer_costs_only_itself(tmp_path: Path) -> None:
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61)
 
 
-@pytest.mark.parametrize("problem", ["return/1/430", "td-zero/1/7"])
+@pytest.mark.parametrize("problem", ["return/1/430", "td-zero/1/62590"])
 @pytest.mark.parametrize(
     "answer",
     [

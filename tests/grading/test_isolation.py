@@ -30,7 +30,9 @@ RIGHT = "21/4"
 
 def graded(folder: Path, *answers: str, **settings: float) -> tuple[dict[str, float], list[str]]:
     path = folder / "a.csv"
-    path.write_text(HEAD + "".join(f"{name},td-zero/1/7,a,{text}\n" for name, text in zip("ABC", answers, strict=True)))
+    path.write_text(
+        HEAD + "".join(f"{name},td-zero/1/62590,a,{text}\n" for name, text in zip("ABC", answers, strict=True))
+    )
     report = verify([path], Settings(isolated=True, **settings))
     assert all(student.score.of == 1 for student in report.students)
     return {each.student: float(each.score.points) for each in report.students}, [each.says for each in report.refused]
@@ -57,7 +59,7 @@ def test_a_crash_of_the_interpreter_is_that_students_alone(tmp_path: Path, monke
     hostile(monkeypatch, lambda: os._exit(139))
     points, (says,) = graded(tmp_path, RIGHT, "13", RIGHT)
     assert points == {"A": 1, "C": 1}
-    assert "line 3: grading what was answered to td-zero/1/7@3 broke the interpreter down" in says
+    assert "line 3: grading what was answered to td-zero/1/62590@4 broke the interpreter down" in says
 
 
 def test_what_breaks_the_process_down_afterwards_costs_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -104,7 +106,7 @@ def test_a_problem_that_cannot_be_solved_in_time_is_tried_once(tmp_path: Path, m
     load = marking.load
     monkeypatch.setattr(marking, "load", lambda name: time.sleep(60) if "bayes" in name else load(name))
     path = tmp_path / "a.csv"
-    rows = [f"{name},{problem},a,{RIGHT}\n" for name in "ABCDEFGH" for problem in ("bayes-rule/1/7", "td-zero/1/7")]
+    rows = [f"{name},{problem},a,{RIGHT}\n" for name in "ABCDEFGH" for problem in ("bayes-rule/1/7", "td-zero/1/62590")]
     path.write_text(HEAD + "".join(rows))
     begun = time.perf_counter()
     report = verify([path], Settings(isolated=True))
@@ -120,7 +122,7 @@ def test_numbers_of_a_hundred_thousand_digits_are_an_answer_that_is_not_read(tmp
 
 def test_memory_that_the_caller_holds_is_not_counted(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(f"{HEAD}Ann,td-zero/1/7,a,{RIGHT}\n")
+    path.write_text(f"{HEAD}Ann,td-zero/1/62590,a,{RIGHT}\n")
     held = mmap.mmap(-1, 5 * 2**30, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | getattr(mmap, "MAP_NORESERVE", 0))
     try:
         report = verify([path], Settings(isolated=True))
@@ -137,7 +139,7 @@ def test_whoever_names_problem_after_problem_spends_their_own_time(
     monkeypatch.setattr(marking, "load", lambda name: (time.sleep(0.2 if "bayes" in name else 0), load(name))[1])
     path = tmp_path / "a.csv"
     rows = [f"Eve,bayes-rule/1/{seed},a,1\n" for seed in range(500)]
-    path.write_text(HEAD + "".join(rows) + f"Ann,td-zero/1/7,a,{RIGHT}\n")
+    path.write_text(HEAD + "".join(rows) + f"Ann,td-zero/1/62590,a,{RIGHT}\n")
     begun = time.perf_counter()
     report = verify([path], Settings(isolated=True, student=1.0))
     assert time.perf_counter() - begun < 10
@@ -148,7 +150,7 @@ def test_whoever_names_problem_after_problem_spends_their_own_time(
 
 
 def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    exam = plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/430")), seed=7))
+    exam = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7))
     manifest_path = tmp_path / "exam.json"
     manifest_path.write_bytes(written(manifest(exam)))
     problem = Desk.problem
@@ -168,11 +170,11 @@ def test_solving_the_exam_is_not_the_first_students_time(tmp_path: Path, monkeyp
 
 def test_the_whole_run_has_a_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(f"{HEAD}A,td-zero/1/7,a,{RIGHT}\n")
+    path.write_text(f"{HEAD}A,td-zero/1/62590,a,{RIGHT}\n")
     assert verify([path]).exit_code == 0  # what is imported for it is there now
     monkeypatch.setattr("rldrill.grading.verification.RUN", 1.3)
     hostile(monkeypatch, lambda: time.sleep(0.7))
-    path.write_text(HEAD + "".join(f"{number},td-zero/1/7,a,{13}\n" for number in range(3)))
+    path.write_text(HEAD + "".join(f"{number},td-zero/1/62590,a,{13}\n" for number in range(3)))
     monkeypatch.setattr(marking, "_KEPT", -1)  # nothing is remembered, so that every answer takes its time
     begun = time.perf_counter()
     report = verify([path], Settings(isolated=True, rules=Rules(causes=False)))
@@ -203,7 +205,7 @@ def test_only_the_problems_of_one_version_are_kept(tmp_path: Path, monkeypatch: 
 
 
 def test_a_problem_of_the_exam_that_cannot_be_made_takes_no_other_with_it(tmp_path: Path) -> None:
-    data = manifest(plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(family="return", level=1)), seed=5)))
+    data = manifest(plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(family="return", level=1)), seed=5)))
     data["versions"][0]["problems"][1]["problem"]["family"] = "of-another-package"
     path, answers = tmp_path / "exam.json", tmp_path / "a.csv"
     path.write_bytes(written(data))
@@ -216,7 +218,7 @@ def test_a_problem_of_the_exam_that_cannot_be_made_takes_no_other_with_it(tmp_pa
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere another judge is not inherited")
 def test_whoever_ends_the_grading_ends_its_marking_too(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text(f"{HEAD}A,td-zero/1/7,a,13\n")
+    (tmp_path / "a.csv").write_text(f"{HEAD}A,td-zero/1/62590,a,13\n")
     program = (
         "import os, signal, sys, time\n"
         "from rldrill.grading import marking, verification\n"

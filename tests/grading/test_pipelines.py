@@ -24,8 +24,8 @@ CI = ROOT / "examples" / "ci"
 
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
-    """A folder with an exam of td-zero/1/7 and return/1/430, 1 and 2 points, the first right; rldrill in the path."""
-    made = plan(Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/430")), seed=7))
+    """A folder with an exam of td-zero/1/62590 and return/1/430, 1 and 2 points, the first right; rldrill in the path."""
+    made = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7))
     (tmp_path / "exam.json").write_bytes(written(manifest(made)))
     (tmp_path / "ann.answers.toml").write_text('"1" = "21/4"\n["2"]\na = "10"\n')
     tool = tmp_path / "bin" / "rldrill"
@@ -150,7 +150,7 @@ def test_the_hook_takes_answer_files_and_refuses_what_is_wrong(course: Path) -> 
     assert config["repos"][0]["hooks"] == [{"id": hook["id"]}]
     assert re.search(hook["files"], "a/b.answers.toml")
     assert not re.search(hook["files"], "answers.toml")
-    (course / "bad.answers.toml").write_text('"td-zero/1/7" = "9"\n')
+    (course / "bad.answers.toml").write_text('"td-zero/1/62590" = "9"\n')
     assert run(f"{hook['entry']} bad.answers.toml", course).returncode == 1
 
 

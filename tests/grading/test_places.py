@@ -82,11 +82,11 @@ def test_no_text_is_too_much(content: str) -> None:
 def test_every_message_about_an_answer_has_its_place(tmp_path: Path) -> None:
     path = tmp_path / "a.toml"
     path.write_text(
-        'student = "Ann"\n["return/1/430"]\na = "2/3"\n  b = "1,5"\nz = 1\n[ "td-zero/1/7"]\na = 2024-01-01\n'
+        'student = "Ann"\n["return/1/430"]\na = "2/3"\n  b = "1,5"\nz = 1\n[ "td-zero/1/62590"]\na = 2024-01-01\n'
     )
     report = verify([path])
     assert [refusal.line for refusal in report.refused] == [7, 5]
-    assert f"{path}, line 7, column 5: the answer to td-zero/1/7 is neither" in report.refused[0].says
+    assert f"{path}, line 7, column 5: the answer to td-zero/1/62590 is neither" in report.refused[0].says
     assert f"{path}, line 5, column 5: there is no part 'z'" in report.refused[1].says
     for form in (text, junit):
         told = form.written(report, "verdict")

@@ -31,8 +31,8 @@ from rldrill.grading.verification import Settings, verify
 EVIL = "=cmd|' /C calc'!A0"
 ROWS = [
     ("student", "problem", "part", "answer"),
-    ("Ann", "td-zero/1/7", "a", "21/4"),
-    ("Ben", "td-zero/1/7", "a", "worn: 5,25"),
+    ("Ann", "td-zero/1/62590", "a", "21/4"),
+    ("Ben", "td-zero/1/62590", "a", "worn: 5,25"),
     ("Ben", "return/1/430", "a", "2/3"),
     (EVIL, "return/1/430", "a", "<script>alert(1)</script>"),
     (EVIL, "return/1/430", "b", "=1+1\n::error::mine"),
@@ -122,18 +122,18 @@ def test_the_gradescope_results_fit_their_specification(report: Report, feedback
 
 def test_the_same_under_two_names_earns_no_more_in_one_submission(tmp_path: Path) -> None:
     for number, (name, answer) in enumerate([("Ann", "9"), ("Anna", "21/4"), ("A.", "21/4")]):
-        (tmp_path / f"{number}.csv").write_text(f"student,problem,part,answer\n{name},td-zero/1/7,a,{answer}\n")
+        (tmp_path / f"{number}.csv").write_text(f"student,problem,part,answer\n{name},td-zero/1/62590,a,{answer}\n")
     report = verify(sorted(tmp_path.iterdir()))
     assert [float(student.score.points) for student in report.students] == [0, 1, 1]
     results = json.loads(gradescope.written(report, "reason"))
     assert (results["score"], results["extra_data"]["of"], len(results["tests"])) == (0, 1, 1)
-    assert results["output"] == "td-zero/1/7@3 (a) is answered more than once; the first answer counts."
+    assert results["output"] == "td-zero/1/62590@4 (a) is answered more than once; the first answer counts."
 
 
 def test_what_is_in_several_files_of_a_submission_counts_together(tmp_path: Path) -> None:
     (tmp_path / "1.toml").write_text('"1" = "21/4"\n')
     (tmp_path / "2.toml").write_text('["2"]\na = "10"\n')
-    blueprint = Blueprint(problems=(Asked(id="td-zero/1/7"), Asked(id="return/1/430")), seed=7)
+    blueprint = Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7)
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
     answers = sorted(tmp_path.glob("*.toml"))
     results = json.loads(

@@ -22,7 +22,7 @@ from rldrill.quiz.sitting_screen import SittingScreen
 START = datetime(2026, 11, 26, 9, tzinfo=UTC)
 
 #: return/1: (a) and (b), a point each; td-zero/1: one point.
-PROBLEMS = (Entry(id="return/1/430"), Entry(id="td-zero/1/7"))
+PROBLEMS = (Entry(id="return/1/430"), Entry(id="td-zero/1/62590"))
 
 
 def exam(**more: object) -> Exam:
@@ -193,7 +193,7 @@ def test_verify_gives_the_same_points(sitting: Sitting, typed: tuple[str, ...]) 
 
 
 def test_an_exam_with_points_of_its_own_is_graded_by_its_manifest(tmp_path: Path) -> None:
-    entries = (Entry(id="return/1/430", points=(5, 3)), Entry(id="td-zero/1/7", points=4))
+    entries = (Entry(id="return/1/430", points=(5, 3)), Entry(id="td-zero/1/62590", points=4))
     planned = plan(Blueprint(problems=entries, seed=1))
     sitting = Sitting(planned, planned.versions[0], tmp_path / "answers.toml", START, tmp_path / "exam.json")
     (tmp_path / "exam.json").write_bytes(written(manifest(planned)))
