@@ -258,4 +258,7 @@ def _wanted(given: Given) -> str:
         sum_ = f"the smallest sum of all costs from the state ${x}$ on is ${x}^⊤ {P} {x}$"
     else:
         sum_ = f"the largest sum of all rewards from the state ${x}$ on is $V({x}) = {x}^⊤ {P} {x}$"
-    return f"Among all policies under which {to_zero} goes to $0$, {sum_}; the best action is ${u} = −{L} {x}$."
+    numbers = "States and actions are numbers. " if len(given.A) == len(given.B[0]) == 1 else ""
+    return (
+        f"{numbers}Among all policies under which {to_zero} goes to $0$, {sum_}; the best action is ${u} = −{L} {x}$."
+    )
