@@ -42,15 +42,17 @@ def solve(given: Given, work: Work) -> None:
     for place, action in enumerate(actions):
         if place:
             work.say("In the next step $p(s)$ is the belief that was found:")
-        after = _moved(work, action, belief, motion)
+        after = _moved(work, action, belief, motion, f'"step" {place + 1}' if len(actions) > 1 else None)
         work.picture(before_and_after, belief, after)
         belief = work.answer(after)
 
 
-def _moved(work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any]) -> dict[str, Any]:
+def _moved(
+    work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any], label: str | None = None
+) -> dict[str, Any]:
     """The belief after an action, state by state."""
     known = {"a": action, "p": belief, "motion": motion, "states": tuple(belief)}
-    return {state: work.step(PREDICT, s1=state, **known) for state in belief}
+    return {state: work.step(PREDICT, s1=state, label=label, **known) for state in belief}
 
 
 def oracle(given: Given) -> Answers:

@@ -28,6 +28,8 @@ def _next(expression: Expr) -> Expr:
         terms = list(map(_next, expression.args))
         if terms == list(expression.args):
             terms = _multiples(terms)
+        if terms == list(expression.args):
+            terms = _products_of_numbers(terms)
         return expression if terms == list(expression.args) else sum_of(terms)
     if not expression.is_Mul:
         return expression
@@ -73,6 +75,25 @@ def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | N
         return None
     summed = [Add._from_args(terms) if len(terms) > 1 else sum_of(terms) for terms in entries]
     return summed[0] if rows == columns == 1 else Blocks(rows, *summed)
+
+
+def _products_of_numbers(terms: list[Expr]) -> list[Expr]:
+    """The terms of a sum of numbers that were matrices, such as (−1)·(−3)·2·(−3/8), where one has many factors."""
+    long = any(sum(map(_is_number, Mul.make_args(term))) > 2 for term in terms)
+    return [_product_of_numbers(term) for term in terms] if long else terms
+
+
+def _product_of_numbers(term: Expr) -> Expr:
+    factors = [factor for factor in Mul.make_args(term) if factor != -1]
+    if len(factors) < 2 or not all(map(_is_number, factors)):
+        return term
+    value = leaf(sympy.Mul(*[evaluated(factor)[0] for factor in factors]))
+    return value if len(factors) == len(Mul.make_args(term)) else Mul._from_args([sympy.S.NegativeOne, value])
+
+
+def _is_number(factor: Expr) -> bool:
+    """Whether it is a matrix of one rational number."""
+    return isinstance(factor, MatrixLeaf) and factor.scalar and factor.args[0][0].is_Rational
 
 
 def _multiples(terms: list[Expr]) -> list[Expr]:
