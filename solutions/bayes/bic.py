@@ -9,7 +9,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, simplest, tidy, to_sympy, told
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import n as count
@@ -65,6 +65,19 @@ def _as_power(number: Value) -> str:
     return f"ln {told(number)} = {factor} ln {logarithm.args[0]}" if factor != 1 and logarithm.args else ""
 
 
+def _taken_apart(chance: Value) -> str:
+    """The logarithm of a chance in those of primes; nothing where it is one already."""
+    if sign(chance) <= 0 or chance == 1:
+        return ""
+    written = to_sympy(tidy(sympy.log(to_sympy(chance))))
+    factor, logarithm = written.as_coeff_Mul()
+    if factor in (1, -1) and isinstance(logarithm, sympy.log):
+        return ""
+    terms = [term.as_coeff_Mul() for term in sympy.Add.make_args(written)]
+    parts = [f"{'−' if n < 0 else '+'} {'' if abs(n) == 1 else f'{abs(n)} '}ln {log_.args[0]}" for n, log_ in terms]
+    return f"ln({told(chance)}) = {' '.join(parts).removeprefix('+ ')}".replace("= − ", "= −")
+
+
 def _logarithm(given: Given, name: str, work: Work) -> Value:
     """The log-likelihood of a fitted model; of one part in a power it is told how it is found."""
     assert given.fitted is not None
@@ -99,6 +112,9 @@ def _fit(work: Work, data: Data, model: str) -> Value:
         for coin in heads:
             work.say(f"For {coin}:")
             theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
+    taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
+    if told_apart := ", ".join(filter(None, taken_apart)):
+        work.say(f"${told_apart}$.")
     return work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
 
 
