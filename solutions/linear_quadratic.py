@@ -8,13 +8,15 @@ from rldrill.problems.linear_quadratic import LinearQuadratic, by_time
 from rldrill.problems.matrices import Rows
 from rldrill.solutions import matrices
 from rldrill.solutions.exact import ZERO, Value, exact, to_sympy
+from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.formula import Misconception, slip
+from rldrill.solutions.formula.putting_in import indexed
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import at
 from rldrill.solutions.rational import with_found
 from rldrill.solutions.sheet.linear_methods import Quadratic
 from rldrill.solutions.slips import right_answers
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 
 def known(given: LinearQuadratic) -> dict[str, Any]:
@@ -49,7 +51,8 @@ def with_price(work: Work, lqr: Quadratic, gain: matrices.AnyMatrix, price: Valu
     """The gain of the time 0 with the price put in that was found."""
     work.say(f"With $ρ = {to_sympy(price)}$ the gain is:")
     priced = matrices.matrix([with_found(entry, price) for entry in line] for line in gain.tolist())
-    work.give(lqr.gain, priced, t=0)
+    put_in = with_number(gain.tolist(), "rho", price)
+    work.lines.append(Equality(indexed(lqr.gain.left, {"t": 0}), (put_in, priced)))
     return priced
 
 

@@ -45,6 +45,7 @@ Linearised = Callable[[System, Work, str], Iterator[AnyMatrix]]
 def linearised(given: System, work: Work, order: str = "AB", rule: Rule = dynamics.chained) -> Iterator[AnyMatrix]:
     """The matrices in this order, of the Euler step if the system has one; a zero-order hold takes A first."""
     work.recall(LINEARISE)
+    work.say("Here $∇_s f$ is the matrix $A$ with the entries $A_{i j}$, and $∇_a f$ is $B$, likewise.")
     known = _point(work, given)
     found: dict[str, AnyMatrix] = {}
     for which in order:

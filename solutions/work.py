@@ -115,13 +115,18 @@ class Step(_Applied):
 
 
 def _without_detours(rights: Iterable[Math]) -> tuple[Math, ...]:
-    """The right sides without those that lead back to one before, which has the same signs in another order."""
+    """The right sides without those that lead back to one before, which has the same signs in another order.
+
+    Of two that differ in the order only, the later one is kept, unless the former is the first, with all its places.
+    """
     kept: dict[tuple[str, ...], Math] = {}
     for right in rights:
         spelled = tuple(sorted(sign for sign in signs(right) if sign != "+"))
         if spelled in kept:
             while next(reversed(kept)) != spelled:
                 kept.popitem()
+            if len(kept) > 1:
+                kept[spelled] = right
         else:
             kept[spelled] = right
     return tuple(kept.values())

@@ -223,9 +223,9 @@ def _handy_coins(count: int) -> tuple[tuple[tuple[int, int], ...], ...]:
 def question(given: Given) -> Question:
     """The models; log-likelihoods unless they are given, both criteria, and the winner."""
     names, criterion = given.names, given.criterion
-    cost = "2 k" if criterion == "AIC" else "k log n"
+    cost = "2 k" if criterion == "AIC" else "k ln n"
     rule = Paragraph(
-        f'$"{criterion}"(M) = −2 log p(D_z|M, θ) + {cost}$, where $log$ is the natural logarithm, $ln$.'
+        f'$"{criterion}"(M) = −2 ln p(D_z|M, θ) + {cost}$, with the natural logarithm.'
         + (" The smallest wins." if criterion == "AIC" or len(names) > 2 else "")
     )
     of = "both models" if len(names) == 2 else "every model"

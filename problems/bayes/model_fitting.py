@@ -247,7 +247,7 @@ def _line(line: Line) -> Question:
         ),
         Paragraph("The model is a line with independent normal noise of the same variance: $y = θ_0 + θ_1 x + ε$."),
     )
-    entries = Numbers(("θ_1", "θ_0"))
+    entries = Numbers(("θ̂_1", "θ̂_0"))
     ask = "What are the maximum likelihood (least squares) estimates of the slope $θ_1$ and the intercept $θ_0$?"
     parts = [Part(ask, entries)]
     if line.prior is not None:
@@ -259,5 +259,6 @@ def _line(line: Line) -> Question:
             known = f"The maximum a posteriori estimate of the slope is ${shown(line.prior.estimate)}$."
             parts.append(Part(f"{told} {known} What is $w$?", Number()))
         else:
-            parts.append(Part(f"{told} What are their maximum a posteriori estimates?", entries))
+            with_prior = Numbers(('θ̂_{1,"MAP"}', 'θ̂_{0,"MAP"}'))
+            parts.append(Part(f"{told} What are their maximum a posteriori estimates?", with_prior))
     return Question(blocks, tuple(parts))

@@ -154,7 +154,7 @@ def _parts(given: Given) -> Iterator[Part]:
         from_ = f" of the transform $T = {product}$ from the base to the last link" if last > 1 else " of $T_1$"
         yield Part(f"What is the rotation, the upper left $3 × 3$ corner{from_}?", Matrix(3, 3))
         yield Part(
-            f"What is the origin of the last frame, the upper right column of ${head}$?", Numbers(("x", "y", "z")),
+            f"What is the origin of {_frame(last)}, the upper right column of ${head}$?", Numbers(("x", "y", "z")),
             zero=True,
         )  # fmt: skip
         return

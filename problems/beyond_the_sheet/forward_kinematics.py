@@ -127,5 +127,5 @@ def _situation(given: Given) -> tuple[Block, ...]:
     if given.base is None:
         return situation(given)
     place = f"({shown(given.base.x)}, {shown(given.base.y)})"
-    turned = f"its base is at ${place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
+    turned = f"its base is at $(x_B, y_B) = {place}$ with its own $x_0$ axis turned by $φ_0 = {text(given.base.phi)}$"
     return situation(given, f"{turned} relative to the $x$ axis", "x_0", degrees(given.base.phi))

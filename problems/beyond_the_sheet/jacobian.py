@@ -111,11 +111,12 @@ def question(given: Given) -> Question:
     parts = [Part("What is $J$ at this configuration?", Matrix(m, n))]
     if given.velocity is not None:
         wanted = ", ".join(map(shown, given.velocity))
-        ask = (
-            f"The velocity of the end is to be $({', '.join(velocity)}) = ({wanted})$. What angular velocities of the "
-        )
         entries = tuple(f"ω_{index}" for index in range(1, n + 1))
-        parts.append(Part(f"{ask}joints achieve this?", Numbers(entries), zero=True))
+        ask = (
+            f"The velocity of the end is to be $({', '.join(velocity)}) = ({wanted})$. What angular velocities "
+            f"${', '.join(entries)}$ of the joints achieve this?"
+        )
+        parts.append(Part(ask, Numbers(entries), zero=True))
     else:
         parts.append(Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True))
     if given.square and given.velocity is None:

@@ -177,5 +177,6 @@ def _parts(given: Given) -> Iterator[Part]:
         return
     yield Part(f"What is $θ$ after the outer step{opened}?", Number(), zero=True)
     if given.first_order:
-        ask = "What would $θ$ be after the outer step of first-order MAML, which takes $dθ′_i/dθ$ to be $1$"
+        which = "i" if len(given.tasks) > 1 else "1"
+        ask = f"What would $θ$ be after the outer step of first-order MAML, which takes $dθ′_{which}/dθ$ to be $1$"
         yield Part(f"{ask}{opened}?", Number(), zero=True)

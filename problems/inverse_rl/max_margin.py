@@ -162,7 +162,7 @@ def question(given: Given) -> Question:
     )
     if given.asked_for:
         letter = shown(given.asked_for)
-        equal = f"For which ${letter}$ does each of the constraints hold with equality if $ξ = 0$?"
+        equal = f"For which ${letter}(π)$ does the constraint of the policy $π$ hold with equality if $ξ = 0$?"
         return Question(
             blocks,
             (

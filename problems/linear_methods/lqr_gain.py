@@ -140,6 +140,12 @@ def _open(given: Given) -> str:
     return " The price $ρ > 0$ of the action is left open." if given.left_open and given.action is None else ""
 
 
+def _aside(given: Given) -> str:
+    """What is said of matrices that are numbers, and of the one that plays no part."""
+    costs = "The state's own cost, with $Q_t$, is not needed here. "
+    return costs + ("States and actions are numbers. " if len(given.A) == len(given.B[0]) == 1 else "")
+
+
 def question(given: Given) -> Question:
     """The four matrices; the gain is asked for."""
     x, u, L, P, in_costs = given.notation
@@ -154,8 +160,8 @@ def question(given: Given) -> Question:
     discount = "" if given.gamma == 1 else f" It is discounted by $γ = {shown(given.gamma)}$."
     blocks = (
         Paragraph(
-            f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. {what} from the next time on is "
-            f"{value}.{discount}{_open(given)} At $t = 0$:"
+            f"A linear system ${x}_{{t+1}} = A_t {x}_t + B_t {u}_t$ {earns}. "
+            f"{_aside(given)}{what} from the next time on is {value}.{discount}{_open(given)} At $t = 0$:"
         ),
         *(Equation(mathematics(name), (tabular(lines),), ("=",), linear=True) for name, lines in named),
     )

@@ -28,7 +28,7 @@ from rldrill.problems.parts import Matrix, Number, Part
 
 TITLE = "LQR over an infinite horizon"
 SOURCE = "Bertsekas 2017, section 3.1"
-REVISION = 6
+REVISION = 7
 _LARGEST = 6
 
 
@@ -130,11 +130,16 @@ def _price(rng: Draws) -> Given:
         r = rng.whole(1, 6)
         q = r * (a - c) * (1 - gamma * a * c) / (gamma * b**2 * c)
         if rng.chance(Fraction(1, 2)):
-            return _scalar(a, b, _OPEN, r, gamma=gamma, closed_loop=c)
+            value = abs(r * (a - c) / (gamma * b**2 * c))
+            if max(q, value) <= _LARGEST_PRICE:
+                return _scalar(a, b, _OPEN, r, gamma=gamma, closed_loop=c)
+            continue
         if q.numerator * r < 100 and q.denominator * r < 50:
             return _scalar(a, b, Fraction(q.numerator), _OPEN, gamma=gamma, closed_loop=c)
 
 
+#: The largest price that is found, and the largest number that P is on the way to it.
+_LARGEST_PRICE = 100
 #: Systems A that are to be brought to the closed loop beside them.
 _LOOPS = (
     ("2", "1/4"), ("2", "1/3"), ("3", "1/4"), ("3", "1/5"), ("3/2", "1/2"), ("1", "1/2"), ("1", "1/3"), ("1", "1/4"),
@@ -258,4 +263,7 @@ def _wanted(given: Given) -> str:
         sum_ = f"the smallest sum of all costs from the state ${x}$ on is ${x}^⊤ {P} {x}$"
     else:
         sum_ = f"the largest sum of all rewards from the state ${x}$ on is $V({x}) = {x}^⊤ {P} {x}$"
-    return f"Among all policies under which {to_zero} goes to $0$, {sum_}; the best action is ${u} = −{L} {x}$."
+    numbers = "States and actions are numbers. " if len(given.A) == len(given.B[0]) == 1 else ""
+    return (
+        f"{numbers}Among all policies under which {to_zero} goes to $0$, {sum_}; the best action is ${u} = −{L} {x}$."
+    )

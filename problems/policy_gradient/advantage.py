@@ -205,7 +205,7 @@ def _of_one_state(given: OfValue | OfPolicy) -> Question:
         opening += (Paragraph("The policy $π$ takes them with these probabilities:"), policy_table(ahead.policy))
         of_states = "Its values in the next states are known."
         parts.append(Part(f'What is the value $V^π("{state}")$?', Number(), zero=True))
-    parts.append(Part(f"What is the advantage $A(s, a)$ of every action in {state}?", Values("A", pairs)))
+    parts.append(Part(f"What is the advantage $A^π(s, a)$ of every action in {state}?", Values("A^π", pairs)))
     blocks = (*opening, Paragraph(f"{of_states} {discount(given.gamma)}"), values_table(ahead.values, "V^π"))
     return Question(blocks, tuple(parts))
 

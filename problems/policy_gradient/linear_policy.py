@@ -117,7 +117,7 @@ def question(given: Given) -> Question:
                 Part(f"{which}?", Policy(actions)),
             ),
         )
-    where = "In each state, for which $w$ do both actions have the same value?"
+    where = "For which weight $w(s)$ do both actions have the same value in the state $s$?"
     return Question(
         blocks,
         (

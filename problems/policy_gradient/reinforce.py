@@ -34,8 +34,8 @@ def question(given: Given) -> Question:
     """The episode and the policy; the returns, the gradient and the new weights are asked for."""
     note = Paragraph(
         "REINFORCE multiplies the score $∇_θ log π(a_t|s_t)$ of each action by the discounted return from its own step "
-        "on, $G_t = r_{t+1} + γ r_{t+2} + …$, and sums over the episode. There is no further factor $γ^t$, and all "
+        "on, $R_t = r_{t+1} + γ r_{t+2} + …$, and sums over the episode. There is no further factor $γ^t$, and all "
         f"steps use the weights above. {discount(given.gamma)} {step_size(given.alpha)}"
     )
-    entries = tuple(f"G_{{{time}}}" for time in range(len(given.trajectory.rewards)))
+    entries = tuple(f"R_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     return Question((*episode_blocks(given), note), gradient_parts(given, "returns", entries))

@@ -60,8 +60,8 @@ _MOST = 360
 def question(given: Given) -> Question:
     """The episode, the policy and the baseline; the differences, the gradient and the new weights are asked for."""
     note = Paragraph(
-        "The score $∇_θ log π(a_t|s_t)$ of each action is multiplied by $δ_t = G_t − b(s_t)$, where "
-        "$G_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; the products are summed over "
+        "The score $∇_θ log π(a_t|s_t)$ of each action is multiplied by $δ_t = R_t − b(s_t)$, where "
+        "$R_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; the products are summed over "
         "the episode. There is no further factor $γ^t$, and all steps use the weights above. "
         f"{discount(given.gamma)} {step_size(given.alpha)} The baseline is:"
     )

@@ -52,7 +52,8 @@ def _filter(given: Given, work: Work, moves: tuple[Move, ...], *, afresh: bool =
         asked = step > 1 or given.outcome is None
         if step > 1:
             work.say("In the next step $p$ is the belief that was found:")
-        belief = settled if not asked and settled else _moves(event, work, moves, belief, known)
+        now = known | ({"label": f'"step" {step}'} if len(given.run) > 1 else {})
+        belief = settled if not asked and settled else _moves(event, work, moves, belief, now)
         if asked:
             work.picture(before_and_after, before, belief)
             belief = work.answer(belief)

@@ -24,33 +24,36 @@ def solve(given: Given, work: Work) -> None:
         *earlier, last = actions[: given.after]
         state, letter = given.outcome.state, given.left_open[0]
         moved = belief
-        for action in earlier:
+        for place, action in enumerate(earlier, 1):
             work.say(f"The action {action} gives:")
-            moved = _moved(work, action, moved, motion)
+            moved = _moved(work, action, moved, motion, f'"step" {place}')
         if earlier:
             work.say(f"The next action, {last}, gives:")
-        there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states)
+        label = f'"step" {given.after}' if len(actions) > 1 else None
+        there = work.step(PREDICT, s1=state, a=last, p=moved, motion=motion, states=states, label=label)
         found = work.answer(work.equate(letter, there, exact(given.outcome.probability)))
         belief, motion = knowns.settled(belief, found), knowns.settled(motion, found)
-        for action in earlier:
-            belief = work.answer(_moved(work, action, belief, motion))
+        for place, action in enumerate(earlier, 1):
+            belief = work.answer(_moved(work, action, belief, motion, f'"step" {place}'))
         if len(actions) > given.after:
             work.say(f"With this ${letter}$ the {'first' if given.after == 1 else 'next'} action gives:")
-            belief = _moved(work, last, belief, motion)
+            belief = _moved(work, last, belief, motion, label)
             work.say(f"The next action, {actions[given.after]}, gives:")
-        actions = actions[given.after :]
-    for place, action in enumerate(actions):
+    first = 0 if given.outcome is None else given.after
+    for place, action in enumerate(actions[first:]):
         if place:
             work.say("In the next step $p(s)$ is the belief that was found:")
-        after = _moved(work, action, belief, motion)
+        after = _moved(work, action, belief, motion, f'"step" {first + place + 1}' if len(actions) > 1 else None)
         work.picture(before_and_after, belief, after)
         belief = work.answer(after)
 
 
-def _moved(work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any]) -> dict[str, Any]:
+def _moved(
+    work: Work, action: str, belief: Mapping[str, Any], motion: Mapping[Any, Any], label: str | None = None
+) -> dict[str, Any]:
     """The belief after an action, state by state."""
     known = {"a": action, "p": belief, "motion": motion, "states": tuple(belief)}
-    return {state: work.step(PREDICT, s1=state, **known) for state in belief}
+    return {state: work.step(PREDICT, s1=state, label=label, **known) for state in belief}
 
 
 def oracle(given: Given) -> Answers:

@@ -47,7 +47,8 @@ def solve(given: Given, work: Work) -> None:
     for place, reading in enumerate(readings):
         if place:
             work.say(f"For the next measurement, {reading}, $p(h)$ is the belief that was found:")
-        posterior = _posterior(work, {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses})
+        now = {"z": reading, "p": belief, "likelihood": likelihood, "hypotheses": hypotheses}
+        posterior = _posterior(work, now, f'"measurement" {place + 1}' if len(readings) > 1 else None)
         work.picture(before_and_after, belief, posterior)
         belief = work.answer(posterior)
 
@@ -67,15 +68,15 @@ def _first(given: Given, work: Work, letter: str, known: dict[str, Any]) -> dict
     return belief
 
 
-def _posterior(work: Work, known: dict[str, Any]) -> dict[str, Value]:
+def _posterior(work: Work, known: dict[str, Any], label: str | None = None) -> dict[str, Value]:
     """Hypothesis by hypothesis; where there are many, what stands below the line is worked out once."""
     hypotheses, z = known["hypotheses"], known["z"]
     if len(hypotheses) <= LONG or z in hypotheses or work.misreads(BAYES):
-        return {h: work.step(BAYES, h=h, **known) for h in hypotheses}
+        return {h: work.step(BAYES, h=h, label=label, **known) for h in hypotheses}
     work.reading(BAYES)  # it is read, though written with p(z) here: so its misreadings can be made
-    below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, **known)
+    below = work.step(BAYES, into=lambda _, z: p(z), right=SUM_OF_JOINT, label=label, **known)
     known = known | {"p": known["p"] | {z: below}}
-    return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, **known) for h in hypotheses}
+    return {h: work.step(BAYES, right=BAYES_BY_READING, h=h, label=label, **known) for h in hypotheses}
 
 
 def oracle(given: Given) -> Answers:

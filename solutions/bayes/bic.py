@@ -9,7 +9,7 @@ import sympy
 from rldrill.problems.bayes.bic import Data, Given
 from rldrill.problems.document import joined
 from rldrill.problems.exact import shown
-from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, simplest, tidy, to_sympy
+from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.formula.notation import n as count
@@ -24,7 +24,7 @@ from rldrill.solutions.sheet.bayes import (
     LOG_LIKELIHOOD,
     akaike,
 )
-from rldrill.solutions.work import Equality, Work
+from rldrill.solutions.work import Equality, Step, Work
 
 
 def solve(given: Given, work: Work) -> None:
@@ -50,11 +50,32 @@ def _compare(given: Given, work: Work, better: int) -> None:
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
     work.recall(formula)
+    if given.fitted is not None and given.criterion == "BIC" and (power := _as_power(n)):
+        work.say(f"${power}$.")
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
     criteria = work.answer(criteria)
     work.answer(_winner(work, given, criteria, better))
+
+
+def _as_power(number: Value) -> str:
+    """The logarithm of a number that is a power, as it is taken apart; nothing for any other."""
+    factor, logarithm = to_sympy(tidy(sympy.log(to_sympy(number)))).as_coeff_Mul()
+    return f"ln {told(number)} = {factor} ln {logarithm.args[0]}" if factor != 1 and logarithm.args else ""
+
+
+def _taken_apart(chance: Value) -> str:
+    """The logarithm of a chance in those of primes; nothing where it is one already."""
+    if sign(chance) <= 0 or chance == 1:
+        return ""
+    written = to_sympy(tidy(sympy.log(to_sympy(chance))))
+    factor, logarithm = written.as_coeff_Mul()
+    if factor in (1, -1) and isinstance(logarithm, sympy.log):
+        return ""
+    terms = [term.as_coeff_Mul() for term in sympy.Add.make_args(written)]
+    parts = [f"{'−' if n < 0 else '+'} {'' if abs(n) == 1 else f'{abs(n)} '}ln {log_.args[0]}" for n, log_ in terms]
+    return f"ln({told(chance)}) = {' '.join(parts).removeprefix('+ ')}".replace("= − ", "= −")
 
 
 def _logarithm(given: Given, name: str, work: Work) -> Value:
@@ -91,6 +112,9 @@ def _fit(work: Work, data: Data, model: str) -> Value:
         for coin in heads:
             work.say(f"For {coin}:")
             theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
+    taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
+    if told_apart := ", ".join(filter(None, taken_apart)):
+        work.say(f"${told_apart}$.")
     return work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
 
 
@@ -100,7 +124,11 @@ def _border(given: Given, work: Work, better: int) -> None:
     simple, rich = sorted(given.fitted, key=lambda name: given.fitted[name].k)  # type: ignore[index]
     models = given.fitted[rich], given.fitted[simple]
     work.recall(BIC)
-    fit = {name: _logarithm(given, name, work) for name in given.fitted}
+    fit = {}
+    for name, model in given.fitted.items():
+        fit[name] = _logarithm(given, name, work)
+        known = {"M": name, "log_likelihood": fit[name], "free": exact(model.k)}
+        work.lines.append(Step(BIC, BIC.right, known, None, "="))
     work.say(f"It is the same for {rich}, on the left, and {simple}, on the right, if")
     sides = [
         sympy.Add(

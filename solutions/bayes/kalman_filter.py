@@ -7,6 +7,8 @@ from rldrill.problems.bayes.kalman_filter import Given
 from rldrill.problems.exact import Parameter
 from rldrill.problems.fractions import Fraction
 from rldrill.solutions.exact import Value, exact, to_sympy
+from rldrill.solutions.formula.finding import with_number
+from rldrill.solutions.formula.putting_in import indexed
 from rldrill.solutions.matrices import given as given_matrix
 from rldrill.solutions.matrices import identity, matrix
 from rldrill.solutions.numerics import Array, np
@@ -23,7 +25,7 @@ from rldrill.solutions.sheet.bayes import (
     VARIANCES_FOR_INVERSES,
     without_command,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 MISCONCEPTIONS = (GAIN_ON_PREDICTION, VARIANCES_FOR_INVERSES, PROCESS_NOISE_FORGOTTEN)
 
@@ -78,7 +80,8 @@ def _noise(given: Given, work: Work, models: dict[str, Any], variance: Value) ->
     known["mean_bar"] = {1: work.step(KALMAN_MOVE_MEAN if given.driven else without_command(), **known)}
     gain = matrix([[with_found(known["Kt"][1][0, 0], found)]])
     work.say(f"With $w = {to_sympy(found)}$ the gain is:")
-    work.give(KALMAN_GAIN, gain, t=1)
+    put_in = with_number(known["Kt"][1].tolist(), "w", found)
+    work.lines.append(Equality(indexed(KALMAN_GAIN.left, {"t": 1}), (put_in, gain)))
     known["Kt"] = {1: gain}
     work.answer(work.step(KALMAN_MEAN, **known)[0, 0])
 

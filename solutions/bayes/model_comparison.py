@@ -4,7 +4,7 @@ from typing import Any
 
 from rldrill.problems.bayes.model_comparison import CoinModel, Given
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import Value, exact, sign
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
@@ -33,14 +33,24 @@ def solve(given: Given, work: Work) -> None:
         if given.odds is not None:
             work.answer(work.equate(given.left_open[0], odds, exact(given.odds)))
             return
-        work.answer(odds)
+        odds = work.answer(odds)
     else:
         work.answer({name: work.step(MODEL_POSTERIOR, M=name, **known) for name in names})
+    if len(names) == 2:
+        _by_the_odds(work, names, odds)
+        return
     best = work.step(MODEL_COMPARISON, **known)
-    how = "more" if len(names) == 2 else "most"
-    told = f"“{best[0]}” is the {how} probable model" if len(best) == 1 else "No model is more probable than all others"
+    told = f"“{best[0]}” is the most probable model" if len(best) == 1 else "No model is more probable than all others"
     work.say(f"{told}: {'yes' if best == names[:1] else 'no'}.")
     work.answer(best == names[:1])
+
+
+def _by_the_odds(work: Work, names: tuple[str, ...], odds: Value) -> None:
+    """Of two models the first is the more probable one where the odds are above 1."""
+    side = sign(odds - 1)
+    relation, what = {1: ("above", "the more"), -1: ("below", "the less"), 0: ("equal to", "not the more")}[side]
+    work.say(f"The odds are {relation} $1$: “{names[0]}” is {what} probable model: {'yes' if side > 0 else 'no'}.")
+    work.answer(side > 0)
 
 
 def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -> Any:

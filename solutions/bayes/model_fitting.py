@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from rldrill.problems.bayes.model_fitting import Coin, Given, Line, Sample
-from rldrill.solutions.exact import exact
+from rldrill.solutions.exact import exact, told
 from rldrill.solutions.formula.formula import Formula, slip
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -25,6 +25,7 @@ from rldrill.solutions.sheet.bayes import (
     PRODUCTS,
     SAMPLE_VARIANCE,
     SQUARES,
+    line_intercept_map,
 )
 from rldrill.solutions.work import Work
 
@@ -49,15 +50,26 @@ def _coin(coin: Coin, work: Work, with_prior: Formula) -> None:
         "heads": exact(coin.heads), "tails": exact(coin.tails), "beta_a": exact(coin.a), "beta_b": exact(coin.b),
     }  # fmt: skip
     work.answer(work.step(COIN_ML, **known))
-    _most_probable(work)
+    ones, zeros = (
+        told(total) for total in (known["heads"] + known["beta_a"] - 1, known["tails"] + known["beta_b"] - 1)
+    )
+    _most_probable(
+        work,
+        "Likelihood times prior is proportional to $θ^{n_1} (1 − θ)^{n_0}·θ^{a − 1} (1 − θ)^{b − 1}$, that is "
+        f"$θ^{{{ones}}} (1 − θ)^{{{zeros}}}$. It is greatest where the derivative of its logarithm, "
+        f"${ones}/θ − {zeros}/(1 − θ)$, is $0$:",
+    )
     work.answer(work.step(with_prior, **known))
 
 
-def _most_probable(work: Work) -> None:
-    """What the maximum a posteriori estimate is, before the formula for it."""
-    work.say("The maximum a posteriori estimate is the parameter that is most probable given the data:")
+def _most_probable(work: Work, why: str) -> None:
+    """What the maximum a posteriori estimate is, and how the formula for it comes from likelihood times prior."""
+    work.say(
+        "The maximum a posteriori estimate is the parameter that is most probable given the model $M$ and the data "
+        "$D_z$:"
+    )
     work.recall(MODEL_FITTING)
-    work.say("With this prior that is:")
+    work.say(why)
 
 
 def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
@@ -69,7 +81,11 @@ def _sample(sample: Sample, work: Work, with_prior: Formula) -> None:
         work.answer(work.step(SAMPLE_VARIANCE, **known))
     if prior is None:
         return
-    _most_probable(work)
+    _most_probable(
+        work,
+        "Likelihood times prior is proportional to $exp(−Σ_i (x_i − μ)^2/(2 σ^2) − (μ − μ_0)^2/(2 σ_0^2))$. It is "
+        "greatest where the derivative of the exponent, $n (μ̂ − μ)/σ^2 − (μ − μ_0)/σ_0^2$, is $0$:",
+    )
     noise, mean, variance = exact(prior.noise), exact(prior.mean), exact(prior.variance)
     peak = work.step(with_prior, sigma2=noise, prior_mean=mean, prior_variance=variance, **known)
     work.answer(peak if prior.estimate is None else work.equate("w", peak, exact(prior.estimate)))
@@ -89,12 +105,17 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     prior = line.prior
     if prior is None:
         return
-    _most_probable(work)
+    _most_probable(
+        work,
+        "Likelihood times prior is proportional to $exp(−Σ_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
+        "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent by $θ_1$, "
+        "$(S_{xy} − θ_1 S_{xx})/σ^2 − θ_1/σ_0^2$, is $0$:",
+    )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)
     if prior.estimate is not None:
         work.answer(work.equate("w", slope, exact(prior.estimate)))
     else:
-        work.answer((slope, work.step(LINE_INTERCEPT, slope=slope, **known)))
+        work.answer((slope, work.step(line_intercept_map(), slope_map=slope, **known)))
 
 
 @slip(

@@ -73,7 +73,10 @@ def _pose(work: Work, known: dict[str, Any]) -> None:
     work.answer(tuple(seen.entries()))
 
 
-_PARTS = "$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, its last column."
+_PARTS = (
+    "$R_i$ is the rotation in $T_i$, its upper left corner, and $o_i$ the origin, the first three entries of its last "
+    "column."
+)
 
 
 def _through(given: Given, work: Work, known: dict[str, Any], point: AnyMatrix) -> None:

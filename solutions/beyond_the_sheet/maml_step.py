@@ -33,6 +33,7 @@ def solve(given: Given, work: Work) -> None:
         "optimum": {index: exact(task.optimum) for index, task in enumerate(given.tasks, 1)},
         "tasks": tuple(tasks),
     }
+    work.recall(MAML_INNER)
     if given.theta is None:
         _staying(work, known)
         return

@@ -6,7 +6,7 @@ import sympy
 from sympy import Add, Expr, Mul
 
 from rldrill.solutions.formula.node import Node
-from rldrill.solutions.formula.nodes.leaves import MatrixLeaf, VectorLeaf, leaf
+from rldrill.solutions.formula.nodes.leaves import Factor, MatrixLeaf, VectorLeaf, leaf
 from rldrill.solutions.formula.nodes.matrices import Blocks, Transposed
 from rldrill.solutions.formula.putting_in import evaluated, product_of, sum_of
 
@@ -28,6 +28,8 @@ def _next(expression: Expr) -> Expr:
         terms = list(map(_next, expression.args))
         if terms == list(expression.args):
             terms = _multiples(terms)
+        if terms == list(expression.args):
+            terms = _products_of_numbers(terms)
         return expression if terms == list(expression.args) else sum_of(terms)
     if not expression.is_Mul:
         return expression
@@ -64,7 +66,11 @@ def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | N
     if rows * columns > _ENTRIES or wide:
         return None
     entries = [
-        [Mul._from_args([leaf(a), leaf(b)]) for a, b in zip(left.row(i), right.col(j), strict=True) if a != 0 != b]
+        [
+            Mul._from_args([_put_in(a), _put_in(b)])
+            for a, b in zip(left.row(i), right.col(j), strict=True)
+            if a != 0 != b
+        ]
         for i in range(rows)
         for j in range(columns)
     ]
@@ -73,6 +79,37 @@ def _sums(left: sympy.ImmutableMatrix, right: sympy.ImmutableMatrix) -> Expr | N
         return None
     summed = [Add._from_args(terms) if len(terms) > 1 else sum_of(terms) for terms in entries]
     return summed[0] if rows == columns == 1 else Blocks(rows, *summed)
+
+
+def _times(a: Expr, b: Expr) -> Expr:
+    return Mul._from_args([_put_in(a), _put_in(b)])
+
+
+def _put_in(entry: Expr) -> Expr:
+    """An entry as a factor; a multiple of π stays together, as one of a root does."""
+    together = entry.is_Mul and entry.is_number and not entry.could_extract_minus_sign()
+    return Factor(entry) if together else leaf(entry)
+
+
+def _products_of_numbers(terms: list[Expr]) -> list[Expr]:
+    """The terms of a sum of numbers that were matrices, such as (−1)·(−3)·2·(−3/8), where one has many factors."""
+    long = any(sum(map(_is_number, Mul.make_args(term))) > 2 for term in terms)
+    return [_product_of_numbers(term) for term in terms] if long else terms
+
+
+def _product_of_numbers(term: Expr) -> Expr:
+    factors = [factor for factor in Mul.make_args(term) if factor != -1]
+    if len(factors) < 2 or not all(map(_is_number, factors)):
+        return term
+    value = leaf(sympy.Mul(*[factor.args[0][0] if isinstance(factor, MatrixLeaf) else factor for factor in factors]))
+    return value if len(factors) == len(Mul.make_args(term)) else Mul._from_args([sympy.S.NegativeOne, value])
+
+
+def _is_number(factor: Expr) -> bool:
+    """Whether it is a matrix of one rational number, or such a number itself."""
+    if isinstance(factor, MatrixLeaf):
+        return bool(factor.scalar and factor.args[0][0].is_Rational)
+    return bool(factor.is_Rational and factor != -1)
 
 
 def _multiples(terms: list[Expr]) -> list[Expr]:

@@ -74,6 +74,8 @@ def indexed(expression: Expr, known: Known) -> Expr:
     """Put in the indices only: ``V(s_t)`` becomes ``V(cool)``."""
     if isinstance(expression, Node) and expression.code:
         return expression.func(*[_index(argument, known) for argument in expression.args])
+    if expression.is_Mul or expression.is_Pow:  # a quotient of quantities
+        return expression.func(*[indexed(argument, known) for argument in expression.args], evaluate=False)
     return expression
 
 

@@ -54,17 +54,18 @@ def _error(given: Given, work: Work, known: Mapping[str, Any], theta: Vector, ti
     """Both estimates with the weights that are current, then the TD error."""
     run = given.trajectory
     numbered = by_number(tuple(theta))
+    label = f"t = {time}" if len(run.rewards) > 1 else None
     if not given.actions:
         values = dict.fromkeys(run.terminal, ZERO)
         for state in run.states[time : time + 2]:
             if state not in values:
-                values[state] = work.step(LINEAR_STATE_VALUE, s=state, **numbered, phi=known["phi"])
+                values[state] = work.step(LINEAR_STATE_VALUE, s=state, label=label, **numbered, phi=known["phi"])
         return work.step(TD_ERROR_APPROXIMATE, t=time, Vhat=values, **known)
     pairs = {(state, knowns.NO_ACTION): ZERO for state in run.terminal}
     for moment in (time, time + 1):
         state, action = pair = run.states[moment], known["A"][moment]
         if pair not in pairs:
-            pairs[pair] = work.step(LINEAR_VALUE, s=state, a=action, **numbered, f=known["f"])
+            pairs[pair] = work.step(LINEAR_VALUE, s=state, a=action, label=label, **numbered, f=known["f"])
     return work.step(SARSA_ERROR_APPROXIMATE, t=time, Qhat=pairs, **known)
 
 

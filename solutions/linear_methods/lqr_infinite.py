@@ -70,9 +70,10 @@ def _factors(regulator: Regulator, closed: AnyMatrix) -> tuple[Value, ...] | Non
 
 def _goes_to_zero(given: Given, factors: tuple[Value, ...]) -> str:
     """That the state goes to 0, as it must: the condition that the question states, checked."""
-    many = len(factors) > 1
+    many, modes = len(factors) > 1, _modes(_regulator(given))
+    what = "entries of the state" if modes is None or modes.kind is Modes.ENTRIES else "modes"
     numbers = joined([f"${told(factor) if is_rational(factor) else decimal(factor, 4)}$" for factor in factors])
-    loop = f"The modes are multiplied by {numbers}" if many else f"$A − B {given.notation.gain}$"
+    loop = f"The {what} are multiplied by {numbers}" if many else f"$A − B {given.notation.gain}$"
     if given.gamma == 1:
         if many:
             return f"{loop} at every time, all between $−1$ and $1$: the state goes to $0$, as it must."
@@ -80,7 +81,7 @@ def _goes_to_zero(given: Given, factors: tuple[Value, ...]) -> str:
         return f"$A − B {given.notation.gain} {value}$ is between $−1$ and $1$: stable, as it must be."
     gamma = exact(given.gamma)
     squares = joined([f"${told(gamma)}·{_squared(each)} = {told(gamma * each**2)}$" for each in dict.fromkeys(factors)])
-    lead = f"The modes are multiplied by {numbers}, and " if many else f"$γ (A − B {given.notation.gain})^2$ is "
+    lead = f"The {what} are multiplied by {numbers}, and " if many else f"$γ (A − B {given.notation.gain})^2$ is "
     below = "both below" if " and " in squares else "below"
     return f"{lead}{squares}, {below} $1$: $γ^{{t/2}} {given.notation.state}_t$ goes to $0$, as it must."
 

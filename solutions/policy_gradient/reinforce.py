@@ -26,7 +26,7 @@ def solve(given: Given, work: Work) -> None:
     G = dict(enumerate(work.answer(tuple(returns(work, known).values()))))
     if given.gamma != 1:
         work.say(
-            "Without the factor $γ^t$ before $G_t$, which is left out as the question says, the gradient is taken as"
+            "Without the factor $γ^t$ before $R_t$, which is left out as the question says, the gradient is taken as"
         )
     work.recall(REINFORCE)
     known |= scores(work, given, known)

@@ -104,6 +104,7 @@ ordinate = letter("ordinate", "y")
 value_of = quantity("value_of", lambda of, index: Script(of, index))
 average = quantity("average", lambda of: Accent(of, "bar"))
 slope = letter("slope", Script(_HAT, number(1)))
+intercept_map = letter("intercept_map", Script(_HAT, row(number(0), punctuation(","), word("MAP"))))
 slope_map = letter("slope_map", Script(_HAT, row(number(1), punctuation(","), word("MAP"))))
 S_xy, S_xx = (letter(f"S_{both}", Script(variable("S"), row(*map(variable, both)))) for both in ("xy", "xx"))
 intercept = letter("intercept", Script(_HAT, number(0)))
@@ -572,3 +573,10 @@ def few_values() -> Formula:
             source="MacKay 2003, section 3.2, with a sum for the integral",
             hint="Weight the likelihood at every possible θ by the prior of that θ, and add.",
         )
+
+
+@cache
+def line_intercept_map() -> Formula:
+    """The intercept of the line whose slope is drawn towards 0 by its prior."""
+    with evaluate(False):
+        return replace(LINE_INTERCEPT, left=intercept_map, right=average(ordinate) - slope_map * average(abscissa))

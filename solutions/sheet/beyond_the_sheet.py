@@ -6,7 +6,7 @@ from functools import cache
 
 from sympy import Add, Expr, Pow, cos, evaluate, sin
 
-from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, number, row, variable, word
+from rldrill.problems.mathematics import Fence, Fraction, Math, Script, listed, row, variable, word
 from rldrill.solutions.formula.formula import Formula, Misconception, Place
 from rldrill.solutions.formula.notation import (
     Blocks,
@@ -31,7 +31,7 @@ theta = quantity("thetaj", subscripted("θ"))
 phi = quantity("phi", subscripted("φ"))
 length = quantity("length", subscripted("l"))
 x_of, y_of = quantity("xof", subscripted("x")), quantity("yof", subscripted("y"))
-x0, y0 = letter("x0", Script(variable("x"), number(0))), letter("y0", Script(variable("y"), number(0)))
+x0, y0 = (letter(f"{axis}0", Script(variable(axis), variable("B"))) for axis in "xy")
 x, y, heading = letter("xe", "x"), letter("ye", "y"), letter("headinge", "φ")
 Jx, Jy = quantity("Jx", _jacobian_entry("x")), quantity("Jy", _jacobian_entry("y"))
 Jacobian = letter("Jac", "J", matrix=True)

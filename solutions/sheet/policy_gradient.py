@@ -34,12 +34,13 @@ from rldrill.solutions.formula.notation import (
     Least,
     MeanOver,
     P,
-    Q,
+    Qpi,
     S,
     Successors,
     SumOver,
     T,
     V,
+    Vpi,
     a,
     a1,
     alpha,
@@ -92,10 +93,10 @@ ones = letter("ones", "1", matrix=True)
 odds = quantity("odds", _odds)
 score = quantity("score", _score, matrix=True)
 gradient = letter("gradient", row(_NABLA, variable("J"), Fence(variable("θ"))), matrix=True)
-G_t = quantity("G", subscripted("G"))
+G_t = quantity("G", subscripted("R"))
 beta = letter("beta", "β")
 delta = quantity("delta", subscripted("δ"))
-Adv = quantity("Adv", called("A"))
+Adv = quantity("Adv", called(Script(variable("A"), above=variable("π"))))
 b_of = quantity("baseline", called("b"))
 A_t = quantity("A_t", subscripted("A"))
 GAE_t = quantity("GAE_t", subscripted(Accent(variable("A"), "hat")))
@@ -136,7 +137,7 @@ with evaluate(False):
         title="REINFORCE",
         source="Williams 1992; Sutton & Barto 2018, section 13.3",
         hint="The score of every action taken, weighted by the return from its own step on, summed over the episode.",
-        note="$G_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
+        note="$R_t$ is the discounted return from step $t$ on; the further factor $γ^t$ of Sutton & Barto's box is "
         "left out, as it mostly is.",
     )
     RETURN_FROM_A_STEP = Formula(
@@ -323,7 +324,7 @@ with evaluate(False):
         "The baseline is subtracted from the return: what counts is how much better it was than usual.",
     )
     BASELINE_FORGOTTEN = Misconception(
-        "baseline-forgotten", "The return is taken relative to the baseline: Gₜ − b(sₜ)."
+        "baseline-forgotten", "The return is taken relative to the baseline: Rₜ − b(sₜ)."
     )
     BASELINE = Formula(
         "baseline",
@@ -338,7 +339,7 @@ with evaluate(False):
         },
     )
     BASELINE_ON_THE_POLICY = Misconception(
-        "baseline-on-the-policy", "The baseline is subtracted from the return Gₜ, not from the gradient of log π."
+        "baseline-on-the-policy", "The baseline is subtracted from the return Rₜ, not from the gradient of log π."
     )
     REINFORCE_BASELINE = Formula(
         "reinforce-baseline",
@@ -367,13 +368,13 @@ with evaluate(False):
     ADVANTAGE = Formula(
         "advantage",
         Adv(s, a),
-        Q(s, a) - V(s),
+        Qpi(s, a) - Vpi(s),
         title="Advantage",
         source="Sutton & Barto 2018, section 13.4; Schulman et al. 2016, section 2",
         hint="How much better the action is than what the policy does on average in this state.",
         misread={
-            ADVANTAGE_SIGN: V(s) - Q(s, a),
-            NEXT_STATES_VALUE: Q(s, a) - SumOver(P(s, a, s1) * V(s1), s1, Successors(s, a)),
+            ADVANTAGE_SIGN: Vpi(s) - Qpi(s, a),
+            NEXT_STATES_VALUE: Qpi(s, a) - SumOver(P(s, a, s1) * Vpi(s1), s1, Successors(s, a)),
         },
     )
     GAE_WITHOUT_LAMBDA = Misconception(

@@ -148,3 +148,14 @@ def test_a_single_choice_may_be_called_anything(typed: str) -> None:
     exercise = read({"family": "bandit", "given": {"pulls": pulls}})
     assert exercise.check(typed, "b").says == "Right."
     assert not exercise.check(typed.replace("blue", "red"), "b").accepted
+
+
+@pytest.mark.parametrize("family", ["bayes-rule", "bayes-predict", "bayes-filter", "semi-gradient-td", "reinforce"])
+def test_the_same_sign_never_has_two_values_in_one_working(family: str) -> None:
+    for level in (1, 2):
+        for seed in range(8):
+            values: dict[str, set[str]] = {}
+            for block in draw(family, level, seed).working():
+                if found := re.match(r" *((?:t = \d+: )?[^=]+?) = .*?([^=]+)$", unicode_text(block)):
+                    values.setdefault(found[1], set()).add(found[2].strip())
+            assert not {head: results for head, results in values.items() if len(results) > 1}
