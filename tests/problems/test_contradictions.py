@@ -1,11 +1,14 @@
-"""Givens that go together are read; where one is changed so that they do not, a sentence says what is wrong."""
+"""Givens that go together are read and solved; where one is changed so that they do not, a sentence says why."""
 
 from typing import Any
 
 import pytest
 
+from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
+from rldrill.problems.family import Problem
+from rldrill.solutions.solution import solve
 
 FILTER: dict[str, Any] = {
     "belief": {"a": "q", "b": "1-q"}, "motion": {"go": {"a": {"a": 1}, "b": {"b": "1/2", "a": "1/2"}}},
@@ -37,7 +40,7 @@ EQUAL: dict[str, Any] = {
 }  # fmt: skip
 LINK = {"theta": "pi/3", "d": 1, "a": 0, "alpha": "pi/2"}
 ARM: dict[str, Any] = {"links": [LINK, LINK], "name": "an arm", "asked": "point", "point": [1, 1, -2]}
-PLANAR: dict[str, Any] = {"lengths": ["w", 2], "angles": ["pi/2", "pi/2"], "x": -2}
+PLANAR: dict[str, Any] = {"lengths": ["w", 2], "angles": ["0", "pi/2"], "x": 3}
 JACOBIAN: dict[str, Any] = {"lengths": [3, 3], "angles": ["0", "pi/2"], "rates": [2, 1], "orientation": False}
 MAML: dict[str, Any] = {"theta": 1, "tasks": [[1, 5]], "alpha": "1/2", "beta": "1/4"}
 GREEDY: dict[str, Any] = {"state": "a", "values": {"x": 1, "y": 6}, "epsilon": "epsilon", "state_value": 5}
@@ -60,7 +63,12 @@ KNOWN_V: dict[str, Any] = {
             "terminal": ["end"]},
     "values": {"a": 4}, "missing": "b", "gamma": "1/2",
 }  # fmt: skip
-TIE: dict[str, Any] = {"mdp": KNOWN_V["mdp"], "sweeps": 1, "gamma": "gamma", "tie": "a"}
+# One sweep from 0 gives 3 and 6: 1 + γ·6 = 3 + γ·3 for γ = 2/3.
+TIE: dict[str, Any] = {
+    "mdp": {"transitions": [["a", "x", "b", 1, 1], ["a", "y", "a", 1, 3], ["b", "x", "end", 1, 6]],
+            "terminal": ["end"]},
+    "sweeps": 1, "gamma": "gamma", "tie": "a",
+}  # fmt: skip
 BUMPS = {"position": [4], "centres": [[3], [8]], "width": 5}
 LINEAR: dict[str, Any] = {"theta": [3, 1], "actions": ["x", "y"], "features": [1]}
 MOMENTS: dict[str, Any] = {
@@ -76,7 +84,7 @@ DDP: dict[str, Any] = {
 }  # fmt: skip
 AFFINE: dict[str, Any] = {"dynamics": {"h": "u - h^2"}, "state": {"h": 1}, "action": {"u": 1}, "step": "1/2"}
 GAIN: dict[str, Any] = {"A": 1, "B": 1, "R": "rho", "P": -2, "start": [2], "action": -1}
-CLOSED: dict[str, Any] = {"A": 2, "B": 1, "Q": "rho", "R": 4, "closed_loop": "1/2"}
+CLOSED: dict[str, Any] = {"A": 2, "B": 1, "Q": "rho", "R": 4, "closed_loop": "1/4"}
 COSTS: dict[str, Any] = {
     "A": 1, "B": 1, "Q": 1, "R": "rho", "start": [1], "horizon": 1, "L": 1, "total": -3,
 }  # fmt: skip
@@ -261,11 +269,27 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
 ]  # fmt: skip
 
 
+def stated(fields: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in fields.items() if value is not None}
+
+
+#: What goes together, each once.
+READ = list({str(case[:2]): (case[0], stated(case[1])) for case in CASES}.values())
+
+
 @pytest.mark.parametrize(("name", "given", "change", "says"), CASES)
 def test_what_goes_together_is_read_and_what_does_not_is_told(
     name: str, given: dict[str, Any], change: dict[str, Any], says: str
 ) -> None:
-    family(name).read({key: value for key, value in given.items() if value is not None})
+    family(name).read(stated(given))
     with pytest.raises(FileError) as refused:
-        family(name).read({key: value for key, value in (given | change).items() if value is not None})
+        family(name).read(stated(given | change))
     assert says in str(refused.value)
+
+
+@pytest.mark.parametrize(("name", "given"), READ)
+def test_what_is_read_is_solved_with_the_formulas_as_without_them(name: str, given: dict[str, Any]) -> None:
+    found = Finding(family(name), 1)
+    examine(solve(Problem(family(name), family(name).read(given))), found)
+    assert not found.disagreements
+    assert not found.refused
