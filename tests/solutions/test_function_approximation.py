@@ -188,14 +188,3 @@ def test_features_of_states_and_actions_have_one_letter_everywhere() -> None:
             for level in (1, 2, 3):
                 exercise = rldrill.draw(name, level, seed)
                 assert "φ(s, a)" not in f"{exercise.question()} {exercise.working()}", exercise.id
-
-
-def test_behind_the_end_there_is_no_action_value() -> None:
-    # θ_x = 2 and θ_y = 4. δ₀ = 1 + 1/2·(4·2) − 2·1 = 3, so that θ_x = 2 + 1/2·3·1; δ₁ = 3 − 4·2 = −5, and
-    # θ_y = 4 + 1/2·(−5)·2.
-    found = solved(
-        "semi-gradient-td",
-        trajectory={"states": ["a", "b", "end"], "actions": ["x", "y"], "rewards": [1, 3], "terminal": ["end"]},
-        features={"a": [1], "b": [2]}, theta=[2, 4], actions=["x", "y"], alpha="1/2", gamma="1/2",
-    )  # fmt: skip
-    assert found == {"a": (3, -5), "b": (fmpq(7, 2), -1)}

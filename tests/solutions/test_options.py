@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from flint import fmpq
 
 from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family as family_of
@@ -88,5 +89,47 @@ def test_both_ways_to_solve_it_agree(name: str, changed: dict[str, Any]) -> None
                 continue  # it does not fit this problem
             examine(solution, finding)
     assert finding.drawn
+    assert not finding.disagreements
+    assert not finding.refused
+
+
+CHAIN = {"transitions": [["a", "go", "b", 1, 1], ["a", "wait", "a", 1, 0], ["b", "go", "end", 1, 2]],
+         "terminal": ["end"]}  # fmt: skip
+ENDED = {"states": ["a", "b", "end"], "rewards": [1, 2], "terminal": ["end"]}
+GO = {"a": "go", "b": "go"}
+
+#: Problems of files only, with their answers worked out by hand.
+WHOLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
+    # The mean of 6, 4 and 8; the squares of 0, 2 and 2 over 3 and over 2.
+    ("model-fitting", {"sample": {"values": [6, 4, 8]}}, {"a": 6, "b": fmpq(8, 3), "c": 4}),
+    ("linear-value", {"theta": [3, -1, 1, 2], "actions": ["x", "y"], "features": [1, 3], "action": "y"},
+     {"a": (0, 0, 1, 3), "b": {("s", "x"): 0, ("s", "y"): 7}, "c": {"s": ("y",)}}),
+    # δ₀ = 1 + 1/2·4 − 1 and δ₁ = 2 − 4; then 2 + 1/2·1/2·(−2).
+    ("advantage", {"run": {"trajectory": ENDED, "values": {"a": 1, "b": 4}, "lam": "1/2"}, "gamma": "1/2"},
+     {"a": (2, -2), "b": (fmpq(3, 2), -2)}),
+    # θ_x = 2 and θ_y = 4: δ₀ = 1 + 1/2·8 − 2 and δ₁ = 2 − 8, for nothing comes behind the end.
+    ("semi-gradient-td",
+     {"trajectory": ENDED | {"actions": ["x", "y"]}, "features": {"a": [1], "b": [2]}, "theta": [2, 4],
+      "actions": ["x", "y"], "alpha": "1/2", "gamma": "1/2"}, {"a": (3, -6), "b": (fmpq(7, 2), -2)}),
+    # Waiting loses nothing, but whoever always waits earns nothing.
+    ("optimal-value", {"mdp": CHAIN, "gamma": 1},
+     {"a": {"a": 3, "b": 2}, "b": {"a": ("go",), "b": ("go",)},
+      "c": {("a", "go"): 3, ("a", "wait"): 3, ("b", "go"): 2}}),
+    ("policy-iteration", {"mdp": CHAIN, "start": GO, "gamma": 1, "rounds": 1},
+     {"a": {"a": 3, "b": 2}, "b": {"a": ("go",), "b": ("go",)}, "c": True}),
+    ("policy-improvement-theorem", {"mdp": CHAIN, "policy": GO, "other": GO, "gamma": 1},
+     {"a": {"a": 3, "b": 2}, "b": {("a", "go"): 3, ("b", "go"): 2}, "c": True}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "given", "answers"), WHOLE, ids=[name for name, *_ in WHOLE])
+def test_it_is_solved_as_by_hand_and_without_the_formulas(
+    name: str, given: dict[str, Any], answers: dict[str, Any]
+) -> None:
+    family = family_of(name)
+    solution = solve(Problem(family, family.read(given)))
+    assert solution.answers == answers
+    finding = Finding(family, 1)
+    examine(solution, finding)
     assert not finding.disagreements
     assert not finding.refused
