@@ -111,6 +111,14 @@ COINS: dict[str, Any] = {"data": {"tosses": {"c": [1, 1000]}, "models": ["fair",
 BORDER = {"n": None, "border": "more"}
 BARS: dict[str, Any] = {"pulls": [["x", 5], ["x", 9], ["x", 7], ["y", 2]], "between": ["x", "y"]}
 
+GO = {"a": "x", "b": "x"}
+# V(b) = 2 and V(a) = 1 + 1/2·2.
+VALUED: dict[str, Any] = {
+    "mdp": {"transitions": [["a", "x", "b", 1, 1], ["b", "x", "end", 1, 2]], "terminal": ["end"]},
+    "policy": {"a": {"x": 1}, "b": {"x": 1}}, "values": {"a": 2, "b": 2}, "gamma": "1/2",
+}  # fmt: skip
+NEARER: dict[str, Any] = {"start": {"a": 0}, "optimum": {"a": 4}, "gamma": "1/2", "sweeps": 2}
+
 
 def fitted(first: dict[str, Any], then: dict[str, Any]) -> dict[str, Any]:
     return {"fitted": {"a": first, "b": then}}
@@ -264,6 +272,16 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("bic", BIC | BORDER, fitted({"likelihood": "1/4", "k": 2}, {"likelihood": "1/2", "k": 2}),
      "border: give the likelihoods of both models, and different numbers k"),
     ("bic", BIC | BORDER, fitted({"log_likelihood": -2, "k": 1}, {"log_likelihood": -1, "k": 2}), "border: give the"),
+    ("policy-improvement", VALUED, {"values": {"a": 3, "b": 2}}, "'a' is given as 3, but one step of the policy"),
+    ("policy-improvement", VALUED, {"values": {"a": 2}}, "the value of 'b' is missing"),
+    ("policy-improvement-theorem", VALUED | {"policy": GO, "other": GO}, {"values": {"a": "5/2", "b": 3}},
+     "'b' is given as 3, but one step of the policy gives 2"),
+    ("policy-improvement-theorem", VALUED | {"policy": GO, "other": GO}, {"other": {"a": "x", "b": "y"}}, "'y'"),
+    ("contraction", NEARER, {"gamma": 1}, "with a discount of 1 value iteration is no contraction"),
+    ("contraction", NEARER | {"accuracy": 1}, {"accuracy": 0}, "0 is not above 0"),
+    ("contraction", NEARER, {"first": {"a": 2}}, "give either optimum, the values V*, or first"),
+    ("contraction", NEARER, {"optimum": None}, "give either optimum, the values V*, or first"),
+    ("contraction", NEARER, {"optimum": {"b": 2}}, "the value of 'a' is missing"),
     ("bandit", BARS, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
     ("bandit", BARS, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip
