@@ -69,8 +69,14 @@ TIE: dict[str, Any] = {
             "terminal": ["end"]},
     "sweeps": 1, "gamma": "gamma", "tie": "a",
 }  # fmt: skip
+SWEPT = TIE | {"tie": None, "gamma": "1/2", "action_values": True}
 BUMPS = {"position": [4], "centres": [[3], [8]], "width": 5}
 LINEAR: dict[str, Any] = {"theta": [3, 1], "actions": ["x", "y"], "features": [1]}
+BETWEEN: dict[str, Any] = {
+    "theta": [0, 1, 1, 0], "actions": ["x", "y"], "bumps": {"centres": [[0], [4]], "width": 4},
+}  # fmt: skip
+TENTS: dict[str, Any] = {"centres": [[0], [4]], "width": 4, "known": {"1": "3/4", "2": "1/4"}}
+BELLS: dict[str, Any] = {"position": [1], "centres": [[0], [3]], "logarithms": {"1": "-1/2"}}
 MOMENTS: dict[str, Any] = {
     "features": {"a": [4, 1], "b": [3, 3]}, "trajectories": [["a", "b"]], "gamma": "gamma", "estimate": 5,
 }  # fmt: skip
@@ -206,9 +212,36 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("optimal-policy-from-v", KNOWN_V, {"gamma": 1},
      "missing: with a discount of 1 one equation need not give a value"),
     ("value-iteration", TIE, {"tie": "b"}, "tie: 'b' must be a state with two actions"),
+    ("value-iteration", TIE, {"sweeps": 2}, "tie: leave gamma open, and nothing else; it takes one sweep"),
+    ("value-iteration", TIE, {"gamma": "1/2"}, "tie: leave gamma open, and nothing else; it takes one sweep"),
+    ("value-iteration", TIE, {"start": {"a": 1, "b": 1}}, "tie: leave gamma open, and nothing else; it takes one"),
+    ("value-iteration", TIE, {"action_values": True}, "tie: leave gamma open, and nothing else; it takes one sweep"),
+    ("value-iteration", TIE, {"tie": None}, "gamma is left open, so no action can be called greedy"),
+    ("value-iteration", SWEPT, {"in_place": True}, "in_place: sweeps over action values are synchronous here"),
+    ("value-iteration", SWEPT, {"start": {"a": 1, "b": 1}}, "start: sweeps over action values are synchronous here"),
     ("value-iteration", TIE, {"tie": "c"}, "tie: 'c' must be a state with two actions"),
     ("linear-value", LINEAR, {"bumps": BUMPS}, "bumps"),
     ("linear-value", LINEAR, {"features": None}, "features"),
+    ("linear-value", LINEAR | {"action": "x"}, {"action": "z"}, "action: 'z' is not among the actions"),
+    ("linear-value", LINEAR, {"actions": ["x", "x"]}, "actions: one is named twice"),
+    ("linear-value", LINEAR, {"theta": [3, 1, 2]}, "1 features and 2 actions need 2 weights, not 3"),
+    ("linear-value", LINEAR | {"theta": ["w", 1]}, {"features": [0]}, "the feature that belongs to w must be given"),
+    ("linear-value", LINEAR | {"theta": ["w", 1]}, {"action": "x"}, "action: its vector is only asked for where"),
+    ("linear-value", BETWEEN, {"bumps": {"centres": [[0], [4]], "width": 3}}, "position: it can only be found between"),
+    ("linear-value", BETWEEN, {"bumps": {"centres": [[4], [0]], "width": 4}}, "position: it can only be found between"),
+    ("linear-value", BETWEEN, {"bumps": {"centres": [[0], [2], [4]], "width": 4}}, "position: it can only be found"),
+    ("linear-value", BETWEEN, {"actions": ["x", "y", "z"], "theta": [0, 1, 2, 0, 3, 4]}, "there must be two actions"),
+    ("linear-value", BETWEEN, {"action": "x"}, "action: its vector is only asked for where nothing is to be found"),
+    ("piecewise-linear-rbf", TENTS, {"known": {"1": 1, "2": "1/4"}}, "known: a feature that tells how far away"),
+    ("piecewise-linear-rbf", TENTS, {"known": {"1": "3/4", "2": 0}}, "known: a feature that tells how far away"),
+    ("piecewise-linear-rbf", TENTS, {"width": 0}, "width: it must be above 0, not 0"),
+    ("piecewise-linear-rbf", TENTS, {"width": None}, "give the width or the position; both cannot be found"),
+    ("piecewise-linear-rbf", TENTS, {"known": {"1": "3/4"}}, "known"),
+    ("piecewise-linear-rbf", TENTS, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
+    ("rbf", BELLS, {"logarithms": {"1": 0}}, "logarithms: a feature that tells how far away the state is"),
+    ("rbf", BELLS, {"sigma": 1}, "0 of the features must be known, not 1"),
+    ("rbf", BELLS, {"position": None}, "give the width or the position; both cannot be found"),
+    ("rbf", BELLS, {"theta": [1]}, "theta: 2 features need as many weights, not 1"),
     ("feature-expectations", MOMENTS, {"gamma": "1/2"}, "estimate: leave gamma open, for it is asked for"),
     ("feature-expectations", MOMENTS, {"features": {"a": [4], "b": [3]}}, "estimate: leave gamma open"),
     ("feature-expectations", MOMENTS, {"trajectories": [["a"], []]}, "trajectories: one of them has no states"),
