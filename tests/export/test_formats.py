@@ -270,6 +270,8 @@ def test_choices_and_matrices_of_latex_moodle_and_qti(tmp_path: Path) -> None:
     assert "\\begin{checkboxes}\n\\choice small\n\\choice large\n\\end{checkboxes}\n" in latex
     assert "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n" in latex
 
+    assert "Q^π" in other("json", tmp_path).decode()
+
     moodle = [each.findtext("questiontext/text") or "" for each in ElementTree.fromstring(other("moodle", tmp_path))]
     assert "<p>(A) small</p><p>(B) large</p>" in moodle[1]
     assert re.findall(r":MULTICHOICE:(.*?)#", moodle[1] + moodle[2]) == ["=A~B", "=yes~no"]
