@@ -125,6 +125,74 @@ VALUED: dict[str, Any] = {
 }  # fmt: skip
 NEARER: dict[str, Any] = {"start": {"a": 0}, "optimum": {"a": 4}, "gamma": "1/2", "sweeps": 2}
 
+NAMED: dict[str, Any] = {"diagrams": [{"shows": "td-zero", "options": ["td-zero", "sarsa"]}]}
+CHANGED: dict[str, Any] = {
+    "shows": "n-step-td", "options": ["n-step-td", "td-zero"], "change": "one-step", "target": "monte-carlo",
+    "changes": ["to-the-end", "sampled"],
+}  # fmt: skip
+TREE: dict[str, Any] = {
+    "dynamics": {"transitions": [["s", "a", "s₁", 1, 4], ["s", "b", "s₂", 1, 1]]}, "values": {"s₁": 5, "s₂": 5},
+    "gamma": "1/2",
+}  # fmt: skip
+
+
+def chain(levels: int) -> dict[str, Any]:
+    """A tree of so many levels."""
+    rows = [[f"s{level}", "a", f"s{level + 1}", 1, 4] for level in range(levels)]
+    return {"dynamics": {"transitions": rows}, "values": {f"s{levels}": 5}, "gamma": "1/2"}
+
+
+MOVE = {"go": {"a": {"a": "1/4", "b": "3/4"}, "b": {"b": 1}}}
+PREDICT: dict[str, Any] = {
+    "belief": {"a": "q", "b": "1-q"}, "motion": MOVE, "actions": ["go", "go"], "after": 2,
+    "outcome": {"state": "b", "probability": "31/32"},
+}  # fmt: skip
+MODELS: dict[str, Any] = {
+    "models": {"one": {"thetas": [["1/3", "1/2"], ["2/3", "1/2"]]}, "two": {"theta": "1/2"}},
+    "prior": {"one": "1/2", "two": "1/2"}, "heads": 1, "tails": 1,
+}  # fmt: skip
+
+
+def first(**said: Any) -> dict[str, Any]:
+    return {"models": MODELS["models"] | {"one": said}}
+
+
+COIN: dict[str, Any] = {"coin": {"heads": 1, "tails": 0, "a": 1, "b": 1}}
+SAMPLE_: dict[str, Any] = {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": "1/2", "noise": "1/2"}}}
+LINE: dict[str, Any] = {"line": {"points": [[0, 2], [1, 3]]}}
+CLAIMED: dict[str, Any] = {"mdp": VALUED["mdp"], "values": {"a": 1, "b": 2}, "gamma": "1/2", "optimal": True}
+LOOP: dict[str, Any] = {"mdp": {"transitions": [["a", "x", "b", 1, 1], ["b", "x", "a", 1, 2]]}, "average": True}
+PATHS: dict[str, Any] = {
+    "edges": [["a", "b", 1], ["a", "c", 2], ["b", "end", 3], ["c", "end", 4]], "start": "a", "goal": "end",
+    "through": "c",
+}  # fmt: skip
+DOUBLE = ACTIONS | {"second": {"a": {"x": 1, "y": 2}, "b": {"x": 3, "y": 4}}, "updates": [1]}
+DYNA = ACTIONS | {"model": [], "planned": [["a", "x"]]}
+EPISODES: dict[str, Any] = {"mdp": VALUED["mdp"], "gamma": "1/2", "start": {"a": 1}}
+TABLE: dict[str, Any] = {
+    "table": [["k", "h", "h", 16], ["k", "h", "s", 24], ["b", "h", "h", 2], ["b", "h", "s", 3]], "asked": "h",
+}  # fmt: skip
+
+
+def rows(*weights: object) -> dict[str, Any]:
+    return {"table": [[*row[:3], weight] for row, weight in zip(TABLE["table"], weights, strict=True)]}
+
+
+MARGIN: dict[str, Any] = {
+    "w": [2, 3], "expert": [1, 4], "policies": {"one": {"mu": [2, 0], "margin": 2}},
+}  # fmt: skip
+TRACE: dict[str, Any] = {"states": ["a", "b", "a"], "gamma": "1/2", "lam": "1/2", "asked": [0, 2]}
+AVERAGE: dict[str, Any] = {"values": {"a": 2}, "counts": {"a": 0}, "visits": [["a", 8]]}
+CONSTANT: dict[str, Any] = {"values": {"a": 2}, "alpha": "1/2", "visits": [["a", 8]]}
+SCORE: dict[str, Any] = {
+    "features": {"x": [0, 4], "y": [-1, 2]}, "policy": {"x": "p", "y": "1-p"}, "action": "y", "component": [1, "-1/4"],
+}  # fmt: skip
+THRESHOLD: dict[str, Any] = {
+    "mdp": {"transitions": [["a", "x", "end", 1, 4], ["a", "y", "end", 1, "x"]], "terminal": ["end"]},
+    "start": {"a": "x"}, "gamma": "1/2", "reward": 6,
+}  # fmt: skip
+SYSTEM: dict[str, Any] = {"A": 1, "B": 1, "Q": 1, "R": 1, "start": [1], "horizon": 2}
+
 
 def fitted(first: dict[str, Any], then: dict[str, Any]) -> dict[str, Any]:
     return {"fitted": {"a": first, "b": then}}
@@ -315,6 +383,136 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("contraction", NEARER, {"first": {"a": 2}}, "give either optimum, the values V*, or first"),
     ("contraction", NEARER, {"optimum": None}, "give either optimum, the values V*, or first"),
     ("contraction", NEARER, {"optimum": {"b": 2}}, "the value of 'a' is missing"),
+    ("backup-diagram-name", NAMED, {"diagrams": [{"shows": "td-zero", "options": ["td-zero"] * 2}]},
+     "options: one is given twice; give each once"),
+    ("backup-diagram-name", NAMED, {"diagrams": [{"shows": "td-zero", "options": ["sarsa", "monte-carlo"]}]},
+     "options: 'td-zero', which is shown, must be among them"),
+    ("backup-diagram-name", CHANGED, {"changes": ["to-the-end", "to-the-end"]}, "changes: one is given twice"),
+    ("backup-diagram-name", CHANGED, {"changes": ["all-states", "sampled"]}, "changes: one of them, and no more"),
+    ("backup-diagram-value", TREE, {"values": {"s₁": 5}}, "the value of 's₂' is missing"),
+    ("backup-diagram-value", TREE, {"action_values": {"s₁": {"a": 1}, "s₂": {"a": 1}}},
+     "dynamics must hold one action"),
+    ("backup-diagram-value", chain(3), chain(4), "dynamics: the tree must end after 3 levels"),
+    ("bayes-predict", PREDICT, {"after": 3}, "after: there is no outcome, or there are fewer than 3 actions before it"),
+    ("bayes-predict", PREDICT | {"after": 1, "actions": ["go"], "outcome": {"state": "b", "probability": "7/8"}},
+     {"after": 2}, "after: there is no outcome, or there are fewer than 2 actions before it"),
+    ("bayes-predict", PREDICT | {"belief": {"a": "1/2", "b": "1/2"}, "outcome": None, "after": None}, {"after": 2},
+     "after: there is no outcome, or there are fewer than 2 actions before it"),
+    ("model-comparison", MODELS, first(theta="1/2", thetas=[["1/3", 1]]), "give either theta or thetas"),
+    ("model-comparison", MODELS, first(thetas=[["1/3", "1/2"], ["1/3", "1/2"]]), "thetas: one θ is given twice"),
+    ("model-comparison", MODELS, first(thetas=[["1/3", "1/2"], ["2/3", "1/4"]]), "sum to 3/4, not to 1"),
+    ("model-comparison", MODELS, first(thetas=[["1/3", 1]], a=2), "with thetas there is no prior Beta(a, b)"),
+    ("model-comparison", MODELS, {"heads": 0, "tails": 0}, "heads: without a toss there is nothing to compare"),
+    ("model-comparison", MODELS, {"odds": 1}, "odds: they go with two models, and with a prior that is left open"),
+    ("model-comparison", MODELS | {"prior": {"one": "q", "two": "1-q"}, "odds": 1}, {"odds": None},
+     "odds: they go with"),
+    ("model-comparison", MODELS, {"models": MODELS["models"] | {"two": {"theta": 1}}}, "models: 'two' has the prior 0"),
+    ("model-comparison", MODELS | {"models": MODELS["models"] | {"two": {"theta": 1}}, "tails": 0},
+     {"models": MODELS["models"] | {"two": {"theta": 0}}}, "models: 'two' has the prior 0"),
+    ("model-fitting", COIN, {"coin": {"heads": 0, "tails": 0, "a": 1, "b": 1}},
+     "heads: without a toss there is nothing"),
+    ("model-fitting", COIN, {"coin": {"heads": 1, "tails": 0, "a": "1/2", "b": 1}}, "a and b must be at least 1"),
+    ("model-fitting", COIN, {"coin": {"heads": 1, "tails": 0, "a": 1, "b": "1/2"}}, "a and b must be at least 1"),
+    ("model-fitting", COIN, LINE, "give one of coin, sample and line"),
+    ("model-fitting", COIN, {"coin": None}, "give one of coin, sample and line"),
+    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 1, "noise": 0}}},
+     "above 0"),
+    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 0, "noise": 1}}},
+     "above 0"),
+    ("model-fitting", LINE, {"line": {"points": [[1, 2], [1, 3]]}},
+     "points: all x are the same, so no slope fits best"),
+    ("model-fitting", {"line": LINE["line"] | {"prior": {"mean": 0, "variance": 1, "noise": 1}}},
+     {"line": LINE["line"] | {"prior": {"mean": 1, "variance": 1, "noise": 1}}},
+     "the prior of a slope must have the mean"),
+    ("bellman-residual", CLAIMED, {"gamma": "gamma"}, "gamma is left open, so it cannot be told whether the values"),
+    ("bellman-residual", CLAIMED, {"policy": VALUED["policy"]}, "policy: optimal values belong to no given policy"),
+    ("bellman-residual", CLAIMED | {"optimal": None, "policy": VALUED["policy"]}, {"values": {"a": 1}},
+     "of 'b' is missing"),
+    ("policy-value", LOOP, {"mdp": VALUED["mdp"]}, "average: there is no long run, because 'end' is terminal"),
+    ("policy-value", LOOP, {"gamma": "1/2"}, "average: all steps count alike, so γ plays no part"),
+    ("principle-of-optimality", PATHS, {"edges": [*PATHS["edges"], ["a", "b", 2]]}, "edges: an edge is given twice"),
+    ("principle-of-optimality", PATHS, {"edges": [*PATHS["edges"], ["end", "b", 2]]},
+     "edges: 'end' is the goal, so no"),
+    ("principle-of-optimality", PATHS, {"edges": [*PATHS["edges"], ["a", "d", 2]]}, "no edge leads on from 'd'"),
+    ("principle-of-optimality", PATHS, {"edges": [*PATHS["edges"], ["c", "a", 2]]}, "a path can go round and round"),
+    ("principle-of-optimality", PATHS, {"through": "end"}, "through: 'end' is no state of the graph before the goal"),
+    ("principle-of-optimality", PATHS, {"through": "d"}, "through: 'd' is no state of the graph before the goal"),
+    ("principle-of-optimality", PATHS, {"start": "b"}, "through: no path from 'b' reaches 'c'"),
+    ("principle-of-optimality", PATHS, {"start": "d"}, "start: no edge leads on from 'd'"),
+    ("double-q-learning", DOUBLE, {"updates": [1, 2]}, "updates: 1 transitions need as many, not 2"),
+    ("double-q-learning", DOUBLE, {"second": {"a": {"x": 1}, "b": {"x": 3, "y": 4}}},
+     "second: both tables need the same"),
+    ("double-q-learning", DOUBLE, {"outcome": ["b", "y", 5]}, "outcome: (b, y) is not updated, so nothing follows"),
+    ("double-q-learning", DOUBLE, {"outcome": ["a", "x", 5]}, "outcome: leave one number open, such as alpha"),
+    ("dyna-q", DYNA, {"planned": [["b", "y"]]}, "planned: (b, y) is not in the model after the run"),
+    ("dyna-q", DYNA, {"model": [["b", "y", 1, "a"]] * 2},
+     "model: (b, y) is given twice; a deterministic model holds it"),
+    ("dyna-q", DYNA, {"changed": [["b", "y", 1, "a"]]}, "changed: (b, y) must be in the model and not be tried"),
+    ("dyna-q", DYNA | {"model": [["b", "y", 1, "a"]], "changed": [["b", "y", 1, "a"]]},
+     {"changed": [["a", "x", 1, "a"]]}, "changed: (a, x) must be in the model and not be tried in the run"),
+    ("expected-return", EPISODES, {"mdp": {"transitions": [["a", "x", "a", "1/2", 1], ["a", "x", "end", "1/2", 1]],
+                                           "terminal": ["end"]}}, "mdp: 'a' can come again in an episode"),
+    ("markov-property", TABLE, rows(16, 24, 2, "5/2"), "table: the weights are neither whole counts nor probabilities"),
+    ("markov-property", TABLE, rows("1/2", "1/2", "1/2", "1/2"), "table: the weights are neither whole counts nor"),
+    ("markov-property", TABLE, rows(16, 24, 0, 0), "table: the history b, h never occurs; leave its rows out"),
+    ("markov-property", TABLE, rows(16, 24, 2, -1), "is below 0"),
+    ("markov-property", TABLE, {"table": [*TABLE["table"], ["k", "h", "h", 1]]}, "table: k, h, h is given twice"),
+    ("markov-property", TABLE, {"asked": "x"}, "asked: 'x' is not a next state of the table"),
+    ("markov-property", TABLE | rows(16, 24, 2, "x"), rows(16, 24, "x", "x"),
+     "table: the weights of 2 rows are left open"),
+    ("markov-property", TABLE | rows(16, 24, 2, "x"), {"table": [TABLE["table"][0], ["k", "h", "s", "x"]]},
+     "table: 'h' has one history only, so nothing says what is left open"),
+    ("max-margin", MARGIN, {"policies": {"expert": {"mu": [2, 0], "margin": 2}}},
+     "is the name of the expert's own policy"),
+    ("max-margin", MARGIN | {"w": [2, "w"]}, {"w": ["w", 2]},
+     "must have less of the feature whose weight is left open"),
+    ("max-margin", MARGIN | {"w": [2, "w"]}, {"policies": {"one": {"mu": [2, 4], "margin": 2}}},
+     "must have less of the"),
+    ("eligibility-trace", TRACE, {"asked": [2, 0]}, "asked: the times must rise from one to the next"),
+    ("eligibility-trace", TRACE, {"asked": [2, 2]}, "asked: the times must rise from one to the next"),
+    ("eligibility-trace", TRACE, {"asked": [3]}, "asked: no state is visited at time 3; the last time is 2"),
+    ("sample-average", AVERAGE, {"counts": {"a": -1}}, "counts: 'a' cannot have been visited -1 times"),
+    ("sample-average", AVERAGE | {"counts": {"a": 10**6}}, {"counts": {"a": 10**6 + 1}},
+     "counts: 'a' cannot have been"),
+    ("sample-average", AVERAGE, {"alpha": "1/2"}, "counts: a constant step size does not depend on them"),
+    ("sample-average", CONSTANT, {"values": {"a": 2, "b": 3}},
+     "values: with a constant step size give the value of the"),
+    ("sample-average", CONSTANT, {"visits": [["b", 8]]}, "'b'"),
+    ("score-function", SCORE, {"action": None},
+     "component: give its action, one of two with the probabilities p and 1-p"),
+    ("score-function", SCORE, {"policy": {"x": "1/2", "y": "1/2"}}, "component: give its action, one of two with the"),
+    ("score-function", SCORE, {"component": [0, "-1/4"]}, "component: there is no weight of the number 0"),
+    ("score-function", SCORE | {"component": [2, "-1/2"]}, {"component": [3, "-1/2"]},
+     "there is no weight of the number 3"),
+    ("policy-iteration", THRESHOLD, {"start": {"a": "y"}}, "start: the reward of 'y' in 'a' is left open; start with"),
+    ("policy-iteration", THRESHOLD, {"gamma": 1}, "gamma: with a discount of 1 a policy need not have a value"),
+    ("ppo-clip", CLIPPED, {"objective": 1}, "give either epsilon or the objective from which it is to be found"),
+    ("ppo-clip", CLIPPED, {"samples": [SAMPLE | {"old": 0}]},
+     "old: the action was taken, so its probability was not 0"),
+    ("ppo-clip", CLIPPED, {"samples": [SAMPLE | {"new": "1/2"}]},
+     "give either the new probability or the new policy's"),
+    ("ppo-clip", CLIPPED, {"samples": [SAMPLE | BOTH_OLD]}, "give either the old probability or the old policy's"),
+    ("ppo-clip", CLIPPED, {"samples": [SAMPLE | {"action": "z"}]}, "preferences: the preference of 'z' is missing"),
+    ("lqr-reward", COSTS, {"L": [[[1]], [[1]], [[1]]]}, "L holds 3 matrices; give one, or 2 for the times from 0"),
+    ("lqr-backward", SYSTEM, {"A": [[[1]], [[1]], [[1]]]}, "A holds 3 matrices; give one, or 2 for the times from 0"),
+    ("lqr-backward", SYSTEM | {"Q": [[[1]]] * 3}, {"Q_T": 1},
+     "Q_T is given twice, since Q has a matrix for the horizon"),
+    ("lqr-infinite", CLOSED, {"closed_loop": 1}, "closed_loop must be between -1 and 1, and not 0"),
+    ("lqr-infinite", CLOSED, {"closed_loop": 0}, "closed_loop must be between -1 and 1, and not 0"),
+    ("lqr-infinite", CLOSED, {"N": 1}, "closed_loop: it goes with a scalar system without N, in which Q or R is rho"),
+    ("lqr-infinite", CLOSED, {"R": "rho"}, "closed_loop: it goes with a scalar system without N"),
+    ("linearise", AFFINE | {"deviation": [1, 1]}, {"deviation": [1]},
+     "deviation: give a number for every letter of the"),
+    ("optimal-policy-from-q", KNOWN_Q, {"gamma": None}, "gamma: the discount is needed to find the missing values"),
+    ("optimal-policy-from-q", KNOWN_Q, {"missing": {"transitions": [["a", "y", "b", 1, "x"], ["b", "y", "end", 1, 1]]}},
+     "missing: only one reward of the last action there can be left open"),
+    ("optimal-policy-from-q", KNOWN_Q, {"missing": {"transitions": [["a", "x", "b", 1, "x"]]}}, "has a value already"),
+    ("optimal-policy-from-q", KNOWN_Q, {"missing": {"transitions": [["a", "y", "c", 1, "x"]]}},
+     "'c' is reached but has no"),
+    ("optimal-policy-from-q", KNOWN_Q, {"missing": {"transitions": [["a", "y", "a", 1, "x"]]}},
+     "has a missing value itself"),
+    ("optimal-policy-from-q", KNOWN_Q, {"terminal": ["end", "b"]},
+     "values: 'b' is terminal, so no action can be taken"),
     ("bandit", BARS, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
     ("bandit", BARS, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip
