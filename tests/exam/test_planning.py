@@ -200,3 +200,20 @@ def test_a_title_may_have_so_many_signs_and_no_more() -> None:
     assert blueprint("bellman").but(title="x" * LONGEST_TITLE).title == "x" * LONGEST_TITLE
     with pytest.raises(UsageError, match=f"The title has {LONGEST_TITLE + 1} characters; give one of at most"):
         blueprint("bellman").but(title="x" * (LONGEST_TITLE + 1))
+
+
+def test_families_with_too_few_answers_for_all_versions_come_last_the_most_various_of_them_first() -> None:
+    every = Blueprint(problems=(Entry(topic=("bayes", "inverse-rl"), count=11, level=1),), seed=3)
+    for versions, needed in ((1, 1), (3, 4), (15, 20), (60, 80)):  # a third more than there are versions
+        found = [slot.variety for slot in slots(every, 3, versions)]
+        enough = [variety >= needed for variety in found]
+        assert enough == sorted(enough, reverse=True)
+        poor = [variety for variety in found if variety < needed]
+        assert poor == sorted(poor, reverse=True)
+    assert len(poor) > 2
+
+
+def test_of_a_family_with_too_few_answers_another_level_is_taken_where_none_is_asked_for() -> None:
+    free = Blueprint(problems=(Entry(topic=("max-margin",), count=1),), seed=3)
+    (one,), (many,) = slots(free, 3, 1), slots(free, 3, 40)
+    assert one.variety < 40 <= many.variety
