@@ -1,4 +1,4 @@
-"""Letters and quantities of matrices keep their order in a product, all others do not; and each is declared as it is."""
+"""Matrices keep their order in a product, letters and quantities of numbers do not; each is declared as what it is."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
