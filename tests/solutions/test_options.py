@@ -10,8 +10,10 @@ from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
+from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import solve
 from rldrill.solutions.value import NoSolution
+from rldrill.solutions.work import Step
 
 #: Each with what is changed in drawn givens; None takes a field away.
 OPTIONS: list[tuple[str, dict[str, Any]]] = [
@@ -133,3 +135,30 @@ def test_it_is_solved_as_by_hand_and_without_the_formulas(
     examine(solution, finding)
     assert not finding.disagreements
     assert not finding.refused
+
+
+CONVENTIONS = [({}, -1), ({"convention": "xuKP"}, 1), ({"convention": "cost-to-go"}, 1)]
+
+
+@pytest.mark.parametrize(("convention", "sign"), CONVENTIONS)
+@pytest.mark.parametrize(
+    ("system", "value", "gain", "loop"),
+    [
+        # P = 7 + 4P − (4P + 2)²/(5 + 4P): 4P² − 27P − 31 = 0, so P = (27 + 35)/8.
+        ({"A": 2, "B": 2, "Q": 7, "R": 5, "N": 2}, fmpq(31, 4), fmpq(33, 36), fmpq(1, 6)),
+        # P = 1 + 2P − (P + 1)²/(3 + P/2): P² − 3P − 4 = 0.
+        ({"A": 2, "B": 1, "Q": 1, "R": 3, "N": 1, "gamma": "1/2"}, fmpq(4), fmpq(1), fmpq(1)),
+    ],
+)
+def test_a_cross_term_in_every_convention(
+    convention: dict[str, str], sign: int, system: dict[str, Any], value: fmpq, gain: fmpq, loop: fmpq
+) -> None:
+    family = family_of("lqr-infinite")
+    solution = solve(Problem(family, family.read(system | convention)))
+    assert [answer[0, 0] for answer in solution.answers.values()] == [sign * value, gain, loop]
+    finding = Finding(family, 1)
+    examine(solution, finding)
+    assert not finding.disagreements
+    # What is shown before it is solved holds for what comes out.
+    (equation,) = (line for line in solution.lines if isinstance(line, Step) and line.value is None)
+    assert value_of(equation.right, {**equation.known, equation.formula.left.name: sign * value}) == sign * value
