@@ -5,11 +5,13 @@ from typing import Any
 import pytest
 from flint import fmpq
 
+import rldrill
 from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
+from rldrill.render.terminal import plain
 from rldrill.solutions.formula.compiling import value_of
 from rldrill.solutions.solution import solve
 from rldrill.solutions.value import NoSolution
@@ -162,3 +164,22 @@ def test_a_cross_term_in_every_convention(
     # What is shown before it is solved holds for what comes out.
     (equation,) = (line for line in solution.lines if isinstance(line, Step) and line.value is None)
     assert value_of(equation.right, {**equation.known, equation.formula.left.name: sign * value}) == sign * value
+
+
+#: With β = 3/2 for A = 2, B = Q = N = 1, R = 3 and γ = 1/2; the roots are 4 and −1 in costs.
+WORDS = {
+    "": ("P(γB²P − R) = (−Q + γA²P)(γB²P − R) − (γABP − N)²", "γB²P² + βP − (QR − N²) = 0",
+         "root is negative; a value", "is never positive, so P is that one", "other root, 1, is positive",
+         "it reads S = Q + γAᵀSA − (γAᵀSB + N) L."),
+    "xuKP": ("P(R + γB²P) = (Q + γA²P)(R + γB²P) − (γABP + N)²", "γB²P² − βP − (QR − N²) = 0",
+             "root is positive; a cost", "is never negative, so P is that one", "other root, −1, is negative"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("convention", WORDS)
+def test_what_is_said_of_the_equation_follows_the_convention(convention: str) -> None:
+    system = {"A": 2, "B": 1, "Q": 1, "R": 3, "N": 1, "gamma": "1/2"}
+    given = system | ({"convention": convention} if convention else {})
+    said = " ".join(plain(rldrill.read({"family": "lqr-infinite", "given": given}).working("a")).split())
+    for words in WORDS[convention]:
+        assert words in said
