@@ -120,6 +120,9 @@ def test_a_process_without_actions(tmp_path: Path) -> None:
         ("a.pomdp", CASSANDRA + "T: halt identity\n", "line 21: 'halt' is not among the actions"),
         ("a.pomdp", CASSANDRA + "T: slow\n1 0\n", "line 21: T: 2 numbers stand here, 9 are needed"),
         ("a.pomdp", CASSANDRA + "R: slow : cool : * : loud 3\n", "line 21: a reward that depends on the observation"),
+        ("a.pomdp", CASSANDRA + "R: slow : cool 3\n", "line 21: R: 1 numbers stand here, 3 are needed"),
+        ("a.pomdp", "values: money\n", "line 1: values: must be reward or cost"),
+        ("a.pomdp", "states: a b\nactions: x\n", "there are no transitions; write states, actions, and T"),
         ("a.pomdp", "hello\n", "line 1: 'hello' begins no statement"),
     ],
 )  # fmt: skip

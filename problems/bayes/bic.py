@@ -180,7 +180,7 @@ def _cost(given: Given, name: str) -> float:
     if given.fitted is not None:
         model = given.fitted[name]
         log = float(model.log_likelihood or 0) if model.likelihood is None else math.log(model.likelihood)
-        return model.k * _price(given, given.n or 1) - 2 * log
+        return model.k * _price(given, given.n) - 2 * log
     assert given.data is not None
     tosses = list(given.data.tosses.values())
     pooled = (sum(heads for heads, _ in tosses), sum(tails for _, tails in tosses))
@@ -191,9 +191,9 @@ def _cost(given: Given, name: str) -> float:
     return 2 * lost + k * _price(given, n)
 
 
-def _price(given: Given, n: int) -> float:
-    """What a parameter costs."""
-    return 2.0 if given.criterion == "AIC" else math.log(n)
+def _price(given: Given, n: int | None) -> float:
+    """What a parameter costs; Akaike's criterion does not need n."""
+    return 2.0 if n is None or given.criterion == "AIC" else math.log(n)
 
 
 def _lost(heads: int, tails: int) -> float:

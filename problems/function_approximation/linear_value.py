@@ -90,8 +90,8 @@ class Given(Givens):
             raise ValueError("theta: only one weight may be left open, and it is called w")
         if opened and (self.features is None or self.features[self.theta.index(opened[0]) % self.size] <= 0):
             raise ValueError("theta: the feature that belongs to w must be given, and above 0")
-        if self.between and (opened or len(self.actions) != 2):
-            raise ValueError("bumps: without the position there must be two actions, and numbers for all weights")
+        if self.between and len(self.actions) != 2:
+            raise ValueError("bumps: without the position there must be two actions")
         if self.action is not None and (opened or self.between):
             raise ValueError("action: its vector is only asked for where nothing is to be found")
 

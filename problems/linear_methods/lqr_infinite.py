@@ -176,7 +176,6 @@ def _crossed() -> tuple[tuple[Fraction, ...], ...]:
         for a, b, q, r in product((-2, -1, 1, 2), (1, 2), range(1, 9), range(1, 7))
         for n in (-2, -1, 1, 2)
         if q * r > n**2
-        and n != 0
         and _is_square(Fraction(b**2 * q + (a**2 - 1) * r - 2 * a * b * n) ** 2 + 4 * b**2 * (q * r - n**2))
     )
 

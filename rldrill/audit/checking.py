@@ -81,7 +81,7 @@ class Finding:
 
 
 def audit(
-    names: Sequence[str] = (), number: int = 200, seed: int = 0, progress: Callable[[], None] = lambda: None
+    names: Sequence[str], number: int, seed: int, progress: Callable[[], None] = lambda: None
 ) -> Iterator[Finding]:
     """Draw problems of every family and level, and check each.
 

@@ -281,7 +281,7 @@ def _print(report: "Report", feedback: str) -> None:
         where = ", ".join(student.paths)
         named = ": ".join(filter(None, (where, whose))) + (f", version {student.version}" if student.version else "")
         out.print(words((named, "bold")))
-        if feedback != "none" and student.paths:
+        if student.paths:
             out.print(_table(student, feedback))
         out.print(Text(f"\nScore: {earned(report, student)}\n"))
     if len(report.students) > 1:

@@ -20,15 +20,14 @@ def fresh_seed() -> int:
     return secrets.randbelow(10**6)
 
 
-def sequence(names: Sequence[str], level: int | None, seed: int, version: int = 0) -> Iterator[tuple[Family, int, int]]:
+def sequence(names: Sequence[str], level: int | None, seed: int) -> Iterator[tuple[Family, int, int]]:
     """Family, level and seed of one problem after the other, without end.
 
     Families come round in an order that the seed shuffles, so that each is asked before one comes again.
-    Versions of a worksheet share families and levels, and differ in the problems.
     """
     chosen = selection(tuple(names))
     order = Draws(f"order {seed}")
-    problems = Draws(f"problems {seed} version {version}")
+    problems = Draws(f"problems {seed} version 0")
     for _ in count():
         for family in order.shuffled(chosen):
             wanted = level if level is not None else order.choice(MIXED)

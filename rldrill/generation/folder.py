@@ -70,7 +70,7 @@ class Folder:
             unfinished.chmod(0o644)
             unfinished.replace(self._file(lot))
         except OSError as error:
-            raise OSError(error.errno, error.strerror or str(error), str(self._file(lot))) from error
+            raise OSError(error.errno, error.strerror, str(self._file(lot))) from error
         finally:
             unfinished.unlink(missing_ok=True)
         return number

@@ -35,7 +35,6 @@ _DEGREE = 24
 _OPEN, _CLOSED = (4, 2, 100), (0, 4, 400)
 _EXPONENT = 64
 _GROWTH = 100  # of the exponent of e
-_LEVELS = 5  # of functions in functions
 _ROOT = 12  # the highest root, and the digits of what it is taken of
 _ANGLE = 1000
 _TURNS = frozenset({1, 2, 3, 4, 6, 12})  # pi over these has a sine that is short to write
@@ -135,8 +134,6 @@ class Arithmetic:
             return number
         if number.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo, sympy.I):
             raise Unreadable("A part of it is not a real number.")
-        if _levels(number) > _LEVELS:
-            raise Unreadable(_LARGE)
         self._spend((80 if number.free_symbols else 40) + size // 2)
         return simplest(number)
 

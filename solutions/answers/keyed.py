@@ -397,8 +397,7 @@ def _grid_placed(
             wanted = acting if len(entries) == len(acting) else inside
             placed = dict(zip(wanted.values(), entries, strict=True))
         else:
-            place = entries[0] if entries else rows[0][0]
-            raise place.unreadable(
+            raise entries[0].unreadable(
                 f"Row {down} of the grid has {len(entries)} entries; write {width}, one for each cell."
             )
         for name, entry in placed.items():

@@ -110,7 +110,7 @@ def oracle(given: Given) -> Answers:
         place = list(given.values).index(given.taken.action)
         epsilon = float((at(given.taken.probability) - greedy[place]) / (explored[place] - greedy[place]))
     if given.state_value is not None:
-        return (np.interp(at(given.state_value), [Q.mean(), Q.max()], [1, 0]),)
+        return ((Q.max() - at(given.state_value)) / (Q.max() - Q.mean()),)
     chances = epsilon * explored + (1 - epsilon) * greedy
     return (epsilon if given.taken else chances, chances @ Q)[: 1 + given.valued]
 

@@ -185,7 +185,7 @@ class Search:
         for application in self.applications:
             if application.old() is not None:
                 seen[application.formula.left.func.code, str(application.step.left.args)].append(application)
-        rounds = max(map(len, seen.values()), default=0)
+        rounds = len(max(seen.values(), key=len, default=()))
         if rounds < 2:
             return
         for which in (rounds - 1, 0):

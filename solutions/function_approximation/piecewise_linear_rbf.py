@@ -52,18 +52,18 @@ def oracle(given: Given) -> Answers:
     """The bump as a line between its peak and its foot."""
     known = {number: at(value) for number, value in given.known.items()}
     answers: list[object] = []
+    width = at(given.width or 0)
     if given.position is None:
-        width = at(given.width or 0)
         state = nearest(given, {number: width * (1 - value) for number, value in known.items()})
         answers.append(state)
         far = measured(given, (state,))
     else:
         far = measured(given)
-        width = at(given.width or 0)
         if given.width is None:
             ((number, value),) = known.items()
             width = far[number - 1] / (1 - value)
             answers.append(width)
     features = np.interp(far, [0.0, width], [1.0, 0.0])
-    answers.append(np.delete(features, [number - 1 for number in known]))
+    if others := [*np.delete(features, [number - 1 for number in known])]:
+        answers.append(others)
     return (*answers, *([features @ [at(weight) for weight in given.theta]] if given.theta else []))

@@ -78,5 +78,6 @@ def oracle(given: Given) -> Answers:
 
     height = density(0.0)
     features = np.array([density(distance) / height for distance in far])
-    answers.append(np.delete(features, [number - 1 for number in known]))
+    if others := [*np.delete(features, [number - 1 for number in known])]:
+        answers.append(others)
     return (*answers, *([features @ [at(weight) for weight in given.theta]] if given.theta else []))

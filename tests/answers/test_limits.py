@@ -37,6 +37,7 @@ LIMITS = {
         f"arguments of {name}": (f"{name}(1)", f"{name}(1; 1)", "this goes on after it")
         for name in ("sqrt", "exp", "ln", "log", "sin", "cos", "tan", "abs")
     },
+    "digits beside a root": (f"√2·{'1' * 1200}", f"√2·{'1' * 1205}", "grows too large"),  # 2^4000 has 1205 digits
     "degree": ("(1 + γ)^24", "(1 + γ)^25", "grows too large"),
     "degree of a product": ("(1 + γ)^12 (2 + γ)^12", "(1 + γ)^12 (2 + γ)^13", "grows too large"),
     "degree under a function": ("exp(γ^4)", "exp(γ^5)", "grows too large"),

@@ -289,6 +289,12 @@ def test_walls_may_be_given_as_anything_or_left_out():
         assert [reading.value for reading in read_table(text, cells, (), goal).values()] == [1, 2, 3, 4], text
 
 
+def test_a_row_of_another_length_is_named():
+    said = "Row 2 of the grid has {} entries; write 3, one for each cell."
+    for text, entries in (("1 2 0\n3 4", 2), ("1 2 0\n3 4 5 6", 4)):
+        assert refusal(read_table, text, CELLS, (), GOAL) == said.format(entries)
+
+
 def test_all_states_by_their_numbers():
     # FrozenLake's first cells: 1 and 3 are terminal and stand between the others.
     assert [r.value for r in read_table("[7. 0. 5. 0. 4.]", ["0", "2", "4"], (), ["1", "3"]).values()] == [7, 5, 4]
@@ -307,6 +313,8 @@ def test_all_states_by_their_numbers():
         ("cool 3.5\nwarm 2.5\nhot 9", "'cool' is not something this answer may contain"),
         ("cool - 3.5, warm - 2.5", "may be a minus sign"),
         ("cool: 3.5 hot: 2.5", "holds two keys"),
+        ("cool: 3, 5x, warm: 2", "'5x' is not understood; write it as cool: … ."),
+        ("cool: 3, 5, warm: 2", "'3,5' may have a decimal comma; write '3.5'."),
         ("cool: 3.5 = 3.6, warm: 2", "differ"),
         ("cool: -1 warm: -0,5", "may have a decimal comma"),
     ],

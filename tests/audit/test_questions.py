@@ -147,3 +147,50 @@ def sound(figures: Figures) -> list[str]:
     """What is said of these figures at level 1 where all else is as it should be."""
     figures.rates, figures.attempts = [1.5] * 40, [1] * 40
     return list(figures.complaints(1))
+
+
+def figures(**changed: Any) -> Figures:
+    """Forty problems without a fault; then with what is changed."""
+    sound: dict[str, Any] = {
+        "largest": [9] * 40, "attempts": [3] * 40, "rates": [1.0, 2.0] * 20,
+        "problems": {str(number) for number in range(36)}, "structures": set("abcd"),
+        "yes": {"a": [80, 200]}, "options": {"b": Counter(A=50, B=150)},
+    }  # fmt: skip
+    return Figures(**sound | changed)
+
+
+def test_the_limits_themselves_are_no_fault() -> None:
+    assert list(figures().complaints(2)) == []
+    assert list(figures(yes={"a": [120, 200]}).complaints(2)) == []
+
+
+@pytest.mark.parametrize(
+    ("changed", "level", "said"),
+    [
+        ({"idle": ["x/1/2: gamma"]}, 2, "no answer depends on x/1/2: gamma"),
+        ({"rates": [0.75, 1.5]}, 2, "a point takes from 0.75 to 1.50 minutes"),
+        ({"rates": [1.5, 2.25]}, 2, "a point takes from 1.50 to 2.25 minutes"),
+        ({"attempts": [4] * 40}, 2, "half of the problems take more than 4 attempts"),
+        ({"structures": set("abc")}, 2, "there are only 3 structures"),
+        ({"structures": set("abc")}, 1, ""),
+        ({"problems": {str(number) for number in range(35)}}, 3, "only 35 of 40 problems are different"),
+        ({"problems": {str(number) for number in range(35)}}, 1, ""),
+        ({"yes": {"a": [79, 200]}}, 2, "(a) is yes in 40%"),
+        ({"yes": {"a": [121, 200]}}, 2, "(a) is yes in 60%"),
+        ({"yes": {"a": [0, 199]}}, 2, ""),
+        ({"options": {"b": Counter(A=49, B=151)}}, 2, "(b) is seldom A: {'A': 49, 'B': 151}"),
+        ({"options": {"b": Counter(A=0, B=199)}}, 2, ""),
+        ({"attempts": [3] * 39, "structures": set("a"), "yes": {"a": [0, 200]}}, 2, ""),
+    ],
+)
+def test_what_lies_beyond_a_limit_is_said(changed: dict[str, Any], level: int, said: str) -> None:
+    assert list(figures(**changed).complaints(level)) == [said][: bool(said)]
+
+
+def test_guesses_may_earn_a_third_and_not_half() -> None:
+    guesses = Guesses()
+    guesses.add(td(["a", "b"], {"a": 2, "b": 2}))  # as printed
+    guesses.add(td(["a", "b"], {"a": 2, "b": 6}))
+    assert list(figures(guesses=guesses).complaints(2)) == ["constant answers earn 50%: {'a': 'as printed'}"]
+    guesses.add(td(["a", "b"], {"a": 2, "b": 6}))
+    assert list(figures(guesses=guesses).complaints(2)) == []

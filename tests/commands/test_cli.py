@@ -202,7 +202,7 @@ def test_the_audit_exits_1_on_a_disagreement(monkeypatch: pytest.MonkeyPatch) ->
         return replace(real(family), oracle=lambda given: [np.add(each, 1e9) for each in real(family).oracle(given)])
 
     monkeypatch.setattr("rldrill.audit.checking.solver", broken)
-    (finding, *_) = audit(["td-zero"], number=2)
+    (finding, *_) = audit(["td-zero"], number=2, seed=0)
     assert len(finding.disagreements) == 2
     assert not finding.clean
 

@@ -6,6 +6,7 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.console import Console
@@ -13,8 +14,10 @@ from typer.testing import CliRunner
 
 import rldrill
 from rldrill.cli import app
+from rldrill.diagnosis import _is_shorter
 from rldrill.quiz.screen import Screen
 from rldrill.quiz.session import Session
+from rldrill.solutions.answers.text import read_number
 from rldrill.solutions.drawing import draw
 
 _SPEC = importlib.util.spec_from_file_location("error_model", Path(__file__).parent / "error_model.py")
@@ -100,3 +103,20 @@ def test_right_answers_are_never_accused(name: str, level: int, seed: int) -> No
     exercise = rldrill.Exercise(draw(name, level, seed))
     for label, answer in exercise.answers().items():
         assert exercise.diagnose(answer, label).kind == "right"
+
+
+@pytest.mark.parametrize(
+    ("typed", "key", "shorter"),
+    [
+        ("0.67", fmpq(2, 3), True), ("0.66", fmpq(2, 3), True), ("0.7", fmpq(2, 3), True), ("0.6", fmpq(2, 3), True),
+        ("1", fmpq(2, 3), True), ("0.65", fmpq(2, 3), False), ("0.68", fmpq(2, 3), False), ("-1", fmpq(2, 3), False),
+        ("3/4", fmpq(2, 3), False), ("3/4", fmpq(7512, 10000), True), ("1/3", fmpq(333, 1000), False),
+        ("√2", fmpq(141, 100), False), ("14", fmpq(29, 2), True), ("13", fmpq(29, 2), False),
+    ],
+)  # fmt: skip
+def test_a_number_with_fewer_digits_is_the_key_rounded_or_cut_off(typed: str, key: fmpq, shorter: bool) -> None:
+    assert _is_shorter(read_number(typed), key) is shorter
+
+
+def test_a_word_has_no_digits() -> None:
+    assert not _is_shorter("yes", "yes")

@@ -3,6 +3,7 @@
 from math import log
 
 import pytest
+from flint import fmpq
 
 import rldrill
 from rldrill.solutions.answers.judging import part_of, read_answer
@@ -48,3 +49,15 @@ def test_one_wrong_number_among_right_ones() -> None:
     assert seen["way from the key"] == pytest.approx(log(10))
     assert seen["far from the key"] == pytest.approx(log(10) - 1)
     assert seen["small"] == 0
+
+
+def test_two_slips_at_once_are_no_likelier_than_one_of_them() -> None:
+    solution = rldrill.read(RUN).solution
+    outcomes = Outcomes(Search(solution, {}), part_of(solution, "a"), {"cave": fmpq(9), "floor": fmpq(15, 2)})
+    outcomes.grow(Clock())
+    outcomes.grow_pairs(Clock())
+    pairs = outcomes.double.every
+    assert pairs
+    for pair in pairs:
+        assert pair.cause.then is not None
+        assert 0 < pair.cause.weight <= pair.cause.then.weight

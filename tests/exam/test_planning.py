@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 from rldrill.exam import expected
-from rldrill.exam.blueprint import Blueprint, Entry
+from rldrill.exam.blueprint import LONGEST_TITLE, Blueprint, Entry
 from rldrill.exam.exam import points_of
 from rldrill.exam.fairness import content, fairness, told
 from rldrill.exam.planning import plan, version_code
@@ -177,3 +177,43 @@ def test_every_family_has_its_variety_counted() -> None:
     }
     assert variety("max-margin", 1, 20) == expected.variety()["max-margin"][0]
     assert variety("td-zero", 2, 20) == 20 <= expected.variety()["td-zero"][1]
+
+
+def test_points_that_do_not_fit_a_problem_are_said() -> None:
+    with pytest.raises(UsageError, match="Td-zero has 2 parts, and 1 points do not give each of them one"):
+        plan(Blueprint(problems=(Entry(family="td-zero", level=2, points=1),), seed=1))
+    for points, said in (((1, 2, 3), "3 parts"), ((3,), "1 part")):
+        with pytest.raises(UsageError, match=f"Points are given for {said}, and td-zero has 2 here"):
+            plan(Blueprint(problems=(Entry(id="td-zero/2/7", points=points),), seed=1))
+    exam = plan(Blueprint(problems=(Entry(family="td-zero", level=2, points=2),), seed=1))
+    assert [part.points for part in exam.versions[0].exercises[0].parts] == [1, 1]
+
+
+def test_named_problems_may_not_take_all_of_the_time_from_the_topics() -> None:
+    named = Entry(family="optimal-value", level=2, count=4)
+    with pytest.raises(UsageError, match="The problems that are named take all of the time already"):
+        slots(Blueprint(problems=(named, Entry(topic=("bellman",))), seed=1, minutes=10), 1)
+    assert len(slots(Blueprint(problems=(named,), seed=1, minutes=10), 1)) == 4
+
+
+def test_a_title_may_have_so_many_signs_and_no_more() -> None:
+    assert blueprint("bellman").but(title="x" * LONGEST_TITLE).title == "x" * LONGEST_TITLE
+    with pytest.raises(UsageError, match=f"The title has {LONGEST_TITLE + 1} characters; give one of at most"):
+        blueprint("bellman").but(title="x" * (LONGEST_TITLE + 1))
+
+
+def test_families_with_too_few_answers_for_all_versions_come_last_the_most_various_of_them_first() -> None:
+    every = Blueprint(problems=(Entry(topic=("bayes", "inverse-rl"), count=11, level=1),), seed=3)
+    for versions, needed in ((1, 1), (3, 4), (15, 20), (60, 80)):  # a third more than there are versions
+        found = [slot.variety for slot in slots(every, 3, versions)]
+        enough = [variety >= needed for variety in found]
+        assert enough == sorted(enough, reverse=True)
+        poor = [variety for variety in found if variety < needed]
+        assert poor == sorted(poor, reverse=True)
+    assert len(poor) > 2
+
+
+def test_of_a_family_with_too_few_answers_another_level_is_taken_where_none_is_asked_for() -> None:
+    free = Blueprint(problems=(Entry(topic=("max-margin",), count=1),), seed=3)
+    (one,), (many,) = slots(free, 3, 1), slots(free, 3, 40)
+    assert one.variety < 40 <= many.variety

@@ -1,4 +1,4 @@
-"""Which problems a run asks: levels in their shares, every family before one comes again, versions apart."""
+"""Which problems a run asks: levels in their shares, every family before one comes again."""
 
 from collections import Counter
 from itertools import islice
@@ -24,9 +24,3 @@ def test_every_family_comes_once_before_one_comes_again() -> None:
     for start in range(0, len(asked), len(names)):
         assert set(asked[start : start + len(names)]) == set(names)
     assert asked[: len(names)] != asked[len(names) : 2 * len(names)], "each round has an order of its own"
-
-
-def test_versions_share_families_and_levels_but_no_seed() -> None:
-    first, second = ([*islice(sequence(("bellman",), None, 9, version), 20)] for version in (0, 1))
-    assert [slot[:2] for slot in first] == [slot[:2] for slot in second]
-    assert not {seed for *_, seed in first} & {seed for *_, seed in second}

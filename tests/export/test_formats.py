@@ -19,7 +19,9 @@ import pytest
 
 import rldrill
 from rldrill.exam.exam import Exam, Head, Version
-from rldrill.export.formats import FORMATS, export, format_of
+from rldrill.exam.planning import version_code
+from rldrill.exam.roster import Person
+from rldrill.export.formats import FORMATS, check, export, format_of, named, version_path
 from rldrill.problems.document import Table
 from rldrill.problems.errors import UsageError
 from rldrill.render.html import Html
@@ -234,3 +236,90 @@ def test_an_empty_corner_of_a_table_is_no_heading() -> None:
     written = Html().table(Table(("", "$s$"), (("$V$", "3"),)))
     assert written.count("<th ") == 1
     assert '<td></td><th scope="col"><math aria-label="s">' in written
+
+
+#: Two models to choose from, yes or no, and two matrices with one row, of two entries and of one.
+OTHER_KINDS = ("bic/1/0", "policy-improvement-theorem/1/0", "lqr-gain/2/3")
+
+
+def other_kinds(versions: int = 1, person: Person | None = None) -> Exam:
+    exercises = tuple(map(rldrill.load, OTHER_KINDS))
+    codes = (version_code(number) for number in range(versions))
+    return Exam(Head(title="t"), 1, tuple(Version(code, exercises, (0, 1, 2), person=person) for code in codes))
+
+
+def other(name: str, folder: Path) -> bytes:
+    (path,) = export(other_kinds(), folder / "exam", FORMATS[name], practice=False)
+    return path.read_bytes()
+
+
+def test_choices_and_matrices_of_a_page_are_buttons_and_boxes_in_their_columns(tmp_path: Path) -> None:
+    (path,) = export(other_kinds(), tmp_path / "exam.html", FORMATS["html"], practice=True)
+    text = path.read_text(encoding="utf-8")
+    assert re.findall(r'type="radio" name="cell-0" value="(\w+)"><span>(.*?)</span>', text) == [
+        ("A", "(A) small"), ("B", "(B) large"), ("yes", "yes"), ("no", "no"),
+    ]  # fmt: skip
+    assert re.findall(r'class="cells matrix" style="grid-template-columns: repeat\((\d),', text) == ["2", "1"]
+    assert re.findall(r'aria-label="(row \d, column \d)"', text) == [
+        "row 1, column 1", "row 1, column 2", "row 1, column 1",
+    ]  # fmt: skip
+
+
+def test_choices_and_matrices_of_latex_moodle_and_qti(tmp_path: Path) -> None:
+    latex = other("latex", tmp_path).decode()
+    assert "\\begin{checkboxes}\n\\choice small\n\\choice large\n\\end{checkboxes}\n" in latex
+    assert "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n" in latex
+
+    assert "Q^π" in other("json", tmp_path).decode()
+
+    moodle = [each.findtext("questiontext/text") or "" for each in ElementTree.fromstring(other("moodle", tmp_path))]
+    assert "<p>(A) small</p><p>(B) large</p>" in moodle[1]
+    assert re.findall(r":MULTICHOICE:(.*?)#", moodle[1] + moodle[2]) == ["=A~B", "=yes~no"]
+    assert [row.count("<td>") for row in re.findall("<tr>(.*?)</tr>", moodle[3])[-2:]] == [2, 1]
+
+    with zipfile.ZipFile(io.BytesIO(other("qti", tmp_path))) as package:
+        items = [package.read(name).decode() for name in sorted(package.namelist()) if name.endswith(".xml")]
+    text = "".join(items)
+    choices = re.findall(r'<choiceInteraction .*?maxChoices="1">(.*?)</choiceInteraction>', text)
+    assert [re.findall("<simpleChoice [^>]*>(.*?)</simpleChoice>", each) for each in choices] == [
+        ["(A) small", "(B) large"], ["yes", "no"],
+    ]  # fmt: skip
+    tables = re.findall(r"<table><tbody>(.*?)</tbody></table>", text)
+    assert [(each.count("<tr>"), each.count("<td>")) for each in tables] == [(1, 2), (1, 1)]
+
+
+def test_each_version_has_a_file_of_its_own_unless_the_format_holds_them_all(tmp_path: Path) -> None:
+    ann = Person("Ann", "1")
+    for exam, format_, names in (
+        (other_kinds(), "latex", ["x.tex"]),
+        (other_kinds(2), "latex", ["x-A.tex", "x-B.tex"]),
+        (other_kinds(1, ann), "latex", ["x-A.tex"]),
+        (other_kinds(2), "json", ["x.json"]),
+    ):
+        path = named(tmp_path / "x.pdf", FORMATS[format_])
+        assert [version_path(exam, path, FORMATS[format_], each).name for each in exam.versions] == [
+            *names, *names[:1] * (len(exam.versions) - len(names)),
+        ]  # fmt: skip
+
+
+def test_a_name_gets_the_ending_of_its_format() -> None:
+    assert named(Path("a/x.html"), FORMATS["latex"]) == Path("a/x.tex")
+    assert named(Path("a/x"), FORMATS["latex"]) == Path("a/x.tex")
+    assert named(Path("a/x.TEX"), FORMATS["latex"]) == Path("a/x.TEX")
+
+
+def test_a_format_may_be_named_in_any_case_and_a_pdf_is_none() -> None:
+    assert format_of(Path("a.html"), " LaTeX ") == FORMATS["latex"]
+    assert format_of(Path("a.html"), "PDF") is None
+    assert format_of(None) is None
+
+
+def test_what_is_there_is_replaced_only_by_force(tmp_path: Path) -> None:
+    exam, path = other_kinds(2), tmp_path / "x.tex"
+    check(exam, path, FORMATS["latex"], force=False)
+    (tmp_path / "x-B.tex").write_text("")
+    with pytest.raises(UsageError, match=r"x-B\.tex is there already; --force replaces it"):
+        check(exam, path, FORMATS["latex"], force=False)
+    check(exam, path, FORMATS["latex"], force=True)
+    with pytest.raises(FileNotFoundError, match="No such folder"):
+        check(exam, tmp_path / "none" / "x.tex", FORMATS["latex"], force=True)

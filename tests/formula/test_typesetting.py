@@ -130,6 +130,13 @@ def test_a_product_over_a_run() -> None:
     [
         (fmpq(-3, 4), "−3/4"),
         (fmpq(7), "7"),
+        # With more than a million below the line, a decimal of up to 14 places is easier to read, where there is one.
+        (fmpq(1, 10**6), "1/1000000"),
+        (fmpq(1, 2 * 10**6), "0.0000005"),
+        (fmpq(-12345678, 10**7), "−1.2345678"),
+        (fmpq(1, 10**14), "0.00000000000001"),
+        (fmpq(1, 10**15), "1/1000000000000000"),
+        (fmpq(1, 3 * 10**6), "1/3000000"),
         (2 - 3 * generator("gamma") + generator("gamma") ** 2 * fmpq(1, 2), "2 − 3γ + 1/2·γ²"),
         ((3 * generator("p") - 9) / (generator("p") - 1), "(9 − 3p)/(1 − p)"),
         (1 / (1 - generator("gamma")), "1/(1 − γ)"),

@@ -1,5 +1,6 @@
 """Progress: what is worked out from the log, and how it looks."""
 
+import io
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
@@ -14,7 +15,7 @@ from rldrill.history.attempts import Attempt
 from rldrill.history.log import append
 from rldrill.history.memory import Skill
 from rldrill.history.place import HistoryError
-from rldrill.history.progress import Mistake, progress
+from rldrill.history.progress import Day, Mistake, Progress, Share, progress
 from rldrill.quiz.mistakes import called
 from rldrill.quiz.progress import shown
 from rldrill.solutions.diagnosis import weights
@@ -113,3 +114,58 @@ def test_the_command(tmp_path: Path) -> None:
     for ending, head in heads.items():
         stats(tmp_path, "-o", str(tmp_path / f"progress{ending}"))
         assert (tmp_path / f"progress{ending}").read_bytes().startswith(head)
+
+
+MONDAY = date(2026, 11, 23)
+
+
+def day(number: int, answers: int, right: int = 0, seconds: float = 30) -> Day:
+    return Day(MONDAY + number * DAY, answers, right, 1, seconds)
+
+
+def screen(found: Progress) -> list[str]:
+    console = Console(file=io.StringIO(), width=92, color_system=None)
+    with console.capture() as captured:
+        console.print(shown(found))
+    return [line.rstrip() for line in captured.get().splitlines()]
+
+
+def test_the_whole_of_it_as_one_would_draw_it() -> None:
+    shares = (Share("td", 0.5, 1, 2, 3, 1, 2, 89.4), Share("bellman", 0.0, 0, 3, 0, 0, 0, None))
+    mistake = Mistake("forgot-gamma", "td-zero", 2)
+    found = Progress(shares, (day(0, 1), day(1, 20, 1, 90)), (2, 3, 1, 0, 0, 0, 1, 0), (mistake,), 2)
+    assert screen(found) == [
+        "21 answers on 2 days; 50 % of the questions right at the first try; 2 days in a row.",
+        "",
+        "What you would get right today",
+        "td       ━━━━━━━━━━            50 %  1/2 seen  89 s",
+        "bellman                         0 %  0/3 seen",
+        "",
+        "Due",
+        "2 now, 3 more tomorrow, 2 more in the days after, up to a week.",
+        "",
+        "Day by day",
+        "Mon 23 Nov                          0 %    1 answer   30 s",
+        "Tue 24 Nov  ━━━━━━━━━━━━━━━━━━━━  100 %  20 answers  2 min",
+        "",
+        "Mon  · · · · · · · · · · · ░",
+        "Tue  · · · · · · · · · · · █",
+        *(f"{name}  · · · · · · · · · · ·" for name in ("Wed", "Thu", "Fri", "Sat", "Sun")),
+        "",
+        "Your mistakes",
+        "2 ×  forgot gamma  td-zero",
+        "To drill one of them alone:",
+        "  rldrill quiz --mistake forgot-gamma",
+        "",
+    ]
+
+
+def test_a_day_is_darker_the_more_was_answered() -> None:
+    # Four shades: the next one begins with every third of twenty answers.
+    answers = (1, 6, 7, 13, 14, 19, 20, 99)
+    found = Progress((), tuple(day(7 * week, each) for week, each in enumerate(answers)), (0,) * 8, (), 1)
+    lines = screen(found)
+    assert lines[0] == "179 answers on 8 days; 0 % of the questions right at the first try."
+    assert "Nothing in the next days; new problems wait." in lines
+    assert "Mon  · · · · ░ ░ ▒ ▒ ▓ ▓ █ █" in lines
+    assert sum(" Nov" in line or " Dec" in line or " Jan" in line for line in lines) == 7  # the last days

@@ -53,19 +53,21 @@ class Choice:
         """The IDs of what can notice it, the likeliest first: by their ranks, then the first cases of all functions.
 
         For what writes pages, the pages of all families come first: most of it shows in none of their names. Where it
-        is known which tests run the changed statement, there are no others but those that start other programs.
+        is known which tests run the changed statement, there are no others but those that start other programs, and
+        those come first of all that run rare lines of the same function.
         """
         order: Counter[tuple[int, str]] = Counter()
         keyed = []
         running = self.covering.tests(source, mutation) if self.covering else frozenset()
+        rare = running & self.covering.rare(source, mutation) if self.covering else frozenset()
         ranks = zip(self._ranks(source, mutation), self.ids, strict=True)
         for rank, test in [each for each in ranks if each[0] < _NOT or each[1] in running]:
             if running and self._is_far(test, running):
                 continue
             function = test.partition("[")[0]
-            keyed.append((rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
+            keyed.append((test not in rare, rank, self._is_dear(test.partition("::")[0]), order[rank, function], test))
             order[rank, function] += 1
-        keyed.sort(key=lambda each: each[:3])
+        keyed.sort(key=lambda each: each[:-1])
         return tuple(test for *_, test in keyed[:MOST])
 
     def _is_far(self, test: str, running: frozenset[str]) -> bool:

@@ -9,6 +9,9 @@ from pathlib import Path
 from coverage import CoverageData
 from places import ROOMS, Mutation, Source
 
+#: A line that is run by no more tests than these is a rare one.
+_FEW = 20
+
 
 @dataclass(frozen=True)
 class Covering:
@@ -52,13 +55,31 @@ class Covering:
         noted = (each for first, last in places for at in range(first, last + 1) for each in contexts.get(at, ()))
         return frozenset(context.rpartition("|")[0] for context in noted) - {""}
 
+    def rare(self, source: Source, mutation: Mutation) -> frozenset[str]:
+        """The tests that run a line of the same function which hardly any other runs: such as what an ``if`` guards."""
+        measured = self._paths.get(source.path)
+        if measured is None:
+            return frozenset()
+        contexts = self._data.contexts_by_lineno(measured)
+        noted = (contexts.get(line, ()) for line in _around(source.tree, source.line(mutation)))
+        running = ({context.rpartition("|")[0] for context in each} - {""} for each in noted)
+        return frozenset().union(*(tests for tests in running if len(tests) <= _FEW))
+
+
+def _around(tree: ast.Module, line: int) -> range:
+    """The lines of the innermost function that a line stands in; none where it stands in none."""
+    inside = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef) and node.body[0].lineno <= line <= (node.end_lineno or 0)
+    ]
+    innermost = max(inside, key=lambda node: node.lineno, default=None)
+    return range(0) if innermost is None else range(innermost.lineno, (innermost.end_lineno or 0) + 1)
+
 
 def _in_a_function(tree: ast.Module, line: int) -> bool:
     """Whether a line is run when a function is called; else whichever test imports the module first seems to run it."""
-    return any(
-        isinstance(node, ast.FunctionDef) and node.body[0].lineno <= line <= (node.end_lineno or 0)
-        for node in ast.walk(tree)
-    )
+    return bool(_around(tree, line))
 
 
 def _innermost(tree: ast.Module, line: int) -> int:

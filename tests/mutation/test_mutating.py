@@ -133,6 +133,22 @@ def test_only_tests_that_run_the_statement_come_into_question_where_they_are_kno
     assert choice.tests(Source.read(tmp_path, "rldrill/tax.py"), constant) == ids[:2]  # who uses it is not known
 
 
+def test_those_come_first_that_run_what_hardly_any_other_runs(tmp_path: Path) -> None:
+    (tmp_path / "rldrill").mkdir()
+    (tmp_path / "rldrill" / "tax.py").write_text("def tax(x):\n    if x < 3:\n        return 0\n    return x\n")
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_tax.py").write_text("def test_it(): ...")
+    ids = tuple(f"tests/test_tax.py::test_it[{number}]" for number in range(30))
+    data = CoverageData(str(tmp_path / "noted"))
+    for number, test in enumerate(ids):
+        data.set_context(f"{test}|run")
+        data.add_lines({"/elsewhere/rldrill/tax.py": [2, 3] if number == 25 else [2, 4]})
+    data.write()
+    source = Source.read(tmp_path, "rldrill/tax.py")
+    (less,) = (mutation for mutation in mutations(source) if mutation.new == b"<=")
+    assert Choice(tmp_path, ids, Covering(tmp_path / "noted")).tests(source, less) == (ids[25], *ids[:25], *ids[26:])
+
+
 def test_no_test_is_begun_after_the_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     clock = iter((10.0, 10.0, 13.0, 13.5))
     monkeypatch.setattr("trial._spent", lambda: next(clock))

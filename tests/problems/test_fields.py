@@ -14,6 +14,7 @@ from limits import limits
 from rldrill.problems.catalogue import families, family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Givens
+from rldrill.problems.fields import _range
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.grids import Grid
 
@@ -166,3 +167,22 @@ def test_the_limits_and_defaults_of_the_fields_are_those_that_were_agreed(name: 
     assert limits(family(name)) == pinned.get(name), (
         f"What a file of {name} may hold has changed; where that is meant, run 'python tests/golden/write.py {name}'."
     )
+
+
+@pytest.mark.parametrize(
+    ("schema", "unit", "says"),
+    [
+        ({"low": 1, "high": 9}, "", " from 1 to 9"),
+        ({"low": 1, "high": 9}, " entries", " of 1 to 9 entries"),
+        ({"low": 3, "high": 3}, " entries", " of 3 entries"),
+        ({"high": 9}, " entries", " of at most 9 entries"),
+        ({"high": 9}, "", ", at most 9"),
+        ({"low": 1}, " entries", " that is not empty"),
+        ({"low": 1}, "", ", at least 1"),
+        ({"low": 2}, " entries", " of at least 2 entries"),
+        ({"low": 0}, "", ""),
+        ({}, "", ""),
+    ],
+)
+def test_how_small_and_large_is_said(schema: dict[str, Any], unit: str, says: str) -> None:
+    assert _range(schema, "low", "high", unit) == says

@@ -9,7 +9,7 @@ from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.exact import read_fraction
 from rldrill.problems.fractions import Fraction
-from rldrill.problems.readings import distribution, meant
+from rldrill.problems.readings import distribution, meant, told
 
 
 @pytest.mark.parametrize(
@@ -92,3 +92,8 @@ def test_what_misses_1_by_more_is_refused_with_the_sum(chances: list[Any], total
     given = {"prior": prior, "likelihood": {"z": dict.fromkeys(prior, 1)}, "measurements": ["z"]}
     with pytest.raises(FileError, match=rf"given\.prior: the probabilities sum to {total}, not to 1"):
         family("bayes-rule").read(given)
+
+
+def test_a_number_is_told_as_a_fraction_up_to_a_thousandth() -> None:
+    assert told(Fraction(1, 1000)) == "1/1000"
+    assert told(Fraction(1, 1001)).startswith("0.000999000999")

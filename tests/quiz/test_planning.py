@@ -158,6 +158,41 @@ def test_the_first_line_says_what_and_why() -> None:
     assert said.startswith("2 due, 8 new; 9 days to the exam; first policy-value")
 
 
+@pytest.mark.parametrize(
+    ("ago", "says"), [(DAY / 2, "earlier today"), (DAY, "a day ago"), (2 * DAY, "2 days ago"), (9 * DAY, "9 days ago")]
+)
+def test_it_is_said_when_a_skill_was_seen(ago: timedelta, says: str) -> None:
+    skill = Skill("td-zero", 1)
+    said = Plan((skill,), [answered(skill, NOW - ago)], 1, NOW).says()
+    assert said.endswith(f"first td-zero, level 1, because you saw it {says}.")
+
+
+@pytest.mark.parametrize(("times", "says"), [(1, "once"), (2, "twice"), (3, "3 times")])
+def test_it_is_said_how_often_a_mistake_was_made_in_thirty_days(times: int, says: str) -> None:
+    skill = Skill("td-zero", 1)
+    every = [NOW - 31 * DAY, *(NOW - number * DAY for number in range(9, 9 - times, -1))]
+    log = [answered(skill, when, "wrong", "forgot-gamma") for when in every]
+    assert Plan((skill,), log, 1, NOW).says().endswith(f"because of “forgot gamma”, {says}.")
+
+
+def test_the_first_line_says_why_a_skill_is_asked_first() -> None:
+    one, two = Skill("td-zero", 1), Skill("td-zero", 2)
+    for order, log, why in (
+        ((one, two), [answered(one, NOW - DAY)], "level 2, because the level below went well."),
+        ((one, two), [answered(one, NOW - DAY, "wrong")], "level 1, because it went wrong the last time."),
+        ((two,), [answered(Skill("sarsa", 1), NOW)], "level 2, which is new."),
+    ):
+        assert Plan(order, log, 1, NOW).says().endswith(f"first td-zero, {why}")
+
+
+def test_what_is_due_fills_what_is_not_left_to_new_problems() -> None:
+    log = [answered(Skill(name, 1), NOW - 40 * DAY, "wrong") for name in ("td-zero", "sarsa", "return")]
+    order = tuple(Skill(name, 1) for name in ("td-zero", "sarsa", "return", "bandit"))
+    assert Plan(order, log, 2, NOW).says().startswith("2 due, 0 new (of 3 that are due); first ")
+    assert Plan(order, log, 9, NOW).says().startswith("3 due, 1 new; first ")
+    assert Plan(order[3:], log, 9, NOW).says().startswith("nothing due, 1 new; first bandit")
+
+
 def test_the_order_is_that_of_the_sheet_with_higher_levels_later() -> None:
     place = {skill: number for number, skill in enumerate(ORDER)}
     assert len(ORDER) == len(set(ORDER))

@@ -45,6 +45,11 @@ def test_where_the_picture_does_not_fit_the_table_stands_alone() -> None:
     ]
 
 
+def test_tables_that_do_not_fit_side_by_side_move_together_before_they_lose_their_lines() -> None:
+    assert [len(shown((TABLE, TABLE), room, width=25)) for room in (9, 8)] == [9, 8]
+    assert [line for line in shown((TABLE, TABLE), 8, width=25) if not line] == []
+
+
 def test_matrices_stand_side_by_side() -> None:
     blocks = tuple(Equation(mathematics(name), (mathematics("3"),), ("=",)) for name in ("A", "B", "C"))
     assert len(shown(blocks, 5)) == 5

@@ -4,7 +4,7 @@ import pytest
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Accent, operator, row, variable
-from rldrill.render.mathematics.unicode import inline
+from rldrill.render.mathematics.unicode import GLUE, inline
 from rldrill.render.terminal import PIPED, console, plain, wrapped
 
 
@@ -39,3 +39,10 @@ def test_a_formula_is_broken_only_where_it_has_no_room_and_a_list_behind_its_com
         "With a(1, 2) = 1, b(1, 2) = 1,",
         "c(1, 2) = 1, d(1, 2) = 1, e(1, 2) = 1.",
     ]
+
+
+def test_a_formula_of_48_signs_stays_in_one_piece_and_a_longer_one_may_be_broken() -> None:
+    short, long = "1000" + " + a" * 11, "a" + " + a" * 12
+    assert (len(short), len(long)) == (48, 49)
+    assert inline(f"${short}$", glued=True) == short.replace(" ", GLUE)
+    assert inline(f"${long}$", glued=True) == long

@@ -31,6 +31,17 @@ def test_a_bar_is_as_long_as_its_share() -> None:
     assert half.rstrip().endswith("1/2")
 
 
+def test_a_branch_ends_above_the_middle_of_what_its_leaf_is_called() -> None:
+    leaves = (Branch(Node("state", (), "longer")), Branch(Node("end", (), "x"), "$p$"))
+    assert lines(BackupDiagram(Node("state", leaves, "s"))) == [
+        "      ○ s",
+        "   ┌──┴───┐",
+        "   │      │ p",
+        "   ○      □",
+        "longer    x",
+    ]
+
+
 def test_a_long_label_of_a_root_is_not_cut_off() -> None:
     root = Node("state", (Branch(Node("action")),), "a root with a long label")
     assert any("a root with a long label" in line for line in lines(BackupDiagram(root)))

@@ -10,7 +10,9 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from asking import solved
+from rldrill.problems.document import Table
 from rldrill.problems.errors import FileError
 from rldrill.problems.models import Model
 from rldrill.problems.valued import with_reward, worth
@@ -334,3 +336,11 @@ def test_gaps_that_cannot_be_filled(rows: Any, more: Any, fragment: str) -> None
     values = {"a": {"x": 1}, "b": {"x": 2}}
     with pytest.raises(FileError, match=fragment):
         solved("optimal-policy-from-q", values=values, missing={"transitions": rows}, terminal=["end"], **more)
+
+
+def test_the_actions_of_a_table_stand_in_the_order_of_the_longest_row() -> None:
+    given = {"values": {"a": {"stay": 1}, "b": {"left": 3, "stay": 2, "right": 1}}}
+    (table,) = (block for block in rldrill.read({"family": "optimal-policy-from-q", "given": given}).question()
+                if isinstance(block, Table))  # fmt: skip
+    assert table.header[1:] == ("left", "stay", "right")
+    assert table.rows == (("a", "–", "$1$", "–"), ("b", "$3$", "$2$", "$1$"))

@@ -96,6 +96,8 @@ def test_a_long_sum_is_written_once_with_its_first_terms_and_its_last() -> None:
         (fmpq(2 * 10**60 + 1, 3), "6.66666666666…·10⁵⁹"),
         (fmpq(1, 3 * 10**60), "3.33333333333…·10⁻⁶¹"),
         (fmpq(10**39, 7), f"{10**39}/7"),
+        (fmpq(10**40), f"{10**40}"),
+        (fmpq(10**40 + 1), "1.00000000000…·10⁴⁰"),
     ],
 )
 def test_long_numbers_of_workings_are_cut_off(value: fmpq, shown: str) -> None:

@@ -31,16 +31,16 @@ def _node(node: Node) -> _Block:
     if not node.branches:
         return _centred([sign, label] if label else [sign])
     below = _joined([_branch(branch, dots=node.dots) for branch in node.branches])
-    columns = [at for at, char in enumerate(below.lines[0]) if char in "│┊"]
-    middle = (columns[0] + columns[-1]) // 2
+    columns = [at for at, char in enumerate(below[0]) if char in "│┊"]
+    middle, wide = (columns[0] + columns[-1]) // 2, len(below[0])
     lines = []
     if len(columns) > 1:
-        lines.append(_bar(columns, middle, below.width))
+        lines.append(_bar(columns, middle, wide))
         if node.maximum:
-            lines.append(_arc(columns, below.width))
-    lines += below.lines
+            lines.append(_arc(columns, wide))
+    lines += below
     head = f"{' ' * middle}{sign}{' ' + label if label else ''}"
-    width = max(below.width, len(head))
+    width = max(wide, len(head))
     return _Block([line.ljust(width) for line in (head, *lines)], middle)
 
 
@@ -85,11 +85,10 @@ def _centred(lines: list[str]) -> _Block:
     return _Block([line.center(width) if len(line) % 2 else f"{line.center(width - 1)} " for line in lines], width // 2)
 
 
-def _joined(blocks: list[_Block]) -> _Block:
-    """Blocks side by side."""
+def _joined(blocks: list[_Block]) -> list[str]:
+    """The lines of blocks side by side."""
     high = max(len(block.lines) for block in blocks)
-    rows = [
+    return [
         (" " * _GAP).join(block.lines[row] if row < len(block.lines) else " " * block.width for block in blocks)
         for row in range(high)
     ]
-    return _Block(rows, blocks[0].column)
