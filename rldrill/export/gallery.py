@@ -10,7 +10,6 @@ from rldrill.export.html import HTML, part_form, scripts, task
 from rldrill.export.page import beside, page
 from rldrill.export.words import page_words
 from rldrill.misreading import misreading
-from rldrill.print.words import words
 from rldrill.problems.catalogue import family as family_of
 from rldrill.problems.document import Equation
 from rldrill.problems.headers import Header
@@ -111,7 +110,7 @@ def _mistakes(header: Header, exercises: tuple[Exercise, ...]) -> str:
 
 
 def _example(level: int, exercise: Exercise) -> str:
-    parts = "".join(part_form(words("en"), level, exercise, part, practice=True) for part in exercise.parts)
+    parts = "".join(part_form("en", level, exercise, part, practice=True) for part in exercise.parts)
     return (
         f'<section aria-labelledby="level-{level}"><h2 id="level-{level}">Level {level} '
         f"<small>{escape(exercise.id or '')}</small></h2>\n{HTML.blocks(exercise.question())}\n{parts}</section>\n"
