@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: With fewer versions another process takes longer to start than it saves.
 _MANY = 6
 #: After so many versions a process is replaced by a fresh one, which has less in its memory.
-_REPLACED = 50
+_REPLACED = 25
 
 
 @dataclass(frozen=True)
