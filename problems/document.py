@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from rldrill.problems.mathematics import Math, mathematics
-from rldrill.problems.notations import LECTURE, all_in_notation, in_use
+from rldrill.problems.notations import PLAIN, Writing, all_in_notation, in_use, with_mark
 
 
 class Block:
@@ -52,7 +52,7 @@ class Equation(Block):
     rights: tuple[Math, ...]
     signs: tuple[str, ...]
     label: str = ""
-    notation: str = field(default=LECTURE, compare=False)
+    notation: Writing = field(default=PLAIN, compare=False)
     linear: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -81,10 +81,10 @@ _PIECES = re.compile(r"\$([^$]*)\$")
 
 
 def pieces(text: str) -> list[str | Math]:
-    """Take a text apart into plain text and mathematics."""
+    """Take a text apart into plain text and mathematics, each as it is written now."""
     parts = _PIECES.split(text)
     found = iter(all_in_notation([mathematics(part) for part in parts[1::2] if part]))
-    return [next(found) if index % 2 else part for index, part in enumerate(parts) if part]
+    return [next(found) if index % 2 else with_mark(part) for index, part in enumerate(parts) if part]
 
 
 def joined(items: list[str]) -> str:

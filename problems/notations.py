@@ -1,4 +1,4 @@
-"""The notations of other courses: mathematics is rewritten on its way to the page; names and IDs stay as they are."""
+"""Other courses' notations, and decimal commas: what is written is rewritten on its way to the page; IDs stay."""
 
 import re
 import tomllib
@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from rldrill.problems.errors import UsageError
 from rldrill.problems.mathematics import Fence, Fraction, Glyph, Math, Row, Script, mathematics, row
@@ -26,7 +26,21 @@ _AMBIGUOUS = tuple(Glyph(letter, "variable") for letter in "Rsa")
 _OF_LINEAR_SYSTEMS = tuple(Glyph(letter, "variable") for letter in "BL")
 _REWARD, _STATE_AND_ACTION = Glyph("r", "variable"), mathematics("(s_ⓣ, a_ⓣ)")
 
-_in_use: ContextVar[str] = ContextVar("notation", default=LECTURE)
+_COMMA, _SEMICOLON = Glyph(",", "punctuation"), Glyph(";", "punctuation")
+#: A number with decimals; no date, and no part of a name.
+_DECIMALS = re.compile(r"(?<![\w.])([0-9]+)\.([0-9]+)(?![\w.]*\w)")
+
+
+class Writing(NamedTuple):
+    """How mathematics is written: the name of the notation, and the sign before the decimals."""
+
+    notation: str = LECTURE
+    mark: str = "."
+
+
+#: How everything is written unless something else is asked for.
+PLAIN = Writing()
+_in_use: ContextVar[Writing] = ContextVar("writing", default=PLAIN)
 
 
 @dataclass(frozen=True)
@@ -58,8 +72,8 @@ def notations() -> Mapping[str, Notation]:
     }
 
 
-def in_use() -> str:
-    """The name of the notation that is written now."""
+def in_use() -> Writing:
+    """How mathematics is written now."""
     return _in_use.get()
 
 
@@ -69,17 +83,17 @@ def use(name: str) -> None:
     Raises:
         UsageError: there is none of that name.
     """
-    _in_use.set(known(name))
+    _in_use.set(Writing(known(name)))
 
 
 @contextmanager
-def used(name: str) -> Iterator[None]:
-    """Write in that notation for a while.
+def used(name: str, mark: str = ".") -> Iterator[None]:
+    """Write in that notation for a while, with that sign before the decimals.
 
     Raises:
         UsageError: there is none of that name.
     """
-    token = _in_use.set(known(name))
+    token = _in_use.set(Writing(known(name), mark))
     try:
         yield
     finally:
@@ -105,11 +119,30 @@ def in_notation(math: Math) -> Math:
 
 def all_in_notation(together: Sequence[Math], *, linear: bool = False) -> tuple[Math, ...]:
     """Mathematics that stands together; it is of a linear system if that is said, or if any of it tells."""
-    name = _in_use.get()
-    if name == LECTURE:
-        return tuple(together)
-    linear = linear or any(map(is_linear, together))
-    return tuple(_translated(name, math, linear) for math in together)
+    name, mark = _in_use.get()
+    if name != LECTURE:
+        linear = linear or any(map(is_linear, together))
+        together = [_translated(name, math, linear) for math in together]
+    return tuple(together if mark == "." else map(_with_commas, together))
+
+
+def with_mark(text: str) -> str:
+    """Text without mathematics, with the decimal mark in use in its numbers."""
+    return text if _in_use.get().mark == "." else _DECIMALS.sub(r"\1,\2", text)
+
+
+@lru_cache(maxsize=4096)
+def _with_commas(math: Any) -> Any:
+    """Mathematics with decimal commas; semicolons part what stands beside such a number."""
+    if isinstance(math, Glyph):
+        return replace(math, text=math.text.replace(".", ",")) if math.style == "number" else math
+    if isinstance(math, tuple):
+        inside = tuple(map(_with_commas, math))
+        parted = any(isinstance(item, Glyph) and item.style == "number" and "," in item.text for item in inside)
+        return tuple(_SEMICOLON if item == _COMMA else item for item in inside) if parted else inside
+    if not is_dataclass(math):
+        return math
+    return replace(math, **{field.name: _with_commas(getattr(math, field.name)) for field in fields(math)})  # type: ignore[type-var]
 
 
 @lru_cache(maxsize=4096)

@@ -17,7 +17,7 @@ from rldrill.problems.document import Block, Equation, Heading, Paragraph
 from rldrill.problems.errors import FileError, UsageError
 from rldrill.problems.family import Problem
 from rldrill.problems.identity import looks_like_id
-from rldrill.problems.notations import in_use
+from rldrill.problems.notations import Writing, in_use
 from rldrill.problems.parts import Choice, Kind, Part, Policy, YesNo
 from rldrill.render.markdown import markdown, markdown_text
 from rldrill.render.mathematics.unicode import inline, unicode
@@ -328,7 +328,7 @@ def _written(lines: Iterable[Line], stated: set[Formula]) -> Iterator[Block]:
 
 
 @lru_cache(maxsize=1024)
-def _general(formula: Formula, _: str) -> str:
+def _general(formula: Formula, _: Writing) -> str:
     """A formula as it is computed with, in the notation in use; the same ones are written again and again."""
     return unicode_text(formula.equation(formula.right))
 

@@ -10,7 +10,7 @@ from sympy import Expr
 
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math, listed, mathematics, name, punctuation, row, signs
-from rldrill.problems.notations import LECTURE, in_use, is_linear
+from rldrill.problems.notations import LECTURE, Writing, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
@@ -78,14 +78,14 @@ class Step(_Applied):
 
     def equation(self) -> Equation:
         """The step as one writes it: numbers put in, brackets worked out, result."""
-        notation = in_use()
-        if notation not in self._equations:
-            self._equations[notation] = self._written()
-        return self._equations[notation]
+        writing = in_use()
+        if writing not in self._equations:
+            self._equations[writing] = self._written()
+        return self._equations[writing]
 
     @cached_property
-    def _equations(self) -> dict[str, Equation]:
-        """The equation in every notation in which it was asked for; the same steps are written again and again."""
+    def _equations(self) -> dict[Writing, Equation]:
+        """The equation in every way in which it was asked for; the same steps are written again and again."""
         return {}
 
     def _written(self) -> Equation:
@@ -105,7 +105,7 @@ class Step(_Applied):
         if label := self._label():
             left = row(mathematics(label), punctuation(":"), left)
         # With the numbers put in, it does not tell any more whether it is of a linear system.
-        linear = in_use() != LECTURE and any(map(is_linear, (left, typeset(self.formula.right))))
+        linear = in_use().notation != LECTURE and any(map(is_linear, (left, typeset(self.formula.right))))
         return Equation(left, distinct, (self.sign, *["="] * (len(distinct) - 1)), linear=linear)
 
     def _label(self) -> str:

@@ -26,6 +26,7 @@ from rldrill.print.key import key_source
 from rldrill.print.paper import pdf
 from rldrill.print.worksheet import even_columns, options, space_of, worksheet_source
 from rldrill.problems.errors import UsageError
+from rldrill.problems.notations import used
 from rldrill.problems.parts import Choice, Matrix, Number, Part
 from rldrill.render.mathematics.unicode import unicode
 from rldrill.solutions.answers.key import answer_lines
@@ -41,7 +42,8 @@ def exam_of(*names: str, count: int = 3, seed: int = 5, level: int | None = None
 
 def printed(exam: Exam, folder: Path, source: object = worksheet_source, version: int = 0) -> Path:
     path = folder / "x.pdf"
-    path.write_bytes(pdf(source(exam, exam.versions[version]), accessible=True))
+    with used(exam.layout.notation, exam.head.decimal_mark):
+        path.write_bytes(pdf(source(exam, exam.versions[version]), accessible=True))
     return path
 
 

@@ -178,7 +178,7 @@ def _sit(source: Path, version: str | None, answers: Path | None, seed: int | No
     else:
         planned = plan(read_blueprint(source).but(seed=seed, versions=1))
         write_bytes_atomically(saved, written(manifest(planned)))
-    if in_use() == LECTURE:
+    if in_use().notation == LECTURE:
         use(planned.layout.notation)
     sitting = Sitting(planned, version_of(planned, version), path, utc_now(), saved)
     if path.exists():

@@ -12,6 +12,7 @@ from rldrill.exam.exam import Exam
 from rldrill.exercise import Exercise
 from rldrill.export.asked import Wrong, wrong_answers
 from rldrill.export.page import beside
+from rldrill.print.words import Words, words
 from rldrill.problems.errors import UsageError
 from rldrill.problems.parts import Choice, Part
 from rldrill.render.html import LatexHtml
@@ -57,7 +58,7 @@ def anki_exam(
         name = exam.head.title.replace("::", ":") + (f"::{version.code}" if len(exam.versions) > 1 else "")
         deck = genanki.Deck(_number(name), name)
         for exercise in version.exercises:
-            deck.add_note(_note(genanki, model, exercise))
+            deck.add_note(_note(genanki, model, exercise, words(exam.head.language)))
         decks.append(deck)
         advance()
     return _packed(genanki.Package(decks))
@@ -80,10 +81,10 @@ def _number(text: str) -> int:
     return 2**30 + int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") % 2**30
 
 
-def _note(genanki: Any, model: Any, exercise: Exercise) -> Any:
+def _note(genanki: Any, model: Any, exercise: Exercise, told: Words) -> Any:
     identity = exercise.id or hashlib.sha256(repr(exercise.problem.data()).encode()).hexdigest()[:16]
     asked = "".join(_asked(exercise, part) for part in exercise.parts)
-    solved = "".join(_solved(exercise, part) for part in exercise.parts)
+    solved = "".join(_solved(exercise, part, told) for part in exercise.parts)
     question = f"<h3>{_HTML.text(exercise.problem.family.title)}</h3>{_HTML.blocks(exercise.question())}{asked}"
     return genanki.Note(
         model=model,
@@ -104,9 +105,9 @@ def _asked(exercise: Exercise, part: Part) -> str:
     return f"<p>{_label(exercise, part)}{_HTML.text(part.ask)}</p>{options}"
 
 
-def _solved(exercise: Exercise, part: Part) -> str:
+def _solved(exercise: Exercise, part: Part, told: Words) -> str:
     wrong = "".join(map(_wrong, wrong_answers(exercise, part, _MISTAKES)))
-    mistakes = f"<p>Typical wrong answers</p><ul>{wrong}</ul>" if wrong else ""
+    mistakes = f"<p>{told.mistakes}</p><ul>{wrong}</ul>" if wrong else ""
     return (
         f"<p><b>{_label(exercise, part)}</b></p>{_HTML.block(exercise.answer(part))}"
         f"{_HTML.blocks(exercise.working(part.label))}{mistakes}"

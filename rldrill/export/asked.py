@@ -6,7 +6,9 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from rldrill.exam.choices import Language
 from rldrill.exercise import Exercise
+from rldrill.print.words import Words, words
 from rldrill.problems.document import Equation
 from rldrill.problems.mathematics import Math
 from rldrill.problems.notations import all_in_notation
@@ -17,9 +19,6 @@ from rldrill.solutions.answers.rule import tolerance
 from rldrill.solutions.answers.text import Reading, Unreadable, read_number
 from rldrill.solutions.exact import NotReal, decimal, parameters
 
-#: What is said above boxes that are judged elsewhere, and above what nobody but a person can judge.
-NOTE = "Type decimals that are right to three significant digits, such as 0.667; fractions are not read here."
-BY_HAND = "Answer in words and formulas; it is marked by hand."
 #: So many wrong answers to a part go along, the likeliest ones.
 _MISTAKES = 24
 #: So many wrong answers are told in one cell.
@@ -61,24 +60,24 @@ class Wrong:
     read: Equation | None
 
 
-def cells(exercise: Exercise, part: Part) -> tuple[Cell, ...]:
-    """The cells of a part with what is right in them."""
+def cells(exercise: Exercise, part: Part, language: Language = "en") -> tuple[Cell, ...]:
+    """The cells of a part with what is right in them; yes and no in that language."""
     kind, value = answer_kind(part.kind), exercise.solution.answers[part.label]
     content, lines = kind.cells(value), kind.lines(value)
     lefts = [left for left, _ in lines] if len(lines) == len(content) else [None] * len(content)
     written = iter(all_in_notation([left for left in lefts if left is not None]))
     return tuple(
-        _cell(part, name, None if left is None else next(written), each)
+        _cell(part, name, None if left is None else next(written), each, words(language))
         for (name, each), left in zip(content.items(), lefts, strict=True)
     )
 
 
-def _cell(part: Part, name: str, left: Math | None, content: Any) -> Cell:
+def _cell(part: Part, name: str, left: Math | None, content: Any, told: Words) -> Cell:
     match part.kind:
         case Choice(options):
             return Word(name, None, options, content)
         case YesNo():
-            return Word(name, None, {"yes": "yes", "no": "no"}, content)
+            return Word(name, None, {"yes": told.yes, "no": told.no}, content)
         case Policy(actions):
             return Word(name, left, {action: action for action in actions[name]}, tuple(content))
     return quantity(name, left, content)

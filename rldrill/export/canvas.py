@@ -13,11 +13,13 @@ from typing import Literal
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from rldrill.exam.exam import Exam, Version
+from rldrill.exam.exam import Exam, Head, Version
 from rldrill.exercise import Exercise
-from rldrill.export.asked import BY_HAND, NOTE, Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.words import page_words, typing_note
 from rldrill.problems.document import Table
+from rldrill.problems.notations import with_mark
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -37,7 +39,8 @@ _BESIDE = "associatedcontent/imscc_xmlv1p1/learning-application-resource"
 class _Writer(LatexHtml):
     """HTML as Canvas shows it, its pictures files beside the quiz."""
 
-    def __init__(self, folder: str) -> None:
+    def __init__(self, folder: str, head: Head) -> None:
+        self.head = head
         self._folder = folder
         self.files: dict[str, str] = {}
 
@@ -71,7 +74,7 @@ def canvas_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lam
     files: dict[str, str] = {}
     for version in exam.versions:
         name = _name(exam, version.code)
-        writer = _Writer(name)
+        writer = _Writer(name, exam.head)
         written = {
             f"{name}/{name}.xml": _xml(_quiz(writer, name, exam, version, practice=practice)),
             f"{name}/assessment_meta.xml": _xml(_settings(name, exam, version, practice=practice)),
@@ -113,10 +116,11 @@ def _settings(name: str, exam: Exam, version: Version, *, practice: bool) -> Ele
     """What Canvas keeps of a quiz beside its questions."""
     quiz = Element("quiz", {"identifier": name, "xmlns": _META})
     attempts = {"allowed_attempts": "-1"} if practice else {"allowed_attempts": "1"}
+    note = typing_note(exam.head, reads="language")
     limit = {} if exam.head.duration is None else {"time_limit": str(exam.head.duration)}
     said = {
         "title": _title(exam, version),
-        "description": "".join(f"<p>{escape(line)}</p>" for line in (exam.head.instructions, NOTE) if line),
+        "description": "".join(f"<p>{escape(line)}</p>" for line in (exam.head.instructions, note) if line),
         "shuffle_answers": "false",
         "quiz_type": "practice_quiz" if practice else "assignment",
         "points_possible": str(version.points),
@@ -178,9 +182,9 @@ class _Question:
 def _questions(writer: _Writer, number: int, exercise: Exercise, *, practice: bool) -> Iterator[_Question]:
     """What is given, and a question for everything that is asked."""
     title = f"{number:02} {inline(exercise.problem.family.title)}"
-    asked = [(part, cells(exercise, part)) for part in exercise.parts]
+    asked = [(part, cells(exercise, part, writer.head.language)) for part in exercise.parts]
     by_hand = any(is_open(cell) for _, every in asked for cell in every)
-    note = f"<p><em>{BY_HAND}</em></p>" if by_hand else ""
+    note = f"<p><em>{page_words(writer.head.language).by_hand}</em></p>" if by_hand else ""
     yield _Question("text_only_question", title, writer.blocks(exercise.question()) + note)
     for part, every in asked:
         for question in _of_part(writer, exercise, part, every):
@@ -219,7 +223,7 @@ def _of_part(writer: _Writer, exercise: Exercise, part: Part, every: Sequence[Ce
 def _number(number: Quantity) -> str:
     """A number as it is known, and as it is typed here."""
     decimal = f"{Decimal(number.decimal or 0):.4g}"
-    return escape(number.exact if number.exact == number.decimal else f"{number.exact} = {decimal}")
+    return escape(with_mark(number.exact if number.exact == number.decimal else f"{number.exact} = {decimal}"))
 
 
 def _left(writer: _Writer, cell: Cell) -> str:

@@ -89,14 +89,14 @@ def export(
     module, function = format_.writer
     write: Callable[..., str | bytes] = getattr(import_module(f"rldrill.export.{module}"), function)
     if format_.whole:
-        with used(exam.layout.notation):
+        with used(exam.layout.notation, exam.head.decimal_mark):
             content = write(exam, practice=practice, advance=advance)
         write_bytes_atomically(path, _bytes(content))
         yield path
         return
     for version in exam.versions:
         target = version_path(exam, path, format_, version)
-        with used(exam.layout.notation):
+        with used(exam.layout.notation, exam.head.decimal_mark):
             content = write(exam, version, practice=practice)
         write_bytes_atomically(target, _bytes(content))
         advance()

@@ -1,26 +1,40 @@
 """The catalogue as a site: a page for every family, and a front page that searches them without a server."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from html import escape
 from itertools import groupby
 from pathlib import Path
+from unicodedata import name, normalize
 
 from rldrill.exercise import Exercise, draw
 from rldrill.export.html import HTML, part_form, scripts, task
 from rldrill.export.page import beside, page
 from rldrill.export.words import page_words
 from rldrill.misreading import misreading
-from rldrill.print.words import words
 from rldrill.problems.catalogue import family as family_of
-from rldrill.problems.document import Equation
+from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.headers import Header
 from rldrill.render.mathematics.unicode import inline
+from rldrill.render.unicode import unicode_text
 from rldrill.solutions.formula.formula import Formula
 from rldrill.solutions.solution import solver
 from rldrill.writing import write_bytes_atomically
 
 _TITLE = "rldrill: what can be drilled"
 _SEED = 1
+#: What something is called elsewhere, so that it is found by that, too.
+_ALSO = {
+    "step size": "learning rate",
+    "discount": "discount factor",
+    "greedy": "exploration exploitation",
+    "td(": "temporal difference",
+    "lqr": "linear quadratic regulator",
+    "bic": "bayesian information criterion",
+    "advantage": "gae",
+    "trace": "eligibility",
+    "covariance": "sigma",
+}
 
 
 def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], None] = lambda: None) -> Iterator[Path]:
@@ -35,11 +49,11 @@ def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], Non
         OSError: a file cannot be written; ``filename`` says which.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    cards: list[tuple[Header, tuple[Formula, ...]]] = []
+    cards: list[_Card] = []
     for header in headers:
         exercises = tuple(draw(header.name, level, _SEED) for level in header.levels)
         formulas = tuple(dict.fromkeys(formula for exercise in exercises for formula in exercise.formulas()))
-        cards.append((header, formulas))
+        cards.append(_Card(header, formulas, _searched(header, exercises, formulas)))
         path = folder / f"{header.name}.html"
         write_bytes_atomically(path, _family(header, exercises, formulas).encode())
         advance()
@@ -48,10 +62,42 @@ def gallery(folder: Path, headers: tuple[Header, ...], advance: Callable[[], Non
     yield folder / "index.html"
 
 
-def _front(cards: list[tuple[Header, tuple[Formula, ...]]]) -> str:
+@dataclass(frozen=True, slots=True)
+class _Card:
+    """A family on the front page: its formulas, and the words that it is found by."""
+
+    header: Header
+    formulas: tuple[Formula, ...]
+    words: str
+
+
+def _searched(header: Header, exercises: tuple[Exercise, ...], formulas: tuple[Formula, ...]) -> str:
+    """All that is said of a family, every word once: its questions, formulas and mistakes, also by other names."""
+    said = [header.name, header.topic.replace("_", " "), header.title, header.summary, header.source]
+    for formula in formulas:
+        said += (formula.title, unicode_text(formula.equation()), formula.hint)
+    for mistake in solver(family_of(header.name)).misconceptions:
+        said += (mistake.name, mistake.says)
+    for exercise in exercises:
+        said += (block.text for block in exercise.question() if isinstance(block, Paragraph))
+        said += (part.ask for part in exercise.parts)
+    text = inline(" ".join(said))
+    found = text.lower()
+    also = " ".join(other for one, other in _ALSO.items() if one in found)
+    return " ".join(dict.fromkeys((*found.split(), *also.split(), *_greek(text))))
+
+
+def _greek(text: str) -> Iterator[str]:
+    """The names of the small Greek letters in a text; large ones are signs of sums and products."""
+    for sign in sorted(set(normalize("NFD", text))):
+        if (named := name(sign, "")).startswith("GREEK SMALL"):
+            yield named.split()[-1].lower().replace("lamda", "lambda")
+
+
+def _front(cards: list[_Card]) -> str:
     sections = "".join(
         f'<section><h2>{escape(_topic(topic))}</h2>\n<ul class="cards">\n{"".join(map(_card, found))}</ul></section>\n'
-        for topic, found in groupby(cards, key=lambda card: card[0].topic)
+        for topic, found in groupby(cards, key=lambda card: card.header.topic)
     )
     body = (
         f"<h1>{_TITLE}</h1>\n<p>{len(cards)} families of problems, each drawn anew for every seed, solved step by step "
@@ -59,15 +105,14 @@ def _front(cards: list[tuple[Header, tuple[Formula, ...]]]) -> str:
         '<p><label for="search">Search</label> <input type="text" id="search" autocomplete="off"> '
         '<span id="found" role="status"></span></p>\n'
     )
-    return page(_TITLE, body + sections, more=f"<script>\n{beside('search.js')}</script>\n")
+    return page(_TITLE, body + sections, more=f"<script>\n{beside('search.js')}{beside('search_page.js')}</script>\n")
 
 
-def _card(card: tuple[Header, tuple[Formula, ...]]) -> str:
-    header, formulas = card
-    said = " ".join((header.name, header.title, header.summary, *(formula.title for formula in formulas)))
+def _card(card: _Card) -> str:
+    header, formulas = card.header, card.formulas
     first = f'<div class="wide" tabindex="0">{HTML.block(formulas[0].equation())}</div>' if formulas else ""
     return (
-        f'<li data-text="{escape(inline(said).lower())}"><a href="{header.name}.html">{HTML.text(header.title)}</a> '
+        f'<li data-text="{escape(card.words)}"><a href="{header.name}.html">{HTML.text(header.title)}</a> '
         f"<small>{header.name}</small>\n<p>{HTML.text(header.summary)}</p>{first}</li>\n"
     )
 
@@ -111,7 +156,7 @@ def _mistakes(header: Header, exercises: tuple[Exercise, ...]) -> str:
 
 
 def _example(level: int, exercise: Exercise) -> str:
-    parts = "".join(part_form(words("en"), level, exercise, part, practice=True) for part in exercise.parts)
+    parts = "".join(part_form("en", level, exercise, part, practice=True) for part in exercise.parts)
     return (
         f'<section aria-labelledby="level-{level}"><h2 id="level-{level}">Level {level} '
         f"<small>{escape(exercise.id or '')}</small></h2>\n{HTML.blocks(exercise.question())}\n{parts}</section>\n"

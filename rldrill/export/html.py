@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from html import escape
 from typing import Any
 
+from rldrill.exam.choices import DecimalMark, Language
 from rldrill.exam.exam import Exam, Version, points_of
 from rldrill.exercise import Exercise
 from rldrill.export.asked import Cell, Quantity, Word, cells, wrong_answers
 from rldrill.export.page import beside, embedded, page
 from rldrill.export.words import PageWords, page_words
-from rldrill.print.words import Words, words, written_points
+from rldrill.print.words import words, written_points
 from rldrill.problems.parts import Choice, Matrix, Part, Policy, YesNo
 from rldrill.render.html import Html
 from rldrill.render.mathematics.mathml import mathml
@@ -38,13 +39,13 @@ def html_exam(exam: Exam, version: Version, *, practice: bool) -> str:
         title,
         _front(exam, version) + problems + score,
         language=exam.head.language,
-        more=scripts(tasks(version.exercises), told) if practice else "",
+        more=scripts(tasks(version.exercises), told, mark=exam.head.decimal_mark) if practice else "",
     )
 
 
-def scripts(tasks: dict[str, Any], told: PageWords) -> str:
-    """What judges in the page, and what it judges by."""
-    data = embedded({"tasks": tasks, "score": told.score})
+def scripts(tasks: dict[str, Any], told: PageWords, *, mark: DecimalMark = ".") -> str:
+    """What judges in the page, and what it judges by; with a decimal comma it reads 0,5 as 1/2."""
+    data = embedded({"tasks": tasks, "score": told.score, "told": {**told.verdicts, "comma": mark == ","}})
     return (
         f'<script type="application/json" id="tasks">{data}</script>\n'
         f"<script>\n{beside('judge.js')}{beside('page.js')}</script>\n"
@@ -101,9 +102,9 @@ def _front(exam: Exam, version: Version) -> str:
 
 
 def _problem(exam: Exam, number: int, exercise: Exercise, *, practice: bool) -> str:
-    told = words(exam.head.language)
+    told, language = words(exam.head.language), exam.head.language
     identity = f" · {exercise.id}" if exam.layout.ids and exercise.id else ""
-    parts = "".join(part_form(told, number, exercise, part, practice=practice) for part in exercise.parts)
+    parts = "".join(part_form(language, number, exercise, part, practice=practice) for part in exercise.parts)
     return (
         f'<section aria-labelledby="problem-{number}">\n<h2 id="problem-{number}">{told.problem} {number}: '
         f"{HTML.text(exercise.problem.family.title)} <small>({written_points(told, points_of(exercise))}"
@@ -111,12 +112,12 @@ def _problem(exam: Exam, number: int, exercise: Exercise, *, practice: bool) -> 
     )
 
 
-def part_form(told: Words, number: int, exercise: Exercise, part: Part, *, practice: bool) -> str:
+def part_form(language: Language, number: int, exercise: Exercise, part: Part, *, practice: bool) -> str:
     """A part as a form: what is asked, boxes for the answer, and for practice all that helps."""
     label = f"({part.label}) " if len(exercise.parts) > 1 else ""
     name = form_name(number, part)
     tag = "form" if practice else "div"
-    said = page_words("de" if told.problem == "Aufgabe" else "en")
+    told, said = words(language), page_words(language)
     worth = f" <small>({written_points(told, part.points)})</small>" if len(exercise.parts) > 1 else ""
     judged = f'<button type="submit">{said.check}</button><output></output>\n' if practice else ""
     helps = _helps(said, exercise, part) if practice else ""
@@ -124,7 +125,7 @@ def part_form(told: Words, number: int, exercise: Exercise, part: Part, *, pract
     return (
         f'<{tag} class="part" id="{name}"{extra}>\n'
         f'<fieldset><legend class="ask">{label}{HTML.text(part.ask)}{worth}</legend>\n'
-        f"{_boxes(said, part, cells(exercise, part))}</fieldset>\n{judged}{helps}</{tag}>\n"
+        f"{_boxes(said, part, cells(exercise, part, language))}</fieldset>\n{judged}{helps}</{tag}>\n"
     )
 
 

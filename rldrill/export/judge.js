@@ -113,6 +113,18 @@ const Judge = (() => {
     ? "A number has a comma in it; write a point before decimals, and nothing between thousands."
     : `“${rest.slice(0, 20)}” is not understood; write a number such as 3/4 or 0.75.`);
 
+  // Decimal commas; a point is taken for one, too, unless it may part thousands.
+  const pointed = (text) => {
+    const said = text.replace(/\{,\}/g, ",").replace(/[.,]?[0-9]+(?:[.,][0-9]+)*/g, (number) => {
+      const [commas, points] = [",", "."].map((sign) => number.split(sign).length - 1);
+      if (commas > 1 || points > 1 || (commas && points) || /^[1-9][0-9]{0,2}\.[0-9]{3}$/.test(number)) {
+        refuse(`“${number.slice(0, 20)}” may be several numbers; write a comma before decimals, and nothing between thousands.`);
+      }
+      return number.replace(",", ".");
+    });
+    return said.includes(",") ? refuse("There is a comma that is not within a number; write one number.") : said;
+  };
+
   const decimalValue = (text) => {
     const [mantissa, exponent = "0"] = text.toLowerCase().split("e");
     const [before, after = ""] = mantissa.split(".");
@@ -256,14 +268,14 @@ const Judge = (() => {
   }
 
   // A number, perhaps in several forms, with a name before it: V(s) = 1/4 = 0.25
-  function read(typed, parameters = []) {
+  function read(typed, parameters = [], comma = false) {
     if (typed.length > 400) refuse("It is too long.");
     let text = spelled(typed).replace(/^[≈~]\s*/u, "");
     if (!text) refuse("Nothing was typed.");
     let forms = text.split(/[=≈:]/u).map((form) => form.trim());
     if (forms.length > 1 && (!forms[0] || /^[^\W\d]|^[α-ωΑ-Ω∂]/u.test(forms[0]))) forms = forms.slice(1);
     const readings = forms.map((form) => {
-      const parser = new Parser(form, parameters);
+      const parser = new Parser(comma ? pointed(form) : form, parameters);
       const value = parser.all();
       POINTS.slice(0, parameters.length ? 2 : 1).forEach((point) => value(point));
       return { value, decimal: parser.decimal };
@@ -326,17 +338,23 @@ const Judge = (() => {
     return b !== 0 && Math.abs(a - b) <= Math.abs(b) / 50;
   };
 
-  // One part: what was typed for each of its cells, and what is known of it.
-  function part(task, typed) {
+  const TOLD = {
+    right: "Right.", close: "Right idea; give an exact value or three digits.", wrong: "Not right.",
+    some: "Not right at {}; the rest is right.", choose: "Choose an answer.", comma: false,
+  };
+
+  // One part: what was typed for each of its cells, and what is known of it, in words that may be others than ours.
+  function part(task, typed, others = {}) {
+    const told = { ...TOLD, ...others };
     const readings = [];
     for (const [index, cell] of task.cells.entries()) {
       if (cell.words) {
-        if (!typed[index]) return { outcome: "unreadable", says: "Choose an answer.", cell: index };
+        if (!typed[index]) return { outcome: "unreadable", says: told.choose, cell: index };
         readings.push(typed[index]);
         continue;
       }
       try {
-        readings.push(read(typed[index] ?? "", task.parameters));
+        readings.push(read(typed[index] ?? "", task.parameters, told.comma));
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
         return { outcome: "unreadable", says: (cell.name ? `${cell.name}: ` : "") + error.message, cell: index };
@@ -344,15 +362,15 @@ const Judge = (() => {
     }
     const fits = (index, key) => (Array.isArray(key) ? key.includes(readings[index]) : right(readings[index], key, task.parameters));
     const wrong = task.cells.map((_, index) => index).filter((index) => !fits(index, task.cells[index].words ?? task.cells[index].key));
-    if (!wrong.length) return { outcome: "right", says: "Right." };
+    if (!wrong.length) return { outcome: "right", says: told.right };
     const made = task.mistakes.find((mistake) => mistake.cells.every((key, index) => fits(index, key)));
     if (made) return { outcome: "misconception", says: made.says, read: made.read, wrong };
     if (wrong.every((index) => !task.cells[index].words && closeTo(readings[index], task.cells[index].key, task.parameters))) {
-      return { outcome: "close", says: "Right idea; give an exact value or three digits.", wrong };
+      return { outcome: "close", says: told.close, wrong };
     }
     const names = wrong.map((index) => task.cells[index].name).filter(Boolean);
     const some = names.length && names.length < task.cells.length;
-    return { outcome: "wrong", says: some ? `Not right at ${names.join("; ")}; the rest is right.` : "Not right.", wrong };
+    return { outcome: "wrong", says: some ? told.some.replace("{}", names.join("; ")) : told.wrong, wrong };
   }
 
   return { part, read, right, Unreadable };

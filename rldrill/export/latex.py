@@ -3,7 +3,8 @@
 from rldrill.exam.exam import Exam, Version
 from rldrill.exercise import Exercise
 from rldrill.export.asked import wrong_answers
-from rldrill.print.words import words
+from rldrill.export.words import page_words
+from rldrill.print.words import Words, words
 from rldrill.problems.parts import Choice, Part, YesNo
 from rldrill.render.latex import latex_block, latex_document, latex_text
 from rldrill.render.mathematics.latex import latex_plain
@@ -30,6 +31,9 @@ _PREAMBLE = r"""\documentclass[addpoints,%(paper)s,11pt]{exam}
 \firstpageheader{}{}{}
 \runningheader{%(title)s}{}{%(code)s}
 \footer{}{\thepage\ / \numpages}{}
+\pointpoints{%(point)s}{%(points)s}
+\hqword{%(problem)s:}\hpword{%(worth)s:}\hsword{%(reached)s:}\htword{%(total)s}
+\renewcommand{\solutiontitle}{\noindent\textbf{%(working)s:}\par\noindent}
 %(answers)s
 \begin{document}
 """
@@ -43,6 +47,13 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
         "paper": {"a4": "a4paper", "letter": "letterpaper"}[exam.layout.paper],
         "title": latex_plain(head.title),
         "code": code,
+        "point": told.point,
+        "points": told.points,
+        "problem": told.problem,
+        "worth": told.points.capitalize(),
+        "reached": told.reached,
+        "total": told.total,
+        "working": page_words(head.language).working,
         "answers": r"\printanswers" if practice else "% \\printanswers % prints the solutions",
     }
     name, number = r"\makebox[6cm]{\hrulefill}", r"\makebox[4cm]{\hrulefill}"
@@ -55,35 +66,33 @@ def latex_exam(exam: Exam, version: Version, *, practice: bool) -> str:
     lines += [latex_plain(f"{told.rule} {time}"), latex_plain(head.instructions)]
     front = "\n\n".join(line for line in lines if line)
     with_solutions = exam.layout.solutions != "none"
-    problems = "\n".join(
-        _problem(exercise, told.mistakes, with_solutions=with_solutions) for exercise in version.exercises
-    )
+    problems = "\n".join(_problem(exercise, told, with_solutions=with_solutions) for exercise in version.exercises)
     return (
         f"{preamble}{front}\n\n\\begin{{center}}\\fitted{{\\gradetable[h][questions]}}\\end{{center}}\n\n"
         f"\\begin{{questions}}\n{problems}\\end{{questions}}\n\\end{{document}}\n"
     )
 
 
-def _problem(exercise: Exercise, mistakes: str, *, with_solutions: bool) -> str:
+def _problem(exercise: Exercise, told: Words, *, with_solutions: bool) -> str:
     title = latex_text(exercise.problem.family.title)
-    parts = "\n".join(_part(exercise, part, mistakes, with_solutions=with_solutions) for part in exercise.parts)
+    parts = "\n".join(_part(exercise, part, told, with_solutions=with_solutions) for part in exercise.parts)
     question = latex_document(exercise.question())
     return f"\\question \\textbf{{{title}}}\n{question}\\begin{{parts}}\n{parts}\\end{{parts}}\n"
 
 
-def _part(exercise: Exercise, part: Part, mistakes: str, *, with_solutions: bool) -> str:
+def _part(exercise: Exercise, part: Part, told: Words, *, with_solutions: bool) -> str:
     options = ""
     if isinstance(part.kind, Choice):
         choices = "\n".join(rf"\choice {latex_text(text)}" for text in part.kind.options.values())
         options = f"\\begin{{checkboxes}}\n{choices}\n\\end{{checkboxes}}\n"
     elif isinstance(part.kind, YesNo):
-        options = "\\begin{oneparcheckboxes}\n\\choice yes \\choice no\n\\end{oneparcheckboxes}\n"
+        options = f"\\begin{{oneparcheckboxes}}\n\\choice {told.yes} \\choice {told.no}\n\\end{{oneparcheckboxes}}\n"
     asked = f"\\part[{part.points}] {latex_text(part.ask)}\n{options}"
     space = "" if options else f"{max(2, whole(minutes_of(exercise.solution, part.label)))}cm"
     if not with_solutions:
         return f"{asked}\\vspace{{{space}}}\n" if space else asked
     body = latex_document((exercise.answer(part), *exercise.working(part.label)))
-    wrong = _mistakes(exercise, part, mistakes)
+    wrong = _mistakes(exercise, part, told.mistakes)
     return f"{asked}\\begin{{solution}}{f'[{space}]' if space else ''}\n{body}{wrong}\\end{{solution}}\n"
 
 

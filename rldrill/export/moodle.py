@@ -7,9 +7,10 @@ from html import escape
 from math import gcd, lcm
 from xml.etree import ElementTree
 
-from rldrill.exam.exam import Exam, points_of
+from rldrill.exam.exam import Exam, Head, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import BY_HAND, NOTE, Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.words import page_words, typing_note
 from rldrill.problems.parts import Choice, Matrix, Part
 from rldrill.problems.pictures import Picture
 from rldrill.render.html import LatexHtml
@@ -24,7 +25,8 @@ _SPECIAL = re.compile(r"[\\{}#~]")
 class _Writer(LatexHtml):
     """HTML whose pictures are files beside it."""
 
-    def __init__(self) -> None:
+    def __init__(self, head: Head) -> None:
+        self.head = head
         self.files: dict[str, str] = {}
 
     def picture(self, picture: Picture) -> str:
@@ -50,7 +52,7 @@ def moodle_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lam
         name = exam.head.title.replace("/", "//") + (f"/{version.code}" if len(exam.versions) > 1 else "")
         _text(ElementTree.SubElement(category, "category"), f"$course$/top/{name}")
         for number, exercise in enumerate(version.exercises, 1):
-            quiz.append(_question(number, exercise, practice=practice))
+            quiz.append(_question(exam.head, number, exercise, practice=practice))
         advance()
     ElementTree.indent(quiz)
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(quiz, encoding="utf-8") + b"\n"
@@ -68,14 +70,15 @@ def _html(question: ElementTree.Element, tag: str, text: str, writer: _Writer | 
         file.text = b64encode(drawing.encode()).decode()
 
 
-def _question(number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
+def _question(head: Head, number: int, exercise: Exercise, *, practice: bool) -> ElementTree.Element:
     by_hand = any(is_open(cell) for part in exercise.parts for cell in cells(exercise, part))
     question = ElementTree.Element("question", type="essay" if by_hand else "cloze")
     _text(ElementTree.SubElement(question, "name"), f"{number:02} {inline(exercise.problem.family.title)}")
-    writer = _Writer()
-    body = writer.blocks(exercise.question()) + f"<p><em>{BY_HAND if by_hand else NOTE}</em></p>"
+    writer = _Writer(head)
+    note = page_words(head.language).by_hand if by_hand else typing_note(head, reads="both")
+    body = f"{writer.blocks(exercise.question())}<p><em>{note}</em></p>"
     _html(question, "questiontext", body + "".join(_parts(writer, exercise, by_hand=by_hand)), writer)
-    solved = _Writer()
+    solved = _Writer(head)
     working = "".join(
         solved.block(exercise.answer(part)) + solved.blocks(exercise.working(part.label)) for part in exercise.parts
     )
@@ -90,7 +93,7 @@ def _question(number: int, exercise: Exercise, *, practice: bool) -> ElementTree
 
 
 def _parts(writer: _Writer, exercise: Exercise, *, by_hand: bool) -> Iterator[str]:
-    asked = {part.label: cells(exercise, part) for part in exercise.parts}
+    asked = {part.label: cells(exercise, part, writer.head.language) for part in exercise.parts}
     common = lcm(*map(len, asked.values()))
     weights = {part.label: max(1, part.points) * (common // len(asked[part.label])) for part in exercise.parts}
     shared = gcd(*weights.values())
@@ -101,7 +104,7 @@ def _parts(writer: _Writer, exercise: Exercise, *, by_hand: bool) -> Iterator[st
             continue
         weight = weights[part.label] // shared
         wrong = tuple(wrong_answers(exercise, part))
-        boxes = [_box(cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
+        boxes = [_box(writer, part, cell, index, weight, wrong) for index, cell in enumerate(asked[part.label])]
         yield _laid_out(writer, part, asked[part.label], boxes)
 
 
@@ -117,21 +120,22 @@ def _laid_out(writer: _Writer, part: Part, asked: Sequence[Cell], boxes: Sequenc
     return options + "".join(f"<p>{left}{box}</p>" for left, box in zip(lefts, boxes, strict=True))
 
 
-def _box(cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
+def _box(writer: _Writer, part: Part, cell: Cell, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
     if isinstance(cell, Word):
-        return _options(cell, index, weight, wrong)
-    answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped('Right.')}"]
+        return _options(part, cell, index, weight, wrong)
+    right = page_words(writer.head.language).right
+    answers = [f"={cell.decimal}:{cell.tolerance}#{_escaped(right)}"]
     for other, says in told_apart(cell, index, wrong):
         answers.append(f"%0%{other.decimal}:{other.tolerance}#{_escaped(says)}")
     return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
 
 
-def _options(cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
+def _options(part: Part, cell: Word, index: int, weight: int, wrong: Sequence[Wrong]) -> str:
     says = {each.cells[index]: each.says for each in reversed(wrong)}
-    answers = [
-        f"={_escaped(option)}" if option in cell.right else f"{_escaped(option)}#{_escaped(says.get(option, ''))}"
-        for option in cell.options
-    ]
+    answers = []
+    for option, text in cell.options.items():
+        shown = _escaped(option if isinstance(part.kind, Choice) else text)  # what a letter stands for is told above
+        answers.append(f"={shown}" if option in cell.right else f"{shown}#{_escaped(says.get(option, ''))}")
     return f"{{{weight}:MULTICHOICE:{'~'.join(answers)}}}"
 
 

@@ -12,7 +12,7 @@
     const task = data.tasks[form.id];
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const verdict = Judge.part(task, typed(form, task));
+      const verdict = Judge.part(task, typed(form, task), data.told);
       const said = form.querySelector("output");
       said.textContent = `${marks[verdict.outcome]} ${verdict.says}`;
       said.className = verdict.outcome;
@@ -29,7 +29,7 @@
     form.addEventListener("paste", (event) => {
       const boxes = [...form.querySelectorAll("input[data-cell]")];
       const at = boxes.indexOf(event.target);
-      const pieces = (event.clipboardData?.getData("text") ?? "").replace(/[[\]]/g, "").split(/[,;\n\t]+/).map((piece) => piece.trim()).filter(Boolean);
+      const pieces = (event.clipboardData?.getData("text") ?? "").replace(/[[\]]/g, "").split(data.told.comma ? /[;\n\t]+|,\s+/ : /[,;\n\t]+/).map((piece) => piece.trim()).filter(Boolean);
       if (at < 0 || pieces.length < 2 || pieces.length > boxes.length - at) return;
       event.preventDefault();
       pieces.forEach((piece, index) => { boxes[at + index].value = piece.replace(/^[^:=]*[:=]\s*/, ""); });

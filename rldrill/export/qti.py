@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from html import escape
 
-from rldrill.exam.exam import Exam, Version, points_of
+from rldrill.exam.exam import Exam, Head, Version, points_of
 from rldrill.exercise import Exercise
-from rldrill.export.asked import BY_HAND, NOTE, Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
+from rldrill.export.asked import Cell, Quantity, Word, Wrong, cells, is_open, told_apart, wrong_answers
 from rldrill.export.packed import packed
+from rldrill.export.words import page_words, typing_note
 from rldrill.problems.document import Equation, Table
 from rldrill.problems.mathematics import EMPTY, Math
 from rldrill.problems.parts import Choice, Matrix, Part, YesNo
@@ -83,7 +84,7 @@ def qti_exam(exam: Exam, *, practice: bool, advance: Callable[[], None] = lambda
         names = []
         for number, exercise in enumerate(version.exercises, 1):
             writer = _Writer(name := f"item-{version.code}-{number}")
-            files[f"{name}.xml"] = _item(writer, name, number, exercise, practice=practice)
+            files[f"{name}.xml"] = _item(exam.head, writer, name, number, exercise, practice=practice)
             files |= writer.files
             resources.append(_resource(name, "item", [*writer.files]))
             names.append(name)
@@ -118,10 +119,14 @@ def _test(exam: Exam, version: Version, names: Sequence[str]) -> str:
     )
 
 
-def _item(writer: _Writer, name: str, number: int, exercise: Exercise, *, practice: bool) -> str:
-    asked = [_Asked(part, cells(exercise, part), tuple(wrong_answers(exercise, part))) for part in exercise.parts]
+def _item(head: Head, writer: _Writer, name: str, number: int, exercise: Exercise, *, practice: bool) -> str:
+    asked = [
+        _Asked(part, cells(exercise, part, head.language), tuple(wrong_answers(exercise, part)))
+        for part in exercise.parts
+    ]
     by_hand = any(is_open(cell) for each in asked for cell in each.cells)
     label = len(exercise.parts) > 1
+    note = page_words(head.language).by_hand if by_hand else typing_note(head, reads="point")
     body = "".join(each.body(writer, label=label) for each in asked)
     question = writer.blocks(exercise.question())
     conditions, feedback = [], []
@@ -145,7 +150,7 @@ def _item(writer: _Writer, name: str, number: int, exercise: Exercise, *, practi
         f'<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float" '
         f'normalMaximum="{points_of(exercise)}"><defaultValue><value>0</value></defaultValue></outcomeDeclaration>\n'
         '<outcomeDeclaration identifier="FEEDBACK" cardinality="multiple" baseType="identifier"/>\n'
-        f"<itemBody>\n{question}<p><em>{BY_HAND if by_hand else NOTE}</em></p>\n{body}</itemBody>\n"
+        f"<itemBody>\n{question}<p><em>{note}</em></p>\n{body}</itemBody>\n"
         f"<responseProcessing>\n{''.join(conditions)}</responseProcessing>\n{modal}</assessmentItem>\n"
     )
 

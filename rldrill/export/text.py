@@ -8,7 +8,7 @@ from rldrill.exercise import Exercise
 from rldrill.export.words import page_words
 from rldrill.print.words import words, written_points
 from rldrill.problems.parts import Choice, Part
-from rldrill.render.markdown import markdown, markdown_text
+from rldrill.render.markdown import markdown, markdown_plain, markdown_text
 
 _MISTAKES = 8
 
@@ -25,10 +25,10 @@ def markdown_exam(exam: Exam, version: Version, *, practice: bool, answers: Sequ
 def _lines(exam: Exam, version: Version, answers: Sequence[str]) -> Iterator[str]:
     told, head = words(exam.head.language), exam.head
     code = f" ({told.version} {version.code})" if len(exam.versions) > 1 else ""
-    yield f"# {_plain(head.title)}{code}"
+    yield f"# {markdown_plain(head.title)}{code}"
     for line in (head.course, head.date, head.instructions):
         if line:
-            yield _plain(line)
+            yield markdown_plain(line)
     time = told.expected.format(version.minutes) if head.duration is None else told.duration.format(head.duration)
     yield f"{told.rule} {time}"
     for number, exercise in enumerate(version.exercises, 1):
@@ -37,11 +37,6 @@ def _lines(exam: Exam, version: Version, answers: Sequence[str]) -> Iterator[str
         yield markdown(exercise.question())
         for part in exercise.parts:
             yield from _part(exercise, part, [each.format(page_words(head.language).working) for each in answers])
-
-
-def _plain(text: str) -> str:
-    """Text that holds no mathematics, whatever signs are in it."""
-    return r"\$".join(map(markdown_text, text.split("$")))
 
 
 def _part(exercise: Exercise, part: Part, answers: Sequence[str]) -> Iterator[str]:

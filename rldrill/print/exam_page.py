@@ -33,7 +33,7 @@ def setup(exam: Exam, version: Version, what: str, *, to_fill_in: bool) -> str:
         f"{typst_file('rldrill.print', 'exam.typ')}{PREAMBLE}"
         f"#show: exam-page.with(paper: {quoted(TYPST_PAPERS[exam.layout.paper])}, lang: {quoted(exam.head.language)}, "
         f"title: {quoted(f'{exam.head.title} – {what}')}, what: [{plain(what + seed)}], "
-        f"{who}comma: {'true' if exam.head.decimal_mark == ',' else 'false'})\n"
+        f"{who})\n"
     )
 
 

@@ -1,5 +1,7 @@
 """Paper: the page set-up that all PDFs share, and their compilation."""
 
+import ctypes
+import sys
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
@@ -67,8 +69,15 @@ def pdf(source: str, *, accessible: bool = False, system_fonts: bool = False) ->
     result = compiler.compile(input=source.encode(), timestamp=_TIMESTAMP, pdf_standards="ua-1" if accessible else None)
     for _ in range(_REMEMBERED):
         compiler.compile(input=b"", format="svg")
+    _give_back()
     assert isinstance(result, bytes)
     return result
+
+
+def _give_back() -> None:
+    """Give the memory that a layout took back to the system, which glibc keeps for the next one."""
+    if trim := getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None:
+        trim(0)
 
 
 @cache

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: With fewer versions another process takes longer to start than it saves.
 _MANY = 6
 #: After so many versions a process is replaced by a fresh one, which has less in its memory.
-_REPLACED = 50
+_REPLACED = 25
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def _shared(pool: "Pool", others: int, waiting: deque[Task]) -> Iterator[list[Pa
 
 
 def _typeset(task: Task) -> list[Path]:
-    with used(task.exam.layout.notation):
+    with used(task.exam.layout.notation, task.exam.head.decimal_mark):
         write(task.exam, task.make(), task.worksheet, task.key)
     return [path for path in (task.worksheet, task.key) if path is not None]
 

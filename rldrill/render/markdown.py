@@ -39,7 +39,12 @@ def markdown_block(block: Block) -> str:
 
 def markdown_text(text: str) -> str:
     """Running text; its signs are not taken for Markdown, and bars do not end the cell of a table."""
-    return "".join(_SPECIAL.sub(r"\\\1", piece) if isinstance(piece, str) else _math(piece) for piece in pieces(text))
+    return "".join(markdown_plain(piece) if isinstance(piece, str) else _math(piece) for piece in pieces(text))
+
+
+def markdown_plain(text: str) -> str:
+    """Text that holds no mathematics, whatever signs are in it."""
+    return _SPECIAL.sub(r"\\\1", text)
 
 
 def _math(math: Math) -> str:

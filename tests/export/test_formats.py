@@ -192,6 +192,50 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
 
 
+@cache
+def german() -> Exam:
+    # BIC of 16 points and k parameters is k·ln 16 − 2 ln L: 3·4 ln 2 + 2·4 ln 2 = 20 ln 2 = 13.863 for L = 1/16
+    exercises = (rldrill.load("bic/2/883976"), rldrill.load("markov-property/1/1"))
+    head = Head(title="Klausur 2.5", date="26.11.2026", language="de", decimal_mark=",")
+    return Exam(head, 1, (Version("A", exercises, (0, 1)),))
+
+
+@pytest.mark.parametrize("name", ["html", "moodle", "qti", "canvas", "latex", "markdown", "anki"])
+def test_an_exam_with_decimal_commas_has_them_wherever_people_read(name: str, tmp_path: Path) -> None:
+    if name == "anki":
+        pytest.importorskip("genanki")
+    (path,) = export(german(), tmp_path / f"exam{FORMATS[name].ending}", FORMATS[name], practice=True)
+    text = _read(path)
+    assert "13{,}86" in text or "13,86" in text
+    shown = re.sub(r"<[^>]*>|&lt;.*?&gt;|\{\d+:NUMERICAL[^}]*\}", " ", text)
+    assert "13.86 " not in shown.replace("26.11.2026", "")
+    assert any(word in text for word in ("Antwort", "Dezimalzahlen mit drei richtigen Ziffern", "Typische falsche"))
+    assert "Type decimals" not in text
+    if name in ("moodle", "qti", "canvas"):  # what programs read has a point: 20 ln 2 = 13.8629436112
+        assert "13.8629436112" in text
+
+
+def test_numbers_of_json_keep_their_points(tmp_path: Path) -> None:
+    (path,) = export(german(), tmp_path / "exam.json", FORMATS["json"], practice=True)
+    decimals = json.loads(path.read_text("utf-8"))["versions"][0]["problems"][0]["parts"][0]["answer"]["decimal"]
+    assert any(str(number).startswith("13.86") for number in decimals.values())
+
+
+def _read(path: Path) -> str:
+    if not zipfile.is_zipfile(path):
+        return path.read_text("utf-8")
+    with zipfile.ZipFile(path) as package:
+        return "\n".join(package.read(name).decode("utf-8", "replace") for name in package.namelist())
+
+
+def test_a_page_with_decimal_commas_tells_its_script(tmp_path: Path) -> None:
+    (path,) = export(german(), tmp_path / "exam.html", FORMATS["html"], practice=True)
+    text = path.read_text("utf-8")
+    assert '"comma":true' in text
+    assert "<span>ja</span>" in text
+    assert "Klausur 2.5" in text
+
+
 def test_word_gets_a_title_headings_formulas_and_a_line_before_each_answer(tmp_path: Path) -> None:
     pytest.importorskip("pypandoc")
     content = written("docx", tmp_path)

@@ -1,9 +1,10 @@
 """The page judges in the browser as rldrill does; its script is run here by the browser's own engine."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
+from types import MappingProxyType
 from typing import Any
 
 import pytest
@@ -37,10 +38,9 @@ def engine() -> Callable[[str], Any]:
     return machine.eval
 
 
-def judged(task: dict[str, Any], typed: list[str]) -> dict[str, Any]:
-    verdict: dict[str, Any] = json.loads(
-        engine()(f"JSON.stringify(Judge.part({json.dumps(task)}, {json.dumps(typed)}))")
-    )
+def judged(task: dict[str, Any], typed: list[str], told: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
+    given = ", ".join(map(json.dumps, (task, typed, dict(told))))
+    verdict: dict[str, Any] = json.loads(engine()(f"JSON.stringify(Judge.part({given}))"))
     return verdict
 
 
@@ -82,6 +82,17 @@ def test_the_page_reads_what_people_type(text: str, value: str) -> None:
 )
 def test_the_page_asks_back_where_it_is_not_sure(text: str) -> None:
     assert engine()(f"said({json.dumps(text)})") == "unreadable"
+
+
+@pytest.mark.parametrize(
+    ("typed", "outcome"),
+    [("0,667", "right"), ("0.667", "right"), ("2/3", "right"), (",667", "right"), ("6,67e-1", "right"),
+     ("V(s, a) = 2/3 = 0,667", "right"), ("0,66", "close"), ("6,67", "wrong"), ("0{,}667", "right"),
+     ("1.234", "unreadable"), ("1.234,5", "unreadable"), ("1,234,5", "unreadable"), ("0,667,", "unreadable")],
+)  # fmt: skip
+def test_with_decimal_commas_a_point_is_read_where_it_parts_no_thousands(typed: str, outcome: str) -> None:
+    one = {"parameters": [], "cells": [{"name": "", "key": "2/3"}], "mistakes": []}
+    assert judged(one, [typed], {"comma": True})["outcome"] == outcome
 
 
 @pytest.mark.parametrize("identity", PROBLEMS)

@@ -7,7 +7,10 @@ import pytest
 import rldrill
 from rldrill.problems.document import Paragraph
 from rldrill.problems.errors import UsageError
-from rldrill.problems.notations import in_use, notations, used
+from rldrill.problems.notations import PLAIN, in_use, notations, used
+from rldrill.render.html import Html
+from rldrill.render.markdown import markdown_text
+from rldrill.render.mathematics.typst import text as typst_text
 from rldrill.render.unicode import unicode_text
 from rldrill.solutions.sheet import formulas
 
@@ -91,7 +94,7 @@ def test_nothing_of_the_lectures_notation_is_left(family: str) -> None:
 
 
 def test_the_lectures_notation_is_untouched() -> None:
-    assert in_use() == "lecture"
+    assert in_use() == PLAIN
     exercise = rldrill.load("td-zero/1/1")
     before = str(exercise.hint())
     with used("sutton-barto"):
@@ -105,6 +108,33 @@ def test_names_and_answers_stay() -> None:
         assert exercise.id == "td-zero/2/7@" + str(exercise.id).partition("@")[2]
         # V(medium) = 10 + 1/2·(8 + 6 − 10) = 12, V(high) = 12 + 1/2·(−3 + 6 − 12) = 15/2, 12 + 1/2·(−6 + 6 − 12) = 6
         assert exercise.check("6, 15/2").accepted
+
+
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("$V(s) = 0.5$", "V(s) = 0,5"),
+        ("$−0.25, 3/4, 0.125…$", "−0,25; 3/4; 0,125…"),
+        ("$(0.5, 1)$ and $Q(s, a) = 0.5$", "(0,5; 1) and Q(s, a) = 0,5"),
+        ("$(3, 1)$ of about 13.86.", "(3, 1) of about 13,86."),
+        ("on 26.11.2026, in v1.5 of 3.4.1", "on 26.11.2026, in v1.5 of 3.4.1"),
+    ],
+)
+def test_decimal_commas(text: str, written: str) -> None:
+    with used("lecture", ","):
+        assert unicode_text(Paragraph(text)) == written
+
+
+def test_decimal_commas_in_another_notation() -> None:
+    with used("sutton-barto", ","):
+        assert unicode_text(Paragraph("$r_{t+1} = 0.5$")) == "Rₜ₊₁ = 0,5"
+
+
+def test_a_decimal_comma_takes_no_more_room_than_a_point() -> None:
+    with used("lecture", ","):
+        assert markdown_text("$0.25 x$") == "$0{,}25 x$"
+        assert Html().text("$0.25$") == "<math><mn>0,25</mn></math>"
+        assert typst_text("$0.25$") == r'#kept("0,25", $0 class("normal", \,) 25$)'
 
 
 def test_an_unknown_notation_is_said() -> None:

@@ -104,6 +104,8 @@ def _glyph(text: str, style: str) -> str:
         return rf"\text{{{''.join(_COMMANDS.get(sign, sign) if sign in '%_#&{}' else sign for sign in stem)}}}" + primes
     if style == "variable" and stem == "Σ":  # a matrix of covariances, no sum
         return r"\Sigma" + primes
+    if style == "number":  # a comma within a number, and none behind which there is room
+        return text.replace(",", "{,}")
     return _COMMANDS.get(stem, stem) + primes
 
 

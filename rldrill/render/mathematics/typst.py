@@ -40,7 +40,7 @@ _FENCES = {
 _ACCENTS = {"hat": "hat", "bar": "overline", "tilde": "tilde"}
 CLASSES: dict[Style, str] = {"operator": "binary", "relation": "relation", "punctuation": "punctuation"}
 _NAME = re.compile(r"(?P<stem>.*?)(?P<digits>[₀-₉]*)(?P<primes>[′']*)", re.DOTALL)
-_COMMA = Glyph(",", "punctuation")
+_SEPARATORS = (Glyph(",", "punctuation"), Glyph(";", "punctuation"))
 _MINUS = Glyph("−", "operator")
 _DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 #: Equations of at most this many signs stand side by side.
@@ -91,10 +91,13 @@ def text(text: str) -> str:
 def _inline(math: Math) -> str:
     """Mathematics within a line; the line may break between the equations of a list."""
     items = math.items if isinstance(math, Row) else (math,)
-    groups = grouped(items, lambda before, _: before == _COMMA)
+    groups = grouped(items, lambda before, _: before in _SEPARATORS)
     if len(groups) == 1 or not any(isinstance(item, Glyph) and item.style == "relation" for item in groups[-1]):
         return _kept_together(math)
-    return '#", ";'.join(_kept_together(Row(group[:-1] if group[-1] == _COMMA else group)) for group in groups)
+    *parted, last = groups
+    return "".join(
+        f"{_kept_together(Row(group[:-1]))}#{quoted(f'{unicode(group[-1]).strip()} ')};" for group in parted
+    ) + (_kept_together(Row(last)))
 
 
 def _kept_together(math: Math) -> str:
@@ -139,6 +142,9 @@ def _taken_apart(glyph: Glyph) -> tuple[str, str, str]:
 def _sign(text: str, style: Style) -> str:
     if style == "number" and re.fullmatch(r"[0-9]+(\.[0-9]+)?", text):
         return text
+    if style == "number" and "," in text:  # in one string with digits it would have spaces around
+        whole, _, decimals = text.partition(",")
+        return rf'{_sign(whole, style)} class("normal", \,) {_sign(decimals, style)}'
     if style == "word":
         return f"op({quoted(text)})" if text in _FUNCTIONS else f"upright({quoted(text)})"
     if len(text) == 1 and style != "number":

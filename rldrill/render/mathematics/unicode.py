@@ -99,7 +99,7 @@ def _between_formulas(written: str) -> str:
     depth, text = 0, ""
     for sign in written:
         depth += (sign in "([{") - (sign in ")]}")
-        text += GLUE if sign == " " and (depth or not text.endswith(",")) else sign
+        text += GLUE if sign == " " and (depth or not text.endswith((",", ";"))) else sign
     return text if " " in text else written
 
 
