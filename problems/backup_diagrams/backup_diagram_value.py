@@ -20,7 +20,7 @@ from rldrill.problems.runs import draw_values
 
 TITLE = "Value of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
-REVISION = 2
+REVISION = 3
 #: Under an arc the chances of an action that is not the best do not matter, as long as it is not.
 DISTRACTORS = ("dynamics.transitions.*.3",)
 #: How many levels of states a diagram may have below its root.
@@ -160,7 +160,8 @@ def _of_action(rng: Draws, gamma: Fraction, best: bool) -> Given:
     rows = tuple(
         Transition("s", "a", after, chance, _reward(rng)) for after, chance in zip(nexts, chances, strict=True)
     )
-    leaves = {state: draw_values(rng, ("a", "b"), gamma) for state in nexts}
+    drawn = draw_values(rng, [state + action for state in nexts for action in "ab"], gamma)
+    leaves = {state: {action: drawn[state + action] for action in "ab"} for state in nexts}
     policy = None if best else {state: _chances(rng, ("a", "b")) for state in nexts}
     return Given(dynamics=Dynamics(transitions=rows), policy=policy, action_values=leaves, gamma=gamma)
 
@@ -175,7 +176,7 @@ def _chances(rng: Draws, actions: Sequence[str]) -> dict[str, Fraction | Paramet
 
 
 def _all_matters(drawn: Callable[[], Given]) -> Given:
-    """The first draw in which no two branches of a node are worth the same."""
+    """The first draw in which no two branches of a node are worth the same, nor two states that have branches."""
     while True:
         given = drawn()
         branches: list[list[Fraction]] = []
@@ -185,8 +186,13 @@ def _all_matters(drawn: Callable[[], Given]) -> Given:
 
 
 def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fraction:
-    """The value of the root where nothing is left open; what the branches of every node are worth is put on a list."""
+    """The value of the root where nothing is left open.
+
+    What the branches of every node are worth is put on a list, and what all states that have branches are worth.
+    """
     seen: list[list[Fraction]] = [] if branches is None else branches
+    inner: list[Fraction] = []
+    seen.append(inner)
 
     def of_state(state: str) -> Fraction:
         if state in given.values:
@@ -195,9 +201,12 @@ def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fracti
         actions = leaves or given.dynamics.actions[state]
         worth = {a: Fraction(leaves[a]) if leaves else of_action(state, a) for a in actions}
         seen.append([*worth.values()])
-        if given.policy is None:
-            return max(worth.values())
-        return sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        inner.append(
+            max(worth.values())
+            if given.policy is None
+            else sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        )
+        return inner[-1]
 
     def of_action(state: str, action: str) -> Fraction:
         rows = given.dynamics.outcomes[state, action]
