@@ -16,7 +16,7 @@ from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.pictures import BackupDiagram, Branch, Node
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.runs import draw_values
+from rldrill.problems.valued import draw_values
 
 TITLE = "Value of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
@@ -151,7 +151,7 @@ def _of_state(rng: Draws, tree: dict[tuple[int, str], tuple[int, ...]], gamma: F
     leaves = [_named(target) for targets in tree.values() for target in targets if target not in inner]
     dynamics = Dynamics(transitions=tuple(rows))
     policy = None if best else {state: _chances(rng, actions) for state, actions in dynamics.actions.items()}
-    return Given(dynamics=dynamics, policy=policy, values=draw_values(rng, leaves, gamma), gamma=gamma)
+    return Given(dynamics=dynamics, policy=policy, values=draw_values(rng, tuple(leaves), gamma), gamma=gamma)
 
 
 def _of_action(rng: Draws, gamma: Fraction, best: bool) -> Given:
@@ -160,8 +160,7 @@ def _of_action(rng: Draws, gamma: Fraction, best: bool) -> Given:
     rows = tuple(
         Transition("s", "a", after, chance, _reward(rng)) for after, chance in zip(nexts, chances, strict=True)
     )
-    drawn = draw_values(rng, [state + action for state in nexts for action in "ab"], gamma)
-    leaves = {state: {action: drawn[state + action] for action in "ab"} for state in nexts}
+    leaves = {state: draw_values(rng, ("a", "b"), gamma) for state in nexts}
     policy = None if best else {state: _chances(rng, ("a", "b")) for state in nexts}
     return Given(dynamics=Dynamics(transitions=rows), policy=policy, action_values=leaves, gamma=gamma)
 
@@ -210,8 +209,9 @@ def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fracti
 
     def of_action(state: str, action: str) -> Fraction:
         rows = given.dynamics.outcomes[state, action]
-        worth = [Fraction(row.reward) + Fraction(given.gamma) * of_state(row.next) for row in rows]
-        seen.append(worth)
+        after = [of_state(row.next) for row in rows]
+        worth = [Fraction(row.reward) + Fraction(given.gamma) * each for row, each in zip(rows, after, strict=True)]
+        seen.extend((after, worth))
         return sum((Fraction(row.probability) * each for row, each in zip(rows, worth, strict=True)), Fraction(0))
 
     return of_action(*given.root) if given.action_values else of_state(given.root[0])

@@ -16,6 +16,7 @@ import rldrill
 from asking import solved
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
+from rldrill.problems.scenes import SCENES
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 
@@ -418,3 +419,15 @@ def test_heads_of_all_coins_are_added_and_every_coin_has_its_own_estimate() -> N
     assert "θ̂_(red) = 16/(16 + 2)" in working
     assert "= 18·ln(3/4) + 6·ln(1/4)" in working
     assert "ln(8/9) = 3 ln 2 − 2 ln 3" in working
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_what_a_sensor_reads_fits_the_place(level: int) -> None:
+    """The wider a door is open the more light there is, the deeper in a crater the less."""
+    for seed in range(40):
+        given_ = draw("bayes-filter", level, seed).problem.given
+        for scene in SCENES:
+            if scene.told == given_.story and scene.trend:
+                for reading, row in given_.likelihood.items():
+                    way = scene.trend if reading == scene.readings[0] else -scene.trend
+                    assert list(row.values()) == sorted(row.values(), reverse=way < 0)
