@@ -118,3 +118,31 @@ def test_the_name_of_a_backup_diagram_can_be_told_from_its_legend() -> None:
         for seed in range(20):
             question = str(rldrill.draw("backup-diagram-name", level, seed).question())
             assert "A grey square is a terminal state." in question
+
+
+def test_the_weights_of_a_softmax_policy_make_a_difference_in_every_state() -> None:
+    for name, levels in (("reinforce", (2, 3)), ("reinforce-baseline", (2, 3)), ("actor-critic", (2,))):
+        for given in drawn(name, levels, 40):
+            bases = [int(str(weight).removeprefix("ln ")) if str(weight) != "0" else 1 for weight in given.theta]
+            for rows in given.features.values():
+                chances = [math.prod(base**x for base, x in zip(bases, row, strict=True)) for row in rows.values()]
+                assert len(set(chances)) > 1, given
+
+
+def test_the_weight_at_which_two_actions_are_worth_the_same_is_not_0() -> None:
+    for given in drawn("linear-policy", (3,)):
+        if given.at is None:
+            continue
+        place = [isinstance(weight, str) for weight in given.theta].index(True)
+        known = [Fraction(0) if isinstance(weight, str) else Fraction(weight) for weight in given.theta]
+        for row in given.features.values():
+            first, second = ([Fraction(x) for x in features] for features in row.values())
+            lead = sum(weight * (one - two) for weight, one, two in zip(known, first, second, strict=True))
+            assert lead != 0, given
+            assert first[place] != second[place]
+
+
+def test_whoever_has_a_place_goes_left_or_right_or_stays() -> None:
+    for given in drawn("linear-value", (2, 3)):
+        if given.bumps is not None:
+            assert set(given.actions) <= {"left", "right", "stay"}

@@ -126,3 +126,12 @@ def test_a_figure_with_a_length_that_is_not_known_says_that_it_is_not_to_scale()
             is_open = "w" in map(str, exercise.problem.given.lengths)  # type: ignore[attr-defined]
             text = " ".join(str(exercise.question()).split())
             assert ("not to scale" in text) == is_open
+
+
+def test_the_outer_step_of_maml_says_which_derivative_it_takes() -> None:
+    for level in (1, 2, 3):
+        for seed in range(8):
+            exercise = rldrill.draw("maml-step", level, seed)
+            working = str(exercise.working())
+            assert "∇_θLᵢ(θ)" in working
+            assert working.count("dJ/dθ = Σᵢ") == 1, exercise.id

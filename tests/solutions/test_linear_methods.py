@@ -547,3 +547,12 @@ def test_entries_of_the_step_are_asked_for_before_the_constant_and_then_the_new_
             text = " ".join(str(exercise.question()).split())
             assert "B̃" not in text
             assert "the constant 1 is made part of the state" in text
+
+
+def test_a_price_that_is_found_is_put_into_the_reward() -> None:
+    for seed in range(25):
+        exercise = rldrill.draw("lqr-reward", 3, seed)
+        if exercise.problem.given.total is not None:  # type: ignore[attr-defined]
+            *_, line = exercise.solution.lines_of("b")
+            assert isinstance(line, Equality)
+            assert unicode_text(line.equation()).count("=") == 2, exercise.id
