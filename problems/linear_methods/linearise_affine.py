@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
+from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
 
@@ -42,7 +43,9 @@ def draw(level: int, rng: Draws) -> Given:
     system = values_of(rng, robot)
     if level == 1:
         return Given(**system, step=step)
-    return Given(**system, step=step, entries=Entries(**robot.varying))
+    A, B = robot.varying["A"], robot.varying["B"]
+    few = len(A) > 1 and rng.chance(Fraction(1, 2))  # of B the first, where there are several, or none
+    return Given(**system, step=step, entries=Entries(A=A, B=B[: len(B) > 1] if few else B))
 
 
 def question(given: Given) -> Question:
