@@ -1,12 +1,12 @@
 """The targets of Sarsa and of Q-learning on the same run, or the step size from one; which of the two is on-policy."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Literal, Self, TypeAlias
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.asking_back import draw_forward
+from rldrill.problems.asking_back import Worth, draw_forward, updates_of
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
@@ -42,10 +42,6 @@ _FINEST = 20
 _WORDS: tuple[tuple[Word, ...], ...] = (
     ("on-policy",), ("off-policy",), ("model-free", "bootstrapping"), ("model-based", "a Monte Carlo method"),
 )  # fmt: skip
-
-
-#: What a next state is worth to a target, by its action values and the action taken there.
-Worth: TypeAlias = Callable[[Mapping[str, Fraction], str], Fraction]
 
 
 class Given(ActionRun):
@@ -88,11 +84,11 @@ def draw(level: int, rng: Draws) -> Given:
     given = Given(**found, word=rng.choice(rng.choice(_WORDS)))
     if len({tuple(row.values()) for row in given.values.values()}) < len(given.values):
         return draw(level, rng)
-    if level > 1 and not all(_is_read_again(given, worth) for worth in (_taken, _best)):
+    if level > 1 and not all(_is_read_again(found, worth) for worth in (_taken, _best)):
         return draw(level, rng)
     if level < 3:
         return given
-    known = targets(given, _taken)[first_that_reads_again(given.trajectory) or 0]
+    known = _targets(found, _taken)[first_that_reads_again(given.trajectory) or 0]
     return given.model_copy(update={"known": known, "alpha": Parameter("alpha")}) if known else draw(level, rng)
 
 
@@ -104,28 +100,18 @@ def _taken(row: Mapping[str, Fraction], action: str) -> Fraction:
     return row[action]
 
 
-def targets(given: Given, worth: Worth, *, stale: bool = False) -> list[Fraction]:
-    """The targets along a run whose numbers are all given, with the table as it is then.
-
-    Args:
-        given: the run.
-        worth: what a next state is worth to the target.
-        stale: whether the updates are left out, so that the table stays as it was before the run.
-    """
-    rows = {state: {action: Fraction(value) for action, value in row.items()} for state, row in given.values.items()}
-    found = []
-    for state, action, after, reward, following in given.moves:
-        ahead = Fraction(0) if after in given.terminal else worth(rows[after], following or "")
-        found.append(Fraction(reward) + Fraction(given.gamma) * ahead)
-        if not stale:
-            rows[state][action] += Fraction(given.alpha) * (found[-1] - rows[state][action])
-    return found
+def _targets(found: Mapping[str, Any], worth: Worth) -> list[Fraction]:
+    """The targets along a run."""
+    rewards = found["trajectory"].rewards
+    ahead = [update.ahead for update in updates_of(found, worth)]
+    return [reward + found["gamma"] * value for reward, value in zip(rewards, ahead, strict=True)]
 
 
-def _is_read_again(given: Given, worth: Worth) -> bool:
+def _is_read_again(found: Mapping[str, Any], worth: Worth) -> bool:
     """Whether somebody who keeps the old table finds other targets; and whether the right ones are easily read."""
-    right = targets(given, worth)
-    return right != targets(given, worth, stale=True) and all(target.denominator <= _FINEST for target in right)
+    kept = _targets({**found, "alpha": Fraction(0)}, worth)
+    right = _targets(found, worth)
+    return right != kept and all(target.denominator <= _FINEST for target in right)
 
 
 def _comes_back(run: Trajectory) -> bool:
