@@ -1,8 +1,12 @@
 """What is drawn tells whether somebody has understood: the point of a question cannot be missed by accident."""
 
+import re
 from fractions import Fraction
 from typing import Any
 
+import pytest
+
+import rldrill
 from rldrill.solutions.drawing import draw
 from tests.problems.test_promises import drawn
 
@@ -59,3 +63,48 @@ def test_a_reward_with_which_values_are_optimal_is_worked_out() -> None:
         assert right not in {each.reward for each in given.mdp.transitions if each is not row}
         falls += given.reward < right
     assert 15 < falls < 60  # both: where it is best all the more, and where another action takes its place
+
+
+@pytest.mark.parametrize(
+    "family",
+    ["expected-sarsa", "policy-value", "policy-action-value", "policy-iteration", "batch-td-and-mc", "value-iteration",
+     "feature-expectations-policy"],
+)  # fmt: skip
+def test_no_working_of_the_first_levels_has_a_number_above_300(family: str) -> None:
+    for level in (1, 2):
+        for seed in range(8):
+            text = str(rldrill.draw(family, level, 900 + seed).working())
+            assert max(map(int, re.findall(r"\d+", text)), default=0) <= 300, (family, level, seed)
+
+
+def test_q_learning_reads_a_greatest_value_that_has_changed() -> None:
+    for given in drawn("q-learning", (2,)):
+        if given.outcome is None:
+            moved, kept = (q_learning_targets(given, given.alpha, moved=moved) for moved in (True, False))
+            assert moved != kept
+
+
+def test_sweeps_in_place_change_every_value() -> None:
+    for given in drawn("policy-evaluation", (2,)):
+        if given.in_place and given.sweeps == 1 and given.policy is not None:
+            values = dict(given.start)
+            for state, row in given.policy.items():
+                values[state] = sum(
+                    chance * move.probability * (move.reward + given.gamma * values.get(move.next, 0))
+                    for action, chance in row.items()
+                    for move in given.mdp.outcomes[state, action]
+                )
+                assert values[state] != given.start[state]
+
+
+def test_no_state_of_an_open_problem_is_worth_nothing() -> None:
+    for seed in range(40):
+        assert all(draw("policy-value", 3, seed).answers["a"].values()), seed
+
+
+def test_every_error_of_an_advantage_counts() -> None:
+    for given in drawn("advantage", (3,)):
+        run = given.run
+        worth = [run.values.get(state, Fraction(0)) for state in run.trajectory.states]
+        for time, reward in enumerate(run.trajectory.rewards):
+            assert reward + given.gamma * worth[time + 1] != worth[time]
