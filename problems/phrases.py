@@ -32,7 +32,7 @@ def trace_parameter(lam: Scalar) -> str:
 def exploration(epsilon: Scalar | None) -> str:
     """The sentence that gives the exploration rate."""
     if epsilon is None or isinstance(epsilon, Parameter):
-        return "The exploration rate $ε$ is left open."
+        return "The exploration rate $ε$, between $0$ and $1$, is left open."
     return f"The exploration rate is $ε = {shown(epsilon)}$."
 
 

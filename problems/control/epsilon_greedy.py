@@ -135,7 +135,7 @@ def question(given: Given) -> Question:
         ),
     )
     where = f'"{given.state}"'
-    valued = "If these action values are those of the policy, what is"
+    valued = "If these action values are those of the policy with the $ε$ in use, what is"
     if given.state_value is not None:
         worth = f"These action values are those of the policy, and $V^π({where}) = {shown(given.state_value)}$."
         return Question(blocks, (Part(f"{worth} What is the exploration rate $ε$?", Number()),))
@@ -147,6 +147,6 @@ def question(given: Given) -> Question:
         every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
         asked = [Part(every, Values(f"π(·|{where})", tuple(given.values)))]
     if given.valued:
-        valued = f"With this $ε$: {valued[0].lower()}{valued[1:]}" if given.taken else valued
+        valued = valued.replace("the $ε$ in use", "this $ε$") if given.taken else valued
         asked.append(Part(f"{valued} $V^π({where})${in_open(given)}?", Number()))
     return Question(blocks, tuple(asked))

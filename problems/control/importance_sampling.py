@@ -191,8 +191,8 @@ def question(given: Given) -> Question:
     left_open = [name for name in given.parameters() if name != "gamma"]
     blocks = (
         Paragraph(
-            "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. They take "
-            "action $a$ in state $s$ with these probabilities:"
+            "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. The "
+            "two policies take action $a$ in state $s$ with these probabilities:"
         ),
         policy_table(given.target, b=given.behaviour),
         *(

@@ -145,10 +145,10 @@ def draw(level: int, rng: Draws) -> Given:
         )
         values = {state: rng.nonzero(-3, 8) for state in setting.states if state in states}
         gamma = rng.fraction("1/2", "2/3", "1")
-        worth = [values.get(state, Fraction(0)) for state in states]
+        worths = [values.get(state, Fraction(0)) for state in states]
         errors = [
             reward + gamma * after - here
-            for reward, here, after in zip(run.rewards, worth[:-1], worth[1:], strict=True)
+            for reward, here, after in zip(run.rewards, worths[:-1], worths[1:], strict=True)
         ]
         if not all(errors):
             return draw(level, rng)  # an estimate would not depend on what it is made of
