@@ -82,7 +82,7 @@ def draw(level: int, rng: Draws) -> Given:
 def _to_find(rng: Draws, setting: Setting) -> Given:
     """A probability that two states share, an action value, or the probability that makes two states equal."""
     states = setting.states[:2]
-    kind = rng.choice(("share", "missing", "equal"))
+    kind = rng.choice(("share", "missing", "equal", "equal"))
     actions = setting.actions[: 3 if kind == "missing" else 2]
     values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
     p: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p"))
