@@ -148,6 +148,10 @@ def _weight_sought(rng: Draws, setting: Setting) -> Given:
     )
 
 
+#: What somebody does whose state is a place.
+_ALONG = ("left", "right", "stay")
+
+
 def _state_sought(rng: Draws, setting: Setting) -> Given:
     """The state first, then weights for which both actions are worth the same there."""
     near, far = rng.shuffled((rng.fraction("1", "2", "3/2"), rng.fraction("5/2", "3", "4")))
@@ -162,7 +166,7 @@ def _state_sought(rng: Draws, setting: Setting) -> Given:
     start = rng.whole(-2, 4)
     return Given(
         theta=(*first, *second),
-        actions=rng.sample(setting.actions, 2),
+        actions=rng.sample(_ALONG, 2),
         bumps=Bumps(centres=((start,), (start + near + far,)), width=width),
     )
 

@@ -16,6 +16,7 @@ import rldrill
 from asking import solved
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
+from rldrill.problems.scenes import SCENES
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 
@@ -390,3 +391,15 @@ def test_the_factorials_of_an_evidence_are_known_by_heart() -> None:
         for level in (2, 3):
             working = str(rldrill.draw("model-comparison", level, seed).working("a"))
             assert max(map(int, findall(r"\d+", working))) <= 720
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_what_a_sensor_reads_fits_the_place(level: int) -> None:
+    """The wider a door is open the more light there is, the deeper in a crater the less."""
+    for seed in range(40):
+        given_ = draw("bayes-filter", level, seed).problem.given
+        for scene in SCENES:
+            if scene.told == given_.story and scene.trend:
+                for reading, row in given_.likelihood.items():
+                    way = scene.trend if reading == scene.readings[0] else -scene.trend
+                    assert list(row.values()) == sorted(row.values(), reverse=way < 0)
