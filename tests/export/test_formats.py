@@ -27,7 +27,7 @@ from rldrill.problems.errors import UsageError
 from rldrill.render.html import Html
 
 PROBLEMS = [
-    "td-zero/2/7",
+    "td-zero/2/234",
     "value-iteration/2/1",
     "policy-value/3/1",
     "principle-of-optimality/1/2",
@@ -110,7 +110,7 @@ def test_every_box_of_moodle_has_the_key_the_tolerance_and_the_mistakes(tmp_path
 def test_points_of_moodle_are_shared_as_those_of_the_parts(tmp_path: Path) -> None:
     text = ElementTree.fromstring(written("moodle", tmp_path))[1].findtext("questiontext/text") or ""
     weights = [int(weight) for weight in re.findall(r"\{(\d+):NUMERICAL", text)]
-    first, second = rldrill.load("td-zero/2/7").parts
+    first, second = rldrill.load("td-zero/2/234").parts
     assert sum(weights[:3]) * second.points == sum(weights[3:]) * first.points
 
 
@@ -147,7 +147,7 @@ def test_an_item_of_qti_has_the_key_the_tolerance_and_the_points(tmp_path: Path)
     # δ₀ = 4 + 1/2·8 − (−2) = 10, and 10.0 allows 0.05
     assert (right.findtext(f"{QTI}baseValue"), right.get("tolerance")) == ("10", "0.05 0.05")
     assert wrong
-    parts = rldrill.load("td-zero/2/7").parts
+    parts = rldrill.load("td-zero/2/234").parts
     worth = [float(each.findtext(f"{QTI}baseValue") or 0) for each in item.iter(f"{QTI}sum")]
     assert sum(worth) == pytest.approx(sum(part.points for part in parts), rel=1e-4)
 
@@ -189,7 +189,7 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert not any("answer" in part or "mistakes" in part for problem in problems for part in problem["parts"])
     assert not any("id" in problem for problem in problems)  # whoever has the ID has the key
     (first, *_) = json.loads(written("json", tmp_path))["versions"][0]["problems"]
-    assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
+    assert first["parts"][0]["answer"]["exact"] == ["10", "-5", "6"]  # δ₁ = −6 + 1/2·(−2) − (−2), δ₂ = 4 − (−2)
 
 
 @cache
