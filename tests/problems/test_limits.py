@@ -188,12 +188,13 @@ def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
 
 def test_an_actor_with_weights_for_each_state_may_go_on() -> None:
     states = [f"s{number}" for number in range(10)]
-    weights = {state: [int(other == state) for other in states] for state in states}
+    # The first weight is the same for both actions, so that it stands in no exponent.
+    weights = {state: [1, *(int(other == state) for other in states)] for state in states}
     family("actor-critic").read(
         {
             "trajectory": {"states": states, "actions": ["left"] * 9, "rewards": [1] * 9, "terminal": ["s9"]},
-            "values": dict.fromkeys(states, 0), "theta": [0] * 10, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
-            "features": {state: {"left": weights[state], "right": [0] * 10} for state in states[:9]},
+            "values": dict.fromkeys(states, 0), "theta": [0] * 11, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+            "features": {state: {"left": weights[state], "right": [1] + [0] * 10} for state in states[:9]},
         }
     )  # fmt: skip
 
