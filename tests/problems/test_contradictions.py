@@ -8,7 +8,10 @@ from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
+from rldrill.solutions.exact import is_rational, to_sympy
+from rldrill.solutions.formula.putting_in import evaluated
 from rldrill.solutions.solution import solve
+from rldrill.solutions.work import Step
 
 FILTER: dict[str, Any] = {
     "belief": {"a": "q", "b": "1-q"}, "motion": {"go": {"a": {"a": 1}, "b": {"b": "1/2", "a": "1/2"}}},
@@ -538,7 +541,11 @@ def test_what_goes_together_is_read_and_what_does_not_is_told(
 
 @pytest.mark.parametrize(("name", "given"), READ)
 def test_what_is_read_is_solved_with_the_formulas_as_without_them(name: str, given: dict[str, Any]) -> None:
+    solution = solve(Problem(family(name), family(name).read(given)))
     found = Finding(family(name), 1)
-    examine(solve(Problem(family(name), family(name).read(given))), found)
+    examine(solution, found)
     assert not found.disagreements
     assert not found.refused
+    for line in solution.lines:
+        if isinstance(line, Step) and is_rational(line.value):
+            assert to_sympy(line.value) == evaluated(line.put_in), line.equation()
