@@ -309,6 +309,11 @@ def test_each_version_has_a_file_of_its_own_unless_the_format_holds_them_all(tmp
         ]  # fmt: skip
 
 
+def test_other_programs_take_all_versions_at_once_and_people_one_each() -> None:
+    assert {name for name, each in FORMATS.items() if each.whole} == {"moodle", "qti", "canvas", "anki", "json"}
+    assert {name for name, each in FORMATS.items() if not each.whole} == {"html", "latex", "markdown", "docx"}
+
+
 def test_a_name_gets_the_ending_of_its_format() -> None:
     assert named(Path("a/x.html"), FORMATS["latex"]) == Path("a/x.tex")
     assert named(Path("a/x"), FORMATS["latex"]) == Path("a/x.tex")
