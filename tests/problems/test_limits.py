@@ -199,6 +199,20 @@ def test_an_actor_with_weights_for_each_state_may_go_on() -> None:
     )  # fmt: skip
 
 
+def test_a_weight_that_was_never_moved_does_not_hide_one_that_was() -> None:
+    def given(*states: str) -> dict[str, Any]:
+        features = {"a": {"left": [1, 0], "right": [2, 0]}, "b": {"left": [1, 1], "right": [2, 2]}}
+        steps = len(states)
+        run = {"states": [*states, "end"], "actions": ["left"] * steps, "rewards": [1] * steps, "terminal": ["end"]}
+        values = dict.fromkeys(set(states), 1)
+        rates = {"alpha": "1/2", "beta": "1/2", "gamma": "1/2"}
+        return {"trajectory": run, "values": values, "theta": [0, 0], "features": features} | rates
+
+    family("actor-critic").read(given("a", "a", "b"))
+    with pytest.raises(FileError, match="the weights of 4 steps would stand in each other's exponents"):
+        family("actor-critic").read(given("a", "a", "a", "b"))
+
+
 def test_two_hundred_characters_of_a_number_are_read() -> None:
     assert read_fraction(" " * 199 + "1") == 1
     with pytest.raises(ValueError, match="longer than 200 characters"):
