@@ -118,7 +118,7 @@ BIC: dict[str, Any] = {
 }  # fmt: skip
 COINS: dict[str, Any] = {"data": {"tosses": {"c": [1, 1000]}, "models": ["fair", "shared"]}}
 BORDER = {"n": None, "border": "more"}
-BARS: dict[str, Any] = {"pulls": [["x", 5], ["x", 9], ["x", 7], ["y", 2]], "between": ["x", "y"]}
+PULLED: dict[str, Any] = {"pulls": [["x", 5], ["x", 9], ["x", 7], ["y", 2]], "between": ["x", "y"]}
 
 GO = {"a": "x", "b": "x"}
 # V(b) = 2 and V(a) = 1 + 1/2·2.
@@ -161,7 +161,7 @@ def first(**said: Any) -> dict[str, Any]:
 
 
 COIN: dict[str, Any] = {"coin": {"heads": 1, "tails": 0, "a": 1, "b": 1}}
-SAMPLE_: dict[str, Any] = {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": "1/2", "noise": "1/2"}}}
+MEASURED: dict[str, Any] = {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": "1/2", "noise": "1/2"}}}
 LINE: dict[str, Any] = {"line": {"points": [[0, 2], [1, 3]]}}
 CLAIMED: dict[str, Any] = {"mdp": VALUED["mdp"], "values": {"a": 1, "b": 2}, "gamma": "1/2", "optimal": True}
 LOOP: dict[str, Any] = {"mdp": {"transitions": [["a", "x", "b", 1, 1], ["b", "x", "a", 1, 2]]}, "average": True}
@@ -418,9 +418,9 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("model-fitting", COIN, {"coin": {"heads": 1, "tails": 0, "a": 1, "b": "1/2"}}, "a and b must be at least 1"),
     ("model-fitting", COIN, LINE, "give one of coin, sample and line"),
     ("model-fitting", COIN, {"coin": None}, "give one of coin, sample and line"),
-    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 1, "noise": 0}}},
+    ("model-fitting", MEASURED, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 1, "noise": 0}}},
      "above 0"),
-    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 0, "noise": 1}}},
+    ("model-fitting", MEASURED, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 0, "noise": 1}}},
      "above 0"),
     ("model-fitting", LINE, {"line": {"points": [[1, 2], [1, 3]]}},
      "points: all x are the same, so no slope fits best"),
@@ -516,8 +516,8 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
      "has a missing value itself"),
     ("optimal-policy-from-q", KNOWN_Q, {"terminal": ["end", "b"]},
      "values: 'b' is terminal, so no action can be taken"),
-    ("bandit", BARS, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
-    ("bandit", BARS, {"between": ["y", "x"]}, "between: "),
+    ("bandit", PULLED, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
+    ("bandit", PULLED, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip
 
 
