@@ -112,6 +112,9 @@ ACTIONS: dict[str, Any] = {
     "trajectory": {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [4]},
     "values": {"a": {"x": 10, "y": 2}, "b": {"x": 8, "y": 6}}, "alpha": "1/2", "gamma": "1/2",
 }  # fmt: skip
+VALUED_RUN: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b"], "rewards": [4]}, "values": {"a": 4, "b": 2}, "alpha": "1/2", "gamma": "1/2",
+}  # fmt: skip
 ENDED = {"states": ["a", "end"], "actions": ["x"], "rewards": [4], "terminal": ["end"]}
 BIC: dict[str, Any] = {
     "fitted": {"a": {"likelihood": "1/4", "k": 1}, "b": {"likelihood": "1/2", "k": 2}}, "n": 2,
@@ -516,6 +519,14 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
      "has a missing value itself"),
     ("optimal-policy-from-q", KNOWN_Q, {"terminal": ["end", "b"]},
      "values: 'b' is terminal, so no action can be taken"),
+    ("maml-step", MAML, {"beta": 0}, "beta"),
+    ("maml-step", MAML, {"tasks": [[0, 5]]}, "tasks: a curvature is not above 0"),
+    ("return-infinite", {"first": [1], "repeated": [2], "gamma": "1/2"}, {"gamma": 1}, "must be below 1, or rewards"),
+    ("return", {"rewards": [1, 2], "gamma": "1/2", "time": 1}, {"time": 2}, "time is 2, but the episode ends at 2"),
+    ("return", {"rewards": [1, 2], "gamma": ["1/2", "1/3"], "time": 1}, {"gamma": ["1/2"]}, "2 rewards need as many"),
+    ("td-zero", VALUED_RUN | {"td_errors": True}, {"known": 3, "alpha": "alpha"}, "td_errors: they are not asked for"),
+    ("td-zero", VALUED_RUN, {"values": {"a": 4}}, "the value of 'b' is missing"),
+    ("td-zero", VALUED_RUN, {"values": {"a": 4, "b": 2, "c": 1}}, "the value is given for 'c'"),
     ("bandit", PULLED, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
     ("bandit", PULLED, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip
