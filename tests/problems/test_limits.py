@@ -223,3 +223,11 @@ def test_more_than_a_million_transitions_of_a_pomdp_file_are_not_written_out() -
     # 1001 states, each with a way to each: 1 002 001.
     with pytest.raises(ValueError, match="line 5: T: there are more than 1000000 transitions; write a smaller model"):
         read_pomdp("discount: 0.5\nvalues: reward\nstates: 1001\nactions: 1\nT: * uniform\nR: * : * : * 1\n")
+
+
+@pytest.mark.parametrize(("horizon", "asked"), [(1, 1), (2, 2), (12, 12), (13, 12), (20, 12)])
+def test_matrices_are_asked_for_as_long_as_there_are_letters(horizon: int, asked: int) -> None:
+    # Of 26 letters two go to each of twelve times, and one to the first action.
+    given = family("lqr-backward").read(lqr(1, horizon))
+    assert [*given.asked] == [*reversed(range(asked))]  # type: ignore[attr-defined]
+    assert len(family("lqr-backward").question(given).parts) == 2 * asked + 1
