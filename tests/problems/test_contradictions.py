@@ -357,6 +357,7 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("sarsa", ACTIONS | {"trajectory": ENDED}, {"trajectory": ENDED | {"actions": ["x", "y"]}},
      "trajectory: the run ends in 'end', so no action is taken there"),
     ("sarsa", ACTIONS | {"trajectory": ENDED}, {"values": {"a": {"x": 10}, "end": {"x": 1}}}, "'end'"),
+    ("bic", BIC, {"criterion": "DIC"}, "'DIC' is not possible here; write 'BIC' or 'AIC'"),
     ("bic", BIC, {"n": None}, "n, the number of data, is needed with fitted models, and with them only"),
     ("bic", BIC | {"n": None, "criterion": "AIC"}, {"criterion": "BIC"}, "n, the number of data, is needed"),
     ("bic", COINS, {"n": 5}, "n, the number of data, is needed with fitted models, and with them only"),
