@@ -18,6 +18,10 @@ from rldrill.render.unicode import unicode_text
 PAGE = 40.0
 #: Signs are taken for as wide as most are not; in widths of the type, and how many points that is.
 _SIGN, _PADDING, _GAP, _POINTS = 0.65, 1.4, 1.2, 10.0
+#: The same in the cells of tables, which hold words and small letters more often.
+_IN_CELLS = 0.6
+#: Blocks side by side have the whole line, which equations may share with points and a letter before them.
+_WHOLE = 1.2
 #: So far apart, at least, tables stand that each have a sentence above them.
 _BETWEEN = 2.0
 
@@ -65,16 +69,18 @@ def _width(item: Block) -> float:
         case Table(header, rows):
             columns = zip(header, *rows, strict=True)
             signs = sum(max(len(unicode_text(Paragraph(cell))) for cell in column) for column in columns)
-            return _SIGN * signs + _PADDING * len(header)
+            return _IN_CELLS * signs + _PADDING * len(header)
         case Picture():
             return width_of(item) / _POINTS
+        case Equation():
+            return _SIGN * len(unicode_text(item))
         case _:
             return math.inf
 
 
 def _side_by_side(blocks: Document, room: float) -> str:
-    width = sum(_width(item) + _GAP for item in blocks)
-    fits = width <= room
+    width = sum(map(_width, blocks)) + _GAP * (len(blocks) - 1)
+    fits = width <= _WHOLE * room
     bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item, room) for item in blocks)
     inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
     return f"#{'abreast' if fits else 'beside'}({inside})\n"
