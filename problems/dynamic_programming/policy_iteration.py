@@ -28,7 +28,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 5
+REVISION = 6
 
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))
@@ -129,14 +129,27 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
     row = rng.choice(mdp.outcomes[pair])
+    if not _needs_values(mdp, pair, start[pair[0]], values):
+        return _draw_threshold(gamma, rng)
     unpaid = opened(mdp, row)
     bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)
+    if bound in {0, *(each.reward for each in mdp.transitions)}:  # it could be read off the table
+        return _draw_threshold(gamma, rng)
     for above in rng.shuffled(_ABOVE):
         improved = deterministic(start | {pair[0]: pair[1]})
         better = policy_values(with_reward(unpaid, bound + above), improved, gamma)
-        if bound and bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
+        if bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
             return Threshold(mdp=unpaid, start=start, gamma=gamma, reward=bound + above)
     return _draw_threshold(gamma, rng)
+
+
+def _needs_values(mdp: Model, pair: tuple[str, str], chosen: str, values: dict[str, Fraction]) -> bool:
+    """Whether what follows the two actions is worth different numbers: else the rewards alone say which is better."""
+    after, own = (
+        sum(Fraction(row.probability) * values.get(row.next, 0) for row in mdp.outcomes[each])
+        for each in (pair, (pair[0], chosen))
+    )
+    return after != own
 
 
 def question(given: Rounds | Threshold) -> Question:
