@@ -212,10 +212,9 @@ def question(given: Several | Changed) -> Question:
 
 
 def _of_changed(given: Changed) -> Question:
-    ends = given.shows == "monte-carlo"
     drawn = backup_diagram(given.shows, given.branches, given.steps)
     return Question(
-        (Paragraph(legend(arcs=True, ends=ends)), drawn),
+        (Paragraph(legend(arcs=True, ends=True)), drawn),
         (
             Part(
                 f"Something is changed in the diagram: {DONE[given.change]}. Which equation or method does it show "
@@ -243,5 +242,4 @@ def _of_several(given: Several) -> Question:
         )
         for index, item in enumerate(given.diagrams)
     )
-    ends = any(item.shows == "monte-carlo" for item in given.diagrams)
-    return Question((Paragraph(legend(arcs=True, ends=ends)), Beside(drawn)), parts)
+    return Question((Paragraph(legend(arcs=True, ends=True)), Beside(drawn)), parts)

@@ -175,19 +175,23 @@ def _chances(rng: Draws, actions: Sequence[str]) -> dict[str, Fraction | Paramet
 
 
 def _all_matters(drawn: Callable[[], Given]) -> Given:
-    """The first draw in which no two branches of a node are worth the same, nor what they lead to."""
+    """The first draw in which no two branches of a node are worth the same, nor two states that have branches."""
     while True:
         given = drawn()
         branches: list[list[Fraction]] = []
         _value(given, branches)
-        leaves = [tuple(row.values()) for row in given.action_values.values()]
-        if len(set(leaves)) == len(leaves) and all(len(set(row)) == len(row) for row in branches):
+        if all(len(set(row)) == len(row) for row in branches):
             return given
 
 
 def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fraction:
-    """The value of the root where nothing is left open; what the branches of every node are worth is put on a list."""
+    """The value of the root where nothing is left open.
+
+    What the branches of every node are worth is put on a list, and what all states that have branches are worth.
+    """
     seen: list[list[Fraction]] = [] if branches is None else branches
+    inner: list[Fraction] = []
+    seen.append(inner)
 
     def of_state(state: str) -> Fraction:
         if state in given.values:
@@ -196,9 +200,12 @@ def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fracti
         actions = leaves or given.dynamics.actions[state]
         worth = {a: Fraction(leaves[a]) if leaves else of_action(state, a) for a in actions}
         seen.append([*worth.values()])
-        if given.policy is None:
-            return max(worth.values())
-        return sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        inner.append(
+            max(worth.values())
+            if given.policy is None
+            else sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        )
+        return inner[-1]
 
     def of_action(state: str, action: str) -> Fraction:
         rows = given.dynamics.outcomes[state, action]

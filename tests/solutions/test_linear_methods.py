@@ -529,3 +529,30 @@ def test_one_state_and_one_action_need_no_matrices(seed: int, level: int) -> Non
     text = "\n".join(unicode_text(block) for block in exercise.working())
     assert not [sign for sign in "ᵀΣξᵢⱼ⁻" if sign in text]
     assert "Qₐₐ < 0" in text
+
+
+def test_entries_of_the_step_are_asked_for_before_the_constant_and_then_the_new_column() -> None:
+    for level in (2, 3):
+        for seed in range(6):
+            exercise = rldrill.draw("linearise-affine", level, seed)
+            *steps, constant, column = exercise.parts
+            assert steps
+            assert all("A_Δ" in part.ask or "B_Δ" in part.ask for part in steps)
+            assert constant.points <= 6, exercise.id
+            assert (constant.ask, column.ask[:14]) == ("What is $C$?", "What is column")
+            answers = exercise.solve()
+            size = answers[constant.label].nrows()
+            assert entries(answers[column.label]) == [*entries(answers[constant.label]), 1]
+            assert entries(answers[column.label])[size] == 1
+            text = " ".join(str(exercise.question()).split())
+            assert "B̃" not in text
+            assert "the constant 1 is made part of the state" in text
+
+
+def test_a_price_that_is_found_is_put_into_the_reward() -> None:
+    for seed in range(25):
+        exercise = rldrill.draw("lqr-reward", 3, seed)
+        if exercise.problem.given.total is not None:  # type: ignore[attr-defined]
+            *_, line = exercise.solution.lines_of("b")
+            assert isinstance(line, Equality)
+            assert unicode_text(line.equation()).count("=") == 2, exercise.id
