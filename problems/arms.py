@@ -67,11 +67,13 @@ def situation(
         (f"${index}$", f"${shown(length)}$", f"${text(angle)}$")
         for index, (length, angle) in enumerate(zip(given.lengths, given.angles, strict=True), 1)
     )
+    known = all(isinstance(length, Fraction) for length in given.lengths)
+    scale = "" if known else " The figure is not to scale, since a length is not known."
     return (
         Paragraph(
             f"An arm with {len(rows)} link{'s' * (len(rows) > 1)} moves in the plane; {base}. Link $i$ has the length "
             f"$l_i$. $θ_1$ is the angle of the first link relative to the ${axis}$ axis; every other $θ_i$ is that of "
-            "link $i$ relative to the link before it. Angles are in radians, counter-clockwise."
+            f"link $i$ relative to the link before it. Angles are in radians, counter-clockwise.{scale}"
         ),
         Beside(
             (

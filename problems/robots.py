@@ -132,6 +132,7 @@ class Robot:
     action: Mapping[str, tuple[Angle, ...]]
     varying: Mapping[str, tuple[tuple[int, int], ...]] = field(default_factory=dict)
     reward: str = ""
+    wanted: Mapping[str, str] = field(default_factory=dict)
     picture: Look | None = None
 
 
@@ -156,6 +157,7 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
         action={name: tuple(map(read_angle, texts)) for name, texts in row_["action"].items()},
         varying={name: tuple(map(tuple, places)) for name, places in row_.get("varying", {}).items()},
         reward=row_.get("reward", ""),
+        wanted=row_.get("wanted", {}),
         picture=row_.get("picture"),
     )
 
@@ -163,11 +165,6 @@ def _robot(row_: Mapping[str, Any]) -> Robot:
 @cache
 def _fit(use: str, level: int) -> tuple[Robot, ...]:
     return tuple(robot for robot in robots() if level in robot.levels.get(use, ()))
-
-
-def draw_system(rng: Draws, use: str, level: int) -> dict[str, Any]:
-    """A robot for that use and level, with values for its letters."""
-    return values_of(rng, drawn_robot(rng, use, level))
 
 
 def drawn_robot(rng: Draws, use: str, level: int) -> Robot:

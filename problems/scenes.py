@@ -9,35 +9,39 @@ from rldrill.problems.fractions import Fraction
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A place: its states in their order, the action that goes up this order and the one that goes down."""
+    """A place: its states in their order, the action that goes up this order and the one that goes down.
+
+    The first of the readings becomes more probable up this order, less probable, or as it comes: ``trend`` is 1, −1, 0.
+    """
 
     told: str
     states: tuple[str, ...]
     up: str
     down: str
     readings: tuple[str, str]
+    trend: int
 
 
 SCENES = (
     Scene(
         "A robot pushes and pulls a door.",
-        ("closed", "ajar", "half open", "open"), "push", "pull", ("light", "no light"),
+        ("closed", "ajar", "half open", "open"), "push", "pull", ("light", "no light"), 1,
     ),
     Scene(
         "A robot does not know where in a corridor it is.",
-        ("west", "middle", "bend", "east"), "right", "left", ("door", "wall"),
+        ("west", "middle", "bend", "east"), "right", "left", ("door", "wall"), 0,
     ),
     Scene(
         "A rover goes down into a crater and up again.",
-        ("rim", "slope", "ledge", "floor"), "descend", "climb", ("bright", "dark"),
+        ("rim", "slope", "ledge", "floor"), "descend", "climb", ("bright", "dark"), -1,
     ),
     Scene(
         "A machine wears while it runs; a mechanic can repair it.",
-        ("sound", "worn", "rattling", "cracked"), "run", "repair", ("noisy", "quiet"),
+        ("sound", "worn", "rattling", "cracked"), "run", "repair", ("noisy", "quiet"), 1,
     ),
     Scene(
         "A robot rides in a lift without a display.",
-        ("cellar", "ground", "first", "roof"), "up", "down", ("warm", "cold"),
+        ("cellar", "ground", "first", "roof"), "up", "down", ("warm", "cold"), 1,
     ),
 )  # fmt: skip
 
@@ -71,6 +75,8 @@ _CHANCES = ("1/4", "1/2", "3/4", "1/5", "4/5", "1/10", "9/10")
 def draw_sensor(scene: Scene, states: tuple[str, ...], rng: Draws, *chances: str) -> dict[str, dict[str, Fraction]]:
     """How probable the two readings are in every state, not the same in all states; ``chances`` are drawn from."""
     while True:
-        first = {state: rng.fraction(*(chances or _CHANCES)) for state in states}
-        if len(set(first.values())) > 1:
+        drawn = [rng.fraction(*(chances or _CHANCES)) for _ in states]
+        if len(set(drawn)) > 1:
+            in_order = sorted(drawn, reverse=scene.trend < 0) if scene.trend else drawn
+            first = dict(zip(states, in_order, strict=True))
             return {scene.readings[0]: first, scene.readings[1]: {state: 1 - chance for state, chance in first.items()}}

@@ -124,7 +124,7 @@ def draw_episode(level: int, rng: Draws) -> dict[str, Any]:
         theta, features = policy(rng, tuple(dict.fromkeys(states[:-1])), actions)
         if not told_apart(features):
             continue
-        if level == 1 or denominator(theta, features) <= _MOST_BELOW[level]:
+        if level == 1 or (denominator(theta, features) <= _MOST_BELOW[level] and not is_even(theta, features)):
             break
     gamma = Parameter("gamma") if level == 3 else rng.fraction("1/2", "1/2", "1")
     run = draw_run(rng, states, taken, setting.terminal, doubled=gamma == Fraction(1, 2))
@@ -137,11 +137,21 @@ _MOST_BELOW = {2: 20, 3: 50}
 
 def denominator(theta: tuple[Weight, ...], features: ActionFeatures) -> int:
     """The product over all states of the sum of all e^h there, for weights that are logarithms of whole numbers."""
+    return prod(map(sum, _exponentials(theta, features)))
+
+
+def is_even(theta: tuple[Weight, ...], features: ActionFeatures) -> bool:
+    """Whether in some state every action is as likely as any other, so that the weights there do no work."""
+    return any(len(set(row)) == 1 for row in _exponentials(theta, features))
+
+
+def _exponentials(theta: tuple[Weight, ...], features: ActionFeatures) -> list[list[int]]:
+    """Of every state the e^h of its actions, for weights that are logarithms of whole numbers."""
     bases = [int(str(weight).removeprefix("ln ")) if weight else 1 for weight in theta]
-    return prod(
-        sum(prod(base ** int(x) for base, x in zip(bases, row, strict=True)) for row in rows.values())
+    return [
+        [prod(base ** int(x) for base, x in zip(bases, row, strict=True)) for row in rows.values()]
         for rows in features.values()
-    )
+    ]
 
 
 def returns(run: Trajectory, gamma: Fraction) -> tuple[Fraction, ...]:

@@ -55,8 +55,10 @@ def taken(best: Mapping[str, Sequence[str]]) -> str:
     return joined([f"{' or '.join(actions)} in {state}" for state, actions in best.items()])
 
 
-def greedy(best: Sequence[str]) -> str:
-    """The conclusion from an arg max, in words."""
+def greedy(best: Sequence[str], among: int) -> str:
+    """The conclusion from an arg max among so many actions, in words."""
     if len(best) == 1:
-        return f"{best[0]} has the greatest value: it is greedy"
+        return f"{best[0]} has the {'greater' if among == 2 else 'greatest'} value: it is greedy"
+    if among == 2:
+        return f"{joined(list(best))} have the same value: both are greedy"
     return f"{joined(list(best))} have the same greatest value: they are all greedy"

@@ -391,7 +391,7 @@ class Work:
         if cleared:
             self.lines.append(Equality(cleared[0], (cleared[1],)))
             left = cleared[0]
-        if slope != 1 and left != unknown * slope:
+        if slope != 1 and unknown * slope not in (left, cleared[1] if cleared else right):
             self.lines.append(Equality(unknown * slope, (ZERO - constant,)))
         if (left, right) != (unknown, value):
             self.lines.append(Equality(unknown, (value,)))

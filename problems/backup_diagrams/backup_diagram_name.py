@@ -23,7 +23,7 @@ from rldrill.problems.parts import Choice, Part
 
 TITLE = "Name of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5, 3.6, 6.1 to 6.6 and 7.1"
-REVISION = 4
+REVISION = 5
 #: One chooses among the options; and the name must not depend on how many branches or steps are drawn.
 DISTRACTORS = (
     "diagrams.*.options.*", "diagrams.*.branches", "diagrams.*.steps", "options.*", "changes.*", "branches", "steps",
@@ -171,13 +171,13 @@ def _draw_changed(rng: Draws) -> Changed:
     change, further = rng.choice(_ways(shows))
     named = CHANGED[shows][change]
     target = CHANGED[named][further]
-    near = [other for other in _NEIGHBOURS[named] if other != shows]
+    near = [other for other in dict.fromkeys((*_NEIGHBOURS[named], *BACKUPS)) if other not in (named, shows, target)]
     return Changed(
         shows=shows,
         change=change,
         options=rng.shuffled((named, shows, *near[:3])),
         target=target,
-        changes=rng.shuffled((further, *_wrong(named, target, rng))),
+        changes=rng.shuffled((further, *_wrong(named, target, rng, change))),
         **_sizes(rng),
     )
 
@@ -199,10 +199,10 @@ def _plain(shows: Backup) -> dict[Change, Backup]:
     return row
 
 
-def _wrong(named: Backup, target: Backup, rng: Draws) -> tuple[Change, ...]:
-    """Four changes that lead elsewhere, first those that lead to another diagram with a name."""
-    elsewhere = [change for change, then in CHANGED[named].items() if then != target][:2]
-    others = [change for change in CHANGES if change not in CHANGED[named]]
+def _wrong(named: Backup, target: Backup, rng: Draws, done: Change) -> tuple[Change, ...]:
+    """Four changes that lead elsewhere, first those that lead to another diagram with a name; none that is done."""
+    elsewhere = [change for change, then in CHANGED[named].items() if then != target and change != done][:2]
+    others = [change for change in CHANGES if change not in CHANGED[named] and change != done]
     return (*elsewhere, *rng.sample(others, 4 - len(elsewhere)))
 
 
@@ -212,10 +212,9 @@ def question(given: Several | Changed) -> Question:
 
 
 def _of_changed(given: Changed) -> Question:
-    ends = given.shows == "monte-carlo"
     drawn = backup_diagram(given.shows, given.branches, given.steps)
     return Question(
-        (Paragraph(legend(arcs=True, ends=ends)), drawn),
+        (Paragraph(legend(arcs=True, ends=True)), drawn),
         (
             Part(
                 f"Something is changed in the diagram: {DONE[given.change]}. Which equation or method does it show "
@@ -243,5 +242,4 @@ def _of_several(given: Several) -> Question:
         )
         for index, item in enumerate(given.diagrams)
     )
-    ends = any(item.shows == "monte-carlo" for item in given.diagrams)
-    return Question((Paragraph(legend(arcs=True, ends=ends)), Beside(drawn)), parts)
+    return Question((Paragraph(legend(arcs=True, ends=True)), Beside(drawn)), parts)

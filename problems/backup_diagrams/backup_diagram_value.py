@@ -16,11 +16,11 @@ from rldrill.problems.parts import Number, Part
 from rldrill.problems.phrases import discount, in_open
 from rldrill.problems.pictures import BackupDiagram, Branch, Node
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
-from rldrill.problems.runs import draw_values
+from rldrill.problems.valued import draw_values
 
 TITLE = "Value of a backup diagram"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 3.6"
-REVISION = 2
+REVISION = 3
 #: Under an arc the chances of an action that is not the best do not matter, as long as it is not.
 DISTRACTORS = ("dynamics.transitions.*.3",)
 #: How many levels of states a diagram may have below its root.
@@ -151,7 +151,7 @@ def _of_state(rng: Draws, tree: dict[tuple[int, str], tuple[int, ...]], gamma: F
     leaves = [_named(target) for targets in tree.values() for target in targets if target not in inner]
     dynamics = Dynamics(transitions=tuple(rows))
     policy = None if best else {state: _chances(rng, actions) for state, actions in dynamics.actions.items()}
-    return Given(dynamics=dynamics, policy=policy, values=draw_values(rng, leaves, gamma), gamma=gamma)
+    return Given(dynamics=dynamics, policy=policy, values=draw_values(rng, tuple(leaves), gamma), gamma=gamma)
 
 
 def _of_action(rng: Draws, gamma: Fraction, best: bool) -> Given:
@@ -175,7 +175,7 @@ def _chances(rng: Draws, actions: Sequence[str]) -> dict[str, Fraction | Paramet
 
 
 def _all_matters(drawn: Callable[[], Given]) -> Given:
-    """The first draw in which no two branches of a node are worth the same."""
+    """The first draw in which no two branches of a node are worth the same, nor two states that have branches."""
     while True:
         given = drawn()
         branches: list[list[Fraction]] = []
@@ -185,8 +185,13 @@ def _all_matters(drawn: Callable[[], Given]) -> Given:
 
 
 def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fraction:
-    """The value of the root where nothing is left open; what the branches of every node are worth is put on a list."""
+    """The value of the root where nothing is left open.
+
+    What the branches of every node are worth is put on a list, and what all states that have branches are worth.
+    """
     seen: list[list[Fraction]] = [] if branches is None else branches
+    inner: list[Fraction] = []
+    seen.append(inner)
 
     def of_state(state: str) -> Fraction:
         if state in given.values:
@@ -195,14 +200,18 @@ def _value(given: Given, branches: list[list[Fraction]] | None = None) -> Fracti
         actions = leaves or given.dynamics.actions[state]
         worth = {a: Fraction(leaves[a]) if leaves else of_action(state, a) for a in actions}
         seen.append([*worth.values()])
-        if given.policy is None:
-            return max(worth.values())
-        return sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        inner.append(
+            max(worth.values())
+            if given.policy is None
+            else sum((Fraction(given.policy[state][a]) * each for a, each in worth.items()), Fraction(0))
+        )
+        return inner[-1]
 
     def of_action(state: str, action: str) -> Fraction:
         rows = given.dynamics.outcomes[state, action]
-        worth = [Fraction(row.reward) + Fraction(given.gamma) * of_state(row.next) for row in rows]
-        seen.append(worth)
+        after = [of_state(row.next) for row in rows]
+        worth = [Fraction(row.reward) + Fraction(given.gamma) * each for row, each in zip(rows, after, strict=True)]
+        seen.extend((after, worth))
         return sum((Fraction(row.probability) * each for row, each in zip(rows, worth, strict=True)), Fraction(0))
 
     return of_action(*given.root) if given.action_values else of_state(given.root[0])

@@ -38,7 +38,7 @@ from rldrill.problems.scenes import SCENES, draw_motion, draw_sensor
 
 TITLE = "Bayes filter"
 SOURCE = "Thrun, Burgard & Fox 2005, section 2.4"
-REVISION = 5
+REVISION = 6
 
 
 class Event(Givens):
@@ -144,7 +144,7 @@ _SHAPES = {
     3: ((_BOTH, _BOTH), (_BOTH, _SENSE), (_BOTH, _MOVE)),
 }
 #: The greatest denominator of a belief on the way.
-_FINEST = {1: 16, 2: 60, 3: 100}
+_FINEST = {1: 16, 2: 32, 3: 100}
 _OPEN = Parameter("q")
 
 

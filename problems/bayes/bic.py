@@ -19,7 +19,7 @@ from rldrill.problems.parts import Choice, Number, Part, Values
 
 TITLE = "Bayesian information criterion"
 SOURCE = "Hastie, Tibshirani & Friedman 2009, section 7.7"
-REVISION = 5
+REVISION = 6
 
 #: What the models say of the coins' probabilities of heads.
 COIN_MODELS = {
@@ -135,7 +135,8 @@ def _drawn(level: int, rng: Draws) -> Given:
     criterion = rng.choice(("BIC", "BIC", "AIC"))
     kind = rng.choice({1: ("fitted",), 2: ("fitted", "AIC", "coin"), 3: ("coins", "three coins", "border")}[level])
     if kind == "coin":
-        tosses = {rng.choice(("red", "blue", "gold")): rng.choice(_handy())}
+        unlike = tuple(counts for counts in _handy() if counts[0] != counts[1])  # or both models say the same
+        tosses = {rng.choice(("red", "blue", "gold")): rng.choice(unlike)}
         return Given(
             criterion=criterion, data=Data(tosses=tosses, models=rng.choice((("fair", "shared"), ("shared", "fair"))))
         )
@@ -225,7 +226,7 @@ def question(given: Given) -> Question:
     names, criterion = given.names, given.criterion
     cost = "2 k" if criterion == "AIC" else "k ln n"
     rule = Paragraph(
-        f'$"{criterion}"(M) = −2 ln p(D_z|M, θ) + {cost}$, with the natural logarithm.'
+        f'$"{criterion}"(M) = −2 ln p(D_z|M, θ̂) + {cost}$, with the natural logarithm.'
         + (" The smallest wins." if criterion == "AIC" or len(names) > 2 else "")
     )
     of = "both models" if len(names) == 2 else "every model"
@@ -256,12 +257,15 @@ def question(given: Given) -> Question:
             header=("$M$", "what it says"),
             rows=tuple((name, told[name]) for name in names),
         ),
-        Paragraph("The data $D_z$ are the tosses in their order; $n$ counts all of them, $k$ the unknown parameters."),
+        Paragraph(
+            f"The data $D_z$ are the tosses in their order; {'' if criterion == 'AIC' else '$n$ counts all of them, '}"
+            "$k$ counts the unknown parameters."
+        ),
         rule,
     )
     fit = Part(
-        "What is $ln p(D_z|M, θ)$ of both models, each with its best-fitting parameters?",
-        Values("ln p", names),
+        "What is $ln p(D_z|M, θ̂)$ of both models, each with its best-fitting parameters, $θ̂$?",
+        Values("ln p(D_z|·, θ̂)", names),
         zero=True,
     )
     return Question(blocks, (fit, criteria, _winner(given)))
@@ -270,7 +274,7 @@ def question(given: Given) -> Question:
 def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
     """The models by their numbers."""
     logarithms = any(model.likelihood is None for model in fitted.values())
-    head, told = ("ln p(D_z|M, θ)", "log-likelihoods") if logarithms else ("p(D_z|M, θ)", "likelihoods")
+    head, told = ("ln p(D_z|M, θ̂)", "log-likelihoods") if logarithms else ("p(D_z|M, θ̂)", "likelihoods")
     rows = tuple(
         (name, f"${model.k}$", f"${shown(_number(model))}$") for name, model in fitted.items()
     )  # fmt: skip
@@ -278,7 +282,7 @@ def _fitted(given: Given, fitted: dict[str, Fitted]) -> tuple[Block, ...]:
     count_of_data = "$n$ data points" if given.border else f"$n = {given.n}$ data points"
     data = "the same data $D_z$" if given.n is None and not given.border else f"the same {count_of_data}, $D_z$"
     return (
-        Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters, $θ$:"),
+        Paragraph(f"{count} were fitted to {data}. Their {told} at their best parameters, $θ̂$:"),
         Table(header=("$M$", "parameters $k$", f"${head}$"), rows=rows),
     )
 

@@ -118,7 +118,9 @@ def question(given: Given) -> Question:
         )
         parts.append(Part(ask, Numbers(entries), zero=True))
     else:
-        parts.append(Part(f"What is the velocity $({', '.join(velocity)})$?", Numbers(velocity), zero=True))
+        parts.append(
+            Part(f"What is the velocity $({', '.join(velocity)})$ of the end point?", Numbers(velocity), zero=True)
+        )
     if given.square and given.velocity is None:
         parts.append(Part("Is the configuration singular, that is, is $det J = 0$?", YesNo()))
     return Question(

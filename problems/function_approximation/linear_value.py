@@ -27,7 +27,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear action values"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 3
+REVISION = 4
 
 
 class Bumps(Centred):
@@ -116,15 +116,19 @@ class Given(Givens):
         return ()
 
 
+#: What somebody does whose state is a place.
+_ALONG = ("left", "right", "stay")
+
+
 def draw(level: int, rng: Draws) -> Given:
     """Two features and two actions; then more, or basis functions; then a weight or a state from equal values."""
     setting = draw_setting(rng)
     if level == 3:
         return rng.choice((_weight_sought, _state_sought))(rng, setting)
     count, size = (2, 2) if level == 1 else rng.choice(((3, 2), (2, 3), (3, 3)))
-    actions = setting.actions[:count]
     theta = tuple(rng.nonzero(-3, 5) for _ in range(size * count))
     if level == 1 or rng.choice((True, False)):
+        actions = setting.actions[:count]
         features = tuple(
             rng.whole(1, 4) if level == 1 else rng.fraction("1/2", "1", "2", "3/2", "3") for _ in range(size)
         )
@@ -132,7 +136,7 @@ def draw(level: int, rng: Draws) -> Given:
     width = rng.whole(4, 6)
     centred = draw_on_a_line(rng, rng.distinct(size, 1, int(width) - 1))
     bumps = Bumps(position=centred.position, centres=centred.centres, width=width)
-    return Given(theta=theta, actions=actions, bumps=bumps)
+    return Given(theta=theta, actions=rng.sample(_ALONG, count), bumps=bumps)
 
 
 def _weight_sought(rng: Draws, setting: Setting) -> Given:
@@ -162,7 +166,7 @@ def _state_sought(rng: Draws, setting: Setting) -> Given:
     start = rng.whole(-2, 4)
     return Given(
         theta=(*first, *second),
-        actions=rng.sample(setting.actions, 2),
+        actions=rng.sample(_ALONG, 2),
         bumps=Bumps(centres=((start,), (start + near + far,)), width=width),
     )
 
@@ -215,4 +219,4 @@ def _parts(given: Given) -> Iterator[Part]:
     yield Part(
         f"The weight $w$ belongs to {given.raised}. What is $Q̂(s, a)$ of {others}?", Values("Q̂", valued), zero=True
     )
-    yield Part(f"Above which $w$ is {given.raised} the greedy action?", Number(), zero=True)
+    yield Part(f"Above which $w$ is {given.raised} the greedy action?", Number())

@@ -162,7 +162,9 @@ def question(given: Given) -> Question:
     )
     if given.asked_for:
         letter = shown(given.asked_for)
-        equal = f"For which ${letter}(π)$ does the constraint of the policy $π$ hold with equality if $ξ = 0$?"
+        equal = (
+            f"For each constraint, that of the policy $π$: with which ${letter}(π)$ are both sides equal if $ξ = 0$?"
+        )
         return Question(
             blocks,
             (

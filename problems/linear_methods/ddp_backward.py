@@ -1,23 +1,26 @@
 """One backward step of differential dynamic programming: the quadratic Q, and the change of the action."""
 
-from typing import Self
+import cmath
+from collections.abc import Mapping
+from typing import Any, Self
 
 from pydantic import Field, model_validator
 
+from rldrill.problems.angles import Angle, read_angle
 from rldrill.problems.document import Beside, Equation, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact
-from rldrill.problems.expressions import Expression, letters
+from rldrill.problems.expressions import Expression, letters, worked_out
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.mathematics import mathematics
 from rldrill.problems.matrices import MatrixField, check_shape, check_symmetric, tabular
 from rldrill.problems.parts import Matrix, Part
-from rldrill.problems.robots import System, draw_system, plan
+from rldrill.problems.robots import Robot, System, drawn_robot, plan, values_of
 
 TITLE = "Backward step of DDP"
 SOURCE = "Tassa, Erez & Todorov 2012"
-REVISION = 3
+REVISION = 4
 
 
 class Given(System):
@@ -53,12 +56,60 @@ class Given(System):
 
 def draw(level: int, rng: Draws) -> Given:
     """iLQR with numbers; then DDP or iLQR of what is more curved; then with two states."""
-    system = draw_system(rng, "ddp", level)
+    robot = drawn_robot(rng, "ddp", level)
+    while True:
+        system = values_of(rng, robot)
+        missing = _missing(robot, system)
+        if all(missing.values()) and not _settles(robot, system):
+            break
     n = len(system["state"])
     steepest = 3 if level < 3 else 5
     hessian = tuple(tuple(-rng.whole(1, steepest) if i == j else Fraction(0) for j in range(n)) for i in range(n))
-    gradient = tuple(rng.nonzero(-steepest, steepest) for _ in range(n))
-    return Given(**system, gradient=gradient, hessian=hessian, second_order=level > 1 and rng.chance(Fraction(3, 4)))
+    gradient = []
+    for name in robot.dynamics:
+        steep = rng.whole(1, steepest)
+        rises = missing[name] > 0 if name in missing else rng.chance(Fraction(1, 2))
+        gradient.append(steep if rises else -steep)
+    second_order = level > 1 and rng.chance(Fraction(3, 4))
+    return Given(**system, gradient=tuple(gradient), hessian=hessian, second_order=second_order)
+
+
+_FUNCTIONS = {"sin": cmath.sin, "cos": cmath.cos, "tan": cmath.tan, "sqrt": cmath.sqrt, "exp": cmath.exp}
+
+
+def _missing(robot: Robot, system: Mapping[str, Any]) -> dict[str, float]:
+    """By how much the next state falls short of what is wanted of it; its value rises towards that."""
+    letters_ = _values(system)
+    short = {}
+    for name, wanted in robot.wanted.items():
+        aim = letters_[wanted] if wanted in letters_ else _radians(read_angle(wanted))
+        short[name] = round((aim - _worth(robot.dynamics[name], letters_)).real, 9)
+    return short
+
+
+def _settles(robot: Robot, system: Mapping[str, Any]) -> bool:
+    """Whether the one state has no influence on the next one, so that most derivatives are 0."""
+    if len(robot.dynamics) > 1:
+        return False
+    ((name, rate),) = robot.dynamics.items()
+    letters_, tiny = _values(system), 1e-30
+    return abs(_worth(rate, letters_ | {name: letters_[name] + 1j * tiny}).imag / tiny) < 1e-9
+
+
+def _values(system: Mapping[str, Any]) -> dict[str, complex]:
+    """The values of all letters at the operating point."""
+    angles: dict[str, Angle] = {**system["state"], **system["action"]}
+    return {name: complex(value) for name, value in system["constants"].items()} | {
+        name: _radians(angle) for name, angle in angles.items()
+    }
+
+
+def _radians(angle: Angle) -> complex:
+    return complex(angle.number) * (cmath.pi if angle.of_pi else 1)
+
+
+def _worth(text: str, values: Mapping[str, complex]) -> complex:
+    return complex(worked_out(text, values, _FUNCTIONS, complex))
 
 
 def question(given: Given) -> Question:
@@ -69,13 +120,13 @@ def question(given: Given) -> Question:
         if given.second_order
         else "in a step of iLQR: the second derivatives of $f$ are left out"
     )
-    gradient, hessian = ("derivative", "second derivative") if n == 1 else ("gradient", "Hessian")
-    first, then = ("derivative", "second derivative") if n == m == 1 else ("gradient", "matrix")
+    hessian = "second derivative" if n == 1 else "Hessian"
     wanted = (
-        ("Q_s", first, n, 1), ("Q_a", first, m, 1), ("Q_{s s}", then, n, n), ("Q_{a s}", then, m, n),
-        ("Q_{a a}", then, m, m), ("k", "constant change of the action", m, 1), ("K", "gain", m, n),
+        ("Q_s", _first(n), n, 1), ("Q_a", _first(m), m, 1), ("Q_{s s}", _second(n, n), n, n),
+        ("Q_{a s}", _second(m, n), m, n), ("Q_{a a}", _second(m, m), m, m),
+        ("k", "constant change of the action", m, 1), ("K", "gain", m, n),
     )  # fmt: skip
-    known = f"At $f(s̄, ā)$ the value $V′$ of the next state has this {gradient} and this {hessian}:"
+    known = f"At $f(s̄, ā)$ the value $V′$ of the next state has this {_first(n)} and this {hessian}:"
     return Question(
         (
             *plan(given, given.reward, known),
@@ -90,8 +141,15 @@ def question(given: Given) -> Question:
                 "The best action is then $a = ā + k + K (s − s̄)$."
             ),
         ),
-        tuple(
-            Part(f"What is the {what} ${head}$?", Matrix(rows, columns), zero=True)
-            for head, what, rows, columns in wanted
-        ),
+        tuple(Part(f"What is the {what} ${head}$?", Matrix(rows, columns)) for head, what, rows, columns in wanted),
     )
+
+
+def _first(count: int) -> str:
+    """What a first derivative is called."""
+    return "derivative" if count == 1 else "gradient"
+
+
+def _second(rows: int, columns: int) -> str:
+    """What second derivatives are called."""
+    return "second derivative" if rows == columns == 1 else "matrix"

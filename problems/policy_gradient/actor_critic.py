@@ -15,11 +15,19 @@ from rldrill.problems.parts import Numbers, Part, Values
 from rldrill.problems.phrases import discount, in_open, step_size, terminal_note
 from rldrill.problems.runs import check_values, trajectory_table
 from rldrill.problems.settings import Setting, draw_setting, draw_way
-from rldrill.problems.softmax import SoftmaxRun, draw_even_policy, draw_log_policy, draw_run, policy_blocks, told_apart
+from rldrill.problems.softmax import (
+    SoftmaxRun,
+    draw_even_policy,
+    draw_log_policy,
+    draw_run,
+    is_even,
+    policy_blocks,
+    told_apart,
+)
 
 TITLE = "Actor-critic"
 SOURCE = "Sutton & Barto 2018, section 13.5"
-REVISION = 6
+REVISION = 7
 
 #: The actor's chances are softmaxes of weights that hold softmaxes; deeper ones fill pages.
 _DEEPEST = 3
@@ -71,7 +79,7 @@ def draw(level: int, rng: Draws) -> Given:
         theta, features = _weights_of_their_own(rng, (first, second), actions)
     else:
         theta, features = (draw_even_policy if level == 1 else draw_log_policy)(rng, (first,), actions)
-        if not told_apart(features):
+        if not told_apart(features) or (level == 2 and is_even(theta, features)):
             return draw(level, rng)
     given = Given(
         trajectory=draw_run(rng, states, taken, setting.terminal),
@@ -132,6 +140,7 @@ def question(given: Given) -> Question:
         if several
         else "After the transition the TD error $δ_0$ is computed; then critic and actor are both updated with it."
     )
+    factor = "" if given.gamma == 1 else "; its step has no further factor $γ^t$"
     blocks = (
         Paragraph(
             "An actor-critic agent follows this trajectory (each reward stands at the time at which it is received):"
@@ -141,10 +150,7 @@ def question(given: Given) -> Question:
         Paragraph("The critic's initial values are:"),
         values_table(given.values),
         *policy_blocks(given.features, given.theta),
-        Paragraph(
-            f"{learning} {pace} The actor's is $β = {shown(given.beta)}$; its step has no further factor $γ^t$. "
-            f"{discount(given.gamma)}"
-        ),
+        Paragraph(f"{learning} {pace} The actor's is $β = {shown(given.beta)}${factor}. {discount(given.gamma)}"),
     )
     values = (
         f'What is the critic\'s value $V("{given.visited[0]}")$'

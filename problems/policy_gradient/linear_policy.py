@@ -15,7 +15,7 @@ from rldrill.problems.settings import Setting, draw_setting
 
 TITLE = "Linear policy"
 SOURCE = "Sutton & Barto 2018, section 10.1"
-REVISION = 4
+REVISION = 5
 
 
 class Given(Givens):
@@ -93,7 +93,7 @@ def _changing(rng: Draws, setting: Setting) -> Given:
         features[state] = dict(zip(setting.actions, (first, tuple(second)), strict=False))
     theta = (*fixed[:place], Parameter("w"), *fixed[place + 1 :])
     at = rng.fraction("-3/2", "-1/2", "1/2", "3/2", "5/2")
-    if len(set(edges)) < len(edges) or at in edges:
+    if len(set(edges)) < len(edges) or {at, 0} & set(edges):  # nobody guesses 0
         return _changing(rng, setting)
     given = Given(theta=theta, features=features, at=at)
     return given if _telling(given) else _changing(rng, setting)
@@ -122,7 +122,7 @@ def question(given: Given) -> Question:
         blocks,
         (
             Part(where if len(actions) > 1 else "For which $w$ do both actions have the same value?",
-                 Values("w", tuple(actions)), zero=True),
+                 Values("w", tuple(actions))),
             Part(f"{which} if $w = {shown(given.at)}$?", Policy(actions)),
         ),
     )  # fmt: skip

@@ -11,7 +11,7 @@ from rldrill.problems.softmax import Episode, draw_episode, episode_blocks, ever
 
 TITLE = "REINFORCE"
 SOURCE = "Sutton & Barto 2018, section 13.3"
-REVISION = 7
+REVISION = 8
 
 
 class Given(Episode):
@@ -32,10 +32,11 @@ def draw(level: int, rng: Draws) -> Given:
 
 def question(given: Given) -> Question:
     """The episode and the policy; the returns, the gradient and the new weights are asked for."""
+    factor = "" if given.gamma == 1 else "There is no further factor $γ^t$. "
     note = Paragraph(
         "REINFORCE multiplies the score $∇_θ log π(a_t|s_t)$ of each action by the discounted return from its own step "
-        "on, $R_t = r_{t+1} + γ r_{t+2} + …$, and sums over the episode. There is no further factor $γ^t$, and all "
-        f"steps use the weights above. {discount(given.gamma)} {step_size(given.alpha)}"
+        "on, $R_t = r_{t+1} + γ r_{t+2} + …$, and sums over the episode. "
+        f"{factor}All steps use the weights above. {discount(given.gamma)} {step_size(given.alpha)}"
     )
     entries = tuple(f"R_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     return Question((*episode_blocks(given), note), gradient_parts(given, "returns", entries))

@@ -23,7 +23,7 @@ from rldrill.problems.softmax import (
 
 TITLE = "REINFORCE with a baseline"
 SOURCE = "Sutton & Barto 2018, section 13.4"
-REVISION = 7
+REVISION = 8
 
 
 class Given(Episode):
@@ -59,11 +59,12 @@ _MOST = 360
 
 def question(given: Given) -> Question:
     """The episode, the policy and the baseline; the differences, the gradient and the new weights are asked for."""
+    factor = "" if given.gamma == 1 else "There is no further factor $γ^t$. "
     note = Paragraph(
         "The score $∇_θ log π(a_t|s_t)$ of each action is multiplied by $δ_t = R_t − b(s_t)$, where "
         "$R_t = r_{t+1} + γ r_{t+2} + …$ is the discounted return from its own step on; the products are summed over "
-        "the episode. There is no further factor $γ^t$, and all steps use the weights above. "
-        f"{discount(given.gamma)} {step_size(given.alpha)} The baseline is:"
+        f"the episode. {factor}All steps use the weights above. {discount(given.gamma)} {step_size(given.alpha)} "
+        "The baseline is:"
     )
     entries = tuple(f"δ_{{{time}}}" for time in range(len(given.trajectory.rewards)))
     blocks = (*episode_blocks(given), note, values_table(given.baseline, "b"))

@@ -1,5 +1,6 @@
 """Log-likelihoods at the best fit, the criterion of both models, and the smaller one."""
 
+from collections.abc import Callable, Mapping
 from functools import reduce
 from string import ascii_uppercase
 from typing import Any
@@ -7,12 +8,14 @@ from typing import Any
 import sympy
 
 from rldrill.problems.bayes.bic import Data, Given
-from rldrill.problems.document import joined
+from rldrill.problems.document import Equation, joined
 from rldrill.problems.exact import shown
 from rldrill.solutions.exact import NoSolution, Value, enclosure, exact, order, sign, simplest, tidy, to_sympy, told
 from rldrill.solutions.formula.elimination import multiple
 from rldrill.solutions.formula.formula import slip
+from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.formula.notation import n as count
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
@@ -23,6 +26,7 @@ from rldrill.solutions.sheet.bayes import (
     COIN_ML,
     LOG_LIKELIHOOD,
     akaike,
+    share_of_each,
 )
 from rldrill.solutions.work import Equality, Step, Work
 
@@ -50,8 +54,8 @@ def _compare(given: Given, work: Work, better: int) -> None:
     formula = BIC if given.criterion == "BIC" else akaike()
     criteria = {}
     work.recall(formula)
-    if given.fitted is not None and given.criterion == "BIC" and (power := _as_power(n)):
-        work.say(f"${power}$.")
+    if given.criterion == "BIC" and (prime_factors := _taken_apart(n)):
+        work.say(f"${prime_factors}$.")
     for name in names:
         logarithm = fit[name] if fit else _logarithm(given, name, work)
         criteria[name] = work.step(formula, M=name, log_likelihood=logarithm, free=free[name], n=n)
@@ -59,23 +63,21 @@ def _compare(given: Given, work: Work, better: int) -> None:
     work.answer(_winner(work, given, criteria, better))
 
 
-def _as_power(number: Value) -> str:
-    """The logarithm of a number that is a power, as it is taken apart; nothing for any other."""
-    factor, logarithm = to_sympy(tidy(sympy.log(to_sympy(number)))).as_coeff_Mul()
-    return f"ln {told(number)} = {factor} ln {logarithm.args[0]}" if factor != 1 and logarithm.args else ""
-
-
-def _taken_apart(chance: Value) -> str:
-    """The logarithm of a chance in those of primes; nothing where it is one already."""
-    if sign(chance) <= 0 or chance == 1:
+def _taken_apart(number: Value) -> str:
+    """The logarithm of a number in those of primes; nothing where it is one already."""
+    if sign(number) <= 0 or number == 1:
         return ""
-    written = to_sympy(tidy(sympy.log(to_sympy(chance))))
+    written = to_sympy(tidy(sympy.log(to_sympy(number))))
     factor, logarithm = written.as_coeff_Mul()
     if factor in (1, -1) and isinstance(logarithm, sympy.log):
         return ""
-    terms = [term.as_coeff_Mul() for term in sympy.Add.make_args(written)]
+    terms = sorted(
+        (term.as_coeff_Mul() for term in sympy.Add.make_args(written)),
+        key=lambda term: (bool(term[0] < 0), int(term[1].args[0])),
+    )
     parts = [f"{'−' if n < 0 else '+'} {'' if abs(n) == 1 else f'{abs(n)} '}ln {log_.args[0]}" for n, log_ in terms]
-    return f"ln({told(chance)}) = {' '.join(parts).removeprefix('+ ')}".replace("= − ", "= −")
+    of = f"({told(number)})" if "/" in told(number) else f" {told(number)}"
+    return f"ln{of} = {' '.join(parts).removeprefix('+ ')}".replace("= − ", "= −")
 
 
 def _logarithm(given: Given, name: str, work: Work) -> Value:
@@ -88,7 +90,7 @@ def _logarithm(given: Given, name: str, work: Work) -> Value:
     factor, logarithm = to_sympy(value).as_coeff_Mul()
     if factor < 0 and isinstance(logarithm, sympy.log):
         power = "" if factor == -1 else f"{-factor} "
-        work.say(f'$ln p(D_z|"{name}", θ) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$.')
+        work.say(f'$ln p(D_z|"{name}", θ̂) = ln({shown(model.likelihood)}) = −{power}ln {logarithm.args[0]}$.')
     return value
 
 
@@ -100,22 +102,55 @@ def free_parameters(data: Data, model: str) -> int:
 def _fit(work: Work, data: Data, model: str) -> Value:
     heads = {coin: exact(counts[0]) for coin, counts in data.tosses.items()}
     tails = {coin: exact(counts[1]) for coin, counts in data.tosses.items()}
-    counts = ", with $n_1$ heads and $n_0$ tails of all coins" if model == "shared" and len(heads) > 1 else ""
-    work.say(f"The model “{model}”{counts}:")
-    if model == "fair":
-        theta: dict[str, Any] = dict.fromkeys(heads, exact(1) / 2)
-    elif model == "shared":
-        share = work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
-        theta = dict.fromkeys(heads, share)
+    several = len(heads) > 1
+    counts = f", with {_added('1', heads)} heads and {_added('0', tails)} tails of all coins"
+    work.say(f"The model “{model}”{counts if several and model == 'shared' else ''}:")
+    if model == "own" and several:
+        theta: dict[str, Any] = {
+            coin: work.step(share_of_each(), heads_of=heads, tails_of=tails, coin=coin) for coin in heads
+        }
     else:
-        theta = {}
-        for coin in heads:
-            work.say(f"For {coin}:")
-            theta[coin] = work.step(COIN_ML, heads=heads[coin], tails=tails[coin])
+        share = (
+            exact(1) / 2
+            if model == "fair"
+            else work.step(COIN_ML, heads=sum(heads.values(), exact(0)), tails=sum(tails.values(), exact(0)))
+        )
+        theta = dict.fromkeys(heads, share)
+        work.say(f"$θ̂_c = {told(share)}${' for every coin' if several else ''}.")
     taken_apart = dict.fromkeys(_taken_apart(chance) for share in theta.values() for chance in (share, 1 - share))
     if told_apart := ", ".join(filter(None, taken_apart)):
         work.say(f"${told_apart}$.")
-    return work.step(LOG_LIKELIHOOD, heads_of=heads, tails_of=tails, theta_of=theta, coins=tuple(heads))
+    known = {"heads_of": heads, "tails_of": tails, "theta_of": theta, "coins": tuple(heads)}
+    value = work.step(LOG_LIKELIHOOD, M=model, **known)
+    if work.lines and isinstance(last := work.lines[-1], Step):
+        work.lines[-1] = _Collected(*last)
+    return value
+
+
+def _added(index: str, counts: Mapping[str, Value]) -> str:
+    """How often all coins fell on a side, ``n₁ = 16 + 2 = 18``."""
+    return f"$n_{index} = {' + '.join(map(told, counts.values()))} = {told(sum(counts.values(), exact(0)))}$"
+
+
+class _Collected(Step):
+    """A sum of logarithms, of which equal ones are put together and taken apart into those of primes."""
+
+    def _written(self) -> Equation:
+        plain = super()._written()
+        times: dict[Any, Any] = {}
+        for coin, share in self.known["theta_of"].items():
+            for chance, side in ((share, "heads_of"), (1 - share, "tails_of")):
+                if sign(chance) > 0:
+                    times[chance] = times.get(chance, 0) + self.known[side][coin]
+        collected = _sum(times, lambda chance: sympy.log(leaf(chance), evaluate=False))
+        apart = _sum(times, lambda chance: leaf(tidy(sympy.log(to_sympy(chance)))))
+        rights = tuple(dict.fromkeys((plain.rights[0], typeset(collected), typeset(apart), plain.rights[-1])))
+        return Equation(plain.left, rights, ("=",) * len(rights))
+
+
+def _sum(times: Mapping[Value, Value], logarithm: Callable[[Value], Any]) -> sympy.Expr:
+    terms = [sympy.Mul(leaf(count), logarithm(chance), evaluate=False) for chance, count in times.items()]
+    return terms[0] if len(terms) == 1 else sympy.Add(*terms, evaluate=False)
 
 
 def _border(given: Given, work: Work, better: int) -> None:
@@ -158,7 +193,8 @@ def _winner(work: Work, given: Given, criteria: dict[str, Value], better: int) -
     name = given.criterion
     numbers = [f"{name}({model}) ≈ {float(enclosure(value).mid()):.4g}" for model, value in criteria.items()]
     two = len(numbers) == 2
-    work.say(f"In numbers, {joined(numbers)}.")
+    if any(isinstance(value, sympy.Expr) for value in criteria.values()):
+        work.say(f"In numbers, {joined(numbers)}.")
     models = list(criteria)
     best = reduce(lambda one, other: other if order(criteria[other], criteria[one]) == better else one, models)
     if any(order(criteria[best], criteria[other]) == 0 for other in models if other != best):

@@ -108,7 +108,7 @@ def _line(line: Line, work: Work, with_prior: Formula) -> None:
     _most_probable(
         work,
         "Likelihood times prior is proportional to $exp(−Σ_i (y_i − θ_0 − θ_1 x_i)^2/(2 σ^2) − θ_1^2/(2 σ_0^2))$. With "
-        "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent by $θ_1$, "
+        "$θ_0 = ȳ − θ_1 x̄$ it is greatest where the derivative of the exponent with respect to $θ_1$, "
         "$(S_{xy} − θ_1 S_{xx})/σ^2 − θ_1/σ_0^2$, is $0$:",
     )
     slope = work.step(with_prior, sigma2=exact(prior.noise), prior_variance=exact(prior.variance), **known)

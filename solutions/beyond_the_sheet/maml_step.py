@@ -42,6 +42,8 @@ def solve(given: Given, work: Work) -> None:
     known["adapted"] = dict(zip(tasks, adapted if len(found) > 1 else (adapted,), strict=True))
     for index in tasks:
         work.step(MAML_DERIVATIVE, i=index, **known)
+    work.recall(MAML_GRADIENT)
+    work.say("With these factors one step of gradient descent, $θ ← θ − β dJ/dθ$, is")
     after = work.step(MAML_OUTER, **known)
     if given.after is not None:
         work.say(f"After the step $θ$ is ${shown(given.after)}$:")

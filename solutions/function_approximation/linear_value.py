@@ -69,7 +69,7 @@ def _values(
 
 def _greedy(work: Work, values: Mapping[tuple[str, str], Value], actions: tuple[str, ...]) -> None:
     best = work.step(GREEDY_LINEAR, s="s", Qhat=values, choices=actions)
-    work.say(f"The action {greedy(best)}." if len(best) == 1 else f"The actions {greedy(best)}.")
+    work.say(f"The action{'s' * (len(best) > 1)} {greedy(best, len(actions))}.")
     work.answer({"s": best})
 
 

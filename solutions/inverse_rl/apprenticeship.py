@@ -52,14 +52,15 @@ def _project(given: Given, work: Work, weighed_from: Callable[[Point, Point], Po
         point = dict(zip(features, moved, strict=True))
         known["mu_bar"] = weighed_from(point, mu)
         weights = {index: work.step(WEIGHTS, component=index, **known) for index in features}
-    work.say("What is left is how far the method still is from its aim:")
-    work.recall(APPRENTICESHIP)
+    work.say("What is left is the distance from the projected point to the expert:")
     left = work.answer(work.step(REMAINING, w=weights, features=features))
     if given.tolerance is not None:
         limit = exact(given.tolerance)
         stops = sign(limit - left) >= 0
         relation = "≤" if stops else ">"
-        compared = f"{relation} {shown(given.tolerance)}$: the method {'stops' if stops else 'goes on'}."
+        compared = f"{relation} {shown(given.tolerance)}$: {'yes, it stops' if stops else 'no, it goes on'}."
+        work.say("The method stops where the policies that it has found, mixed, come close enough to its aim:")
+        work.recall(APPRENTICESHIP)
         work.say(lambda: f"$‖w‖ ≈ {decimal(left, 3)} {compared}")
         work.answer(stops)
 

@@ -30,7 +30,7 @@ def solve(given: Given, work: Work) -> None:
         return
     worth = dict(zip(worth, work.answer(tuple(worth.values())), strict=True))
     sides: dict[str, Any] = {"worth": worth, "worth_expert": worth[EXPERT], "margin": margins}
-    work.say(f"With $ξ = {shown(given.slack)}$ the left side must be at least as great as the right side:")
+    work.say(f"For each constraint, with $ξ = {shown(given.slack)}$, the right side is compared with the left side:")
     holding = sum([_holds(work, name, sides, exact(given.slack)) for name in given.policies])
     count = f"{holding or 'none'} of the {len(given.policies)} constraints {'hold' if holding > 1 else 'holds'}"
     work.say(f"So {count}.")

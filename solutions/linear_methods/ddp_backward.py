@@ -40,7 +40,7 @@ def solve(given: Given, work: Work) -> None:
 def _maximum(given: Given, work: Work, Q: Mapping[str, AnyMatrix]) -> None:
     formulas, of = _formulas(given), "Q_{a a}"
     negative = f"${of} < 0$" if len(given.action) == 1 else f"${of}$ is negative definite"
-    work.say(f"{negative}: where the derivative by the action is $0$, $Q$ is greatest.")
+    work.say(f"{negative}: where the derivative with respect to the action is $0$, $Q$ is greatest.")
     work.recall(DDP)
     work.answer(_applied(given, work, formulas.change, Q))
     work.answer(_applied(given, work, formulas.gain, Q))

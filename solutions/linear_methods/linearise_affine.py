@@ -28,7 +28,10 @@ from rldrill.solutions.work import Work
 
 def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> None:
     """Everything is taken at the operating point."""
-    A, B = differentiated(given, work, "AB")
+    A, B = (
+        answered(work, given.entries, which, found) if given.entries is not None else found
+        for which, found in zip("AB", differentiated(given, work, "AB"), strict=True)
+    )
     s_bar = matrices.column(dynamics.angle(given.state[name]) for name in given.states)
     a_bar = matrices.column(dynamics.angle(value) for value in given.action.values())
     f_bar = moved_point(given, work, s_bar, rates(work, given))
@@ -37,8 +40,12 @@ def solve(given: Given, work: Work, differentiated: Linearised = linearised) -> 
 
 def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatrix) -> None:
     C = work.answer(C)
-    answered(work, given.entries, "A", work.step(affine_step().state, Ad=A, Cc=C))
-    answered(work, given.entries, "B", work.step(affine_step().action, Bd=B))
+    larger = work.step(affine_step().state, Ad=A, Cc=C)
+    if given.entries is None:
+        work.answer(larger)
+        work.answer(work.step(affine_step().action, Bd=B))
+    else:
+        work.answer(matrices.column(line[-1] for line in larger.tolist()))
 
 
 @slip(
@@ -48,6 +55,8 @@ def _augmented(given: Given, work: Work, A: AnyMatrix, B: AnyMatrix, C: AnyMatri
 def rates_for_c(given: Given, work: Work) -> None:
     """The rates in the place of C."""
     A, B = rightly(given)
+    if given.entries is not None:
+        A, B = (answered(work, given.entries, which, found) for which, found in zip("AB", (A, B), strict=True))
     _augmented(given, work, A, B, rates(work, given))
 
 
@@ -66,5 +75,6 @@ def oracle(given: Given) -> Answers:
     n, m = B.shape
     operating = np.real([values[name] for name in (*given.states, *given.action)])
     C = moved - np.hstack([A, B]) @ operating
-    tilde = np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]), np.vstack([B, np.zeros((1, m))])
-    return [C, *chosen(given.entries, *tilde)]
+    if given.entries is not None:
+        return [*chosen(given.entries, A, B), C, np.append(C, 1.0)]
+    return [C, np.vstack([np.column_stack([A, C]), np.eye(n + 1)[-1]]), np.vstack([B, np.zeros((1, m))])]

@@ -53,7 +53,7 @@ def solve(given: Given, work: Work) -> None:
         L = work.answer(work.step(formulas.gain, **system))
     letters = {f"{given.notation.gain}i": L}
     closed = work.step(formulas.closed_loop, Ai=regulator.A, Bi=regulator.B, **letters)
-    if (factors := _factors(regulator, closed)) is not None:
+    if work.misconception is None and (factors := _factors(regulator, closed)) is not None:
         work.say(lambda: _goes_to_zero(given, factors))
     work.answer(closed)
 
@@ -207,9 +207,8 @@ def _root(work: Work, given: Given, numbers: Mapping[str, fmpq], modes: Modes = 
         work.say(f"With $β$ for what stands at ${_letter(given.notation.value, modes, 'i')}$:")
     beta: Value = work.step(system.beta, **known)
     known |= system.letters.known(mode, beta=beta)
-    quadratic = put_in(system.quadratic, known)
-    of_unknown = (gamma * b * b, beta * (-1 if given.notation.costs else 1), n * n - q * r)
-    work.lines += [Equality(quadratic, (ZERO,)), Equality(_polynomial(of_unknown, system, known), (ZERO,))]
+    if work.misconception is None:  # nobody reads the working of a mistake
+        work.lines += _quadratic(given, system, known, numbers, beta)
     if mode <= 1:
         work.say(_which(given, _letter(given.notation.value, modes, mode)))
     found: Value = work.step(system.root, **known)
@@ -217,6 +216,16 @@ def _root(work: Work, given: Given, numbers: Mapping[str, fmpq], modes: Modes = 
         side = "negative" if given.notation.costs else "positive"
         work.say(f"The other root, ${told(other)}$, is {side}, so it is not the one.")
     return found
+
+
+def _quadratic(
+    given: Given, system: ScalarSystem, known: Mapping[str, Any], numbers: Mapping[str, fmpq], beta: Value
+) -> tuple[Equality, Equality]:
+    """The equation of P with the numbers put in, and worked out."""
+    b, q, r, n = (numbers[name] for name in "BQRN")
+    of_unknown = (exact(given.gamma) * b * b, beta * (-1 if given.notation.costs else 1), n * n - q * r)
+    put_in_ = put_in(system.quadratic, known)
+    return Equality(put_in_, (ZERO,)), Equality(_polynomial(of_unknown, system, known), (ZERO,))
 
 
 def _polynomial(coefficients: Sequence[Value], system: ScalarSystem, known: Mapping[str, Any]) -> Expr:
@@ -286,7 +295,8 @@ def _by_modes(work: Work, given: Given, modes: _Modes) -> AnyMatrix:
     if modes.kind is Modes.ENTRIES:
         work.say("All matrices are diagonal, so every entry of the state is a system of its own:")
     else:
-        _taken_apart(work, modes, letters)
+        if work.misconception is None:
+            _taken_apart(work, modes, letters)
     for mode in modes.counted:
         numbers = modes.numbers(mode)
         own = ", ".join(f"{_letter(name, modes.kind, mode)} = {told(numbers[name])}" for name in letters)

@@ -7,7 +7,9 @@ from rldrill.problems.linear_methods.lqr_reward import Given
 from rldrill.problems.linear_quadratic import by_time
 from rldrill.solutions import linear_quadratic, matrices
 from rldrill.solutions.exact import exact, to_sympy
+from rldrill.solutions.formula.finding import with_number
 from rldrill.solutions.formula.formula import Formula
+from rldrill.solutions.formula.putting_in import indexed
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import with_found
@@ -22,7 +24,7 @@ from rldrill.solutions.sheet.linear_methods import (
     at_the_end,
     rollout,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 #: Without the price in it, the reward says nothing of a price that is to be found.
 MISCONCEPTIONS = (
@@ -55,7 +57,8 @@ def solve(given: Given, work: Work) -> None:
     price = work.answer(work.equate("rho", J, exact(given.total)))
     work.say(f"With $ρ = {to_sympy(price)}$ the first reward is:")
     first = with_found(rewards[0], price)
-    work.give(reward_of, first, t=0)
+    put_in = with_number([[rewards[0]]], "rho", price)
+    work.lines.append(Equality(indexed(reward_of.left, {"t": 0}), (put_in, first)))
     work.answer(first)
 
 

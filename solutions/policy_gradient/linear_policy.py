@@ -41,7 +41,7 @@ def _greedy(given: Given, work: Work, values: Mapping[tuple[str, str], Value]) -
     actions = {state: tuple(row) for state, row in given.features.items()}
     best = {state: work.step(LINEAR_POLICY, s=state, Qhat=values, actions=actions) for state in actions}
     for state, row in best.items():
-        work.say(f"In {state}, {greedy(row)}.")
+        work.say(f"In {state}, {greedy(row, len(actions[state]))}.")
     work.answer(best)
 
 

@@ -27,6 +27,9 @@ def solve(given: Given, work: Work) -> None:
     known["G"] = returns(work, known)
     times = range(known["T"])
     differences = work.answer(tuple(work.step(BASELINE, t=time, **known) for time in times))
+    if given.gamma != 1:
+        work.say("The factor $γ^t$ before $δ_t$ is left out, as the question says:")
+    work.recall(REINFORCE_BASELINE)
     known |= scores(work, given, known) | {"delta": dict(enumerate(differences))}
     gradient = Vector(work.answer(tuple(work.step(REINFORCE_BASELINE, **known))))
     work.answer(tuple(work.step(GRADIENT_ASCENT, gradient=gradient, alpha=exact(given.alpha), **known)))

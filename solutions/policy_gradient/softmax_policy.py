@@ -7,8 +7,9 @@ import sympy
 
 from rldrill.problems.exact import Logarithm
 from rldrill.problems.policy_gradient.softmax_policy import Given, Odds
-from rldrill.solutions.exact import exact, to_sympy
+from rldrill.solutions.exact import exact, tidy, to_sympy
 from rldrill.solutions.exponentials import rational_function
+from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.rational import generator
@@ -20,8 +21,9 @@ from rldrill.solutions.sheet.policy_gradient import (
     SOFTMAX_POLICY,
     WITHOUT_EXP,
 )
+from rldrill.solutions.sheet.policy_gradient import theta as theta_of
 from rldrill.solutions.softmax import action_features, by_number, chances
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 MISCONCEPTIONS = (NOT_NORMALISED, WITHOUT_EXP)
 
@@ -52,6 +54,9 @@ def _from_odds(given: Given, odds: Odds, work: Work, known: Mapping[str, Any]) -
         sympy.expand_log(to_sympy(exact(weight)).subs(to_sympy(generator("x")), to_sympy(x)), factor=True)
         for weight in given.theta
     ]
+    for index, (weight, value) in enumerate(zip(given.theta, theta, strict=True), 1):
+        if isinstance(weight, Logarithm) and weight.of == "x":
+            work.lines.append(Equality(theta_of(index), (sympy.log(leaf(x), evaluate=False), tidy(value))))
     found = chances(work, {**known, **by_number(theta)}, "s", tuple(given.features))
     work.answer({action: found[action, "s"] for action in given.features})
 

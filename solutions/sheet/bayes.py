@@ -80,10 +80,10 @@ coin = letter("coin", "c")
 Coins = letter("coins", "C")
 heads_of = quantity("heads_of", lambda index: Script(variable("n"), listed((number(1), index))))
 tails_of = quantity("tails_of", lambda index: Script(variable("n"), listed((number(0), index))))
-theta_of = quantity("theta_of", lambda index: Script(_THETA, index))
-log_likelihood = letter("log_likelihood", row(word("ln"), _given(variable("M"), _THETA)))
+theta_of = quantity("theta_of", lambda index: Script(_HAT, index))
+log_likelihood = letter("log_likelihood", row(word("ln"), _given(variable("M"), _HAT)))
 k = letter("free", "k")
-log_likelihood_of = quantity("log_likelihood_of", lambda model: row(word("ln"), _given(model, _THETA)))
+log_likelihood_of = quantity("log_likelihood_of", lambda model: row(word("ln"), _given(model, _HAT)))
 free_of = quantity("free_of", subscripted("k"))
 bic = quantity("bic", called(word("BIC")))
 aic = quantity("aic", called(word("AIC")))
@@ -511,7 +511,7 @@ with evaluate(False):
 
     LOG_LIKELIHOOD = Formula(
         "coin-log-likelihood",
-        log_likelihood,
+        log_likelihood_of(M),
         SumOver(heads_of(coin) * log(theta_of(coin)) + tails_of(coin) * log(1 - theta_of(coin)), coin, Coins),
         title="Log-likelihood of coins",
         source="Murphy 2012, section 3.3.1",
@@ -544,6 +544,18 @@ def without_command() -> Formula:
     """The mean after a motion where there are no commands."""
     with evaluate(False):
         return replace(KALMAN_MOVE_MEAN, right=Ai * mean(t - 1))
+
+
+@cache
+def share_of_each() -> Formula:
+    """The estimate of a coin where every coin has its own."""
+    with evaluate(False):
+        return replace(
+            COIN_ML,
+            left=theta_of(coin),
+            right=heads_of(coin) / (heads_of(coin) + tails_of(coin)),
+            note="",
+        )
 
 
 @cache

@@ -283,11 +283,18 @@ def test_an_empty_corner_of_a_table_is_no_heading() -> None:
 
 
 #: Two models to choose from, yes or no, and two matrices with one row, of two entries and of one.
-OTHER_KINDS = ("bic/1/0", "policy-improvement-theorem/1/0", "lqr-gain/2/3")
+OTHER_KINDS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("bic", {"fitted": {"small": {"likelihood": "1/4", "k": 1}, "large": {"likelihood": "1/2", "k": 3}}, "n": 4}),
+    ("policy-improvement-theorem", {
+        "mdp": {"transitions": [["a", "x", "end", 1, 1], ["a", "y", "end", 1, 2]], "terminal": ["end"]},
+        "policy": {"a": "x"}, "other": {"a": "y"}, "values": {"a": 1}, "gamma": "1/2",
+    }),
+    ("lqr-gain", {"A": [[1, 0], [0, 1]], "B": [[1], [1]], "R": 1, "P": [[-1, 0], [0, -2]], "start": [1, 2]}),
+)  # fmt: skip
 
 
 def other_kinds(versions: int = 1, person: Person | None = None) -> Exam:
-    exercises = tuple(map(rldrill.load, OTHER_KINDS))
+    exercises = tuple(rldrill.read({"family": family, "given": given}) for family, given in OTHER_KINDS)
     codes = (version_code(number) for number in range(versions))
     return Exam(Head(title="t"), 1, tuple(Version(code, exercises, (0, 1, 2), person=person) for code in codes))
 
@@ -344,6 +351,11 @@ def test_each_version_has_a_file_of_its_own_unless_the_format_holds_them_all(tmp
         assert [version_path(exam, path, FORMATS[format_], each).name for each in exam.versions] == [
             *names, *names[:1] * (len(exam.versions) - len(names)),
         ]  # fmt: skip
+
+
+def test_other_programs_take_all_versions_at_once_and_people_one_each() -> None:
+    assert {name for name, each in FORMATS.items() if each.whole} == {"moodle", "qti", "canvas", "anki", "json"}
+    assert {name for name, each in FORMATS.items() if not each.whole} == {"html", "latex", "markdown", "docx"}
 
 
 def test_a_name_gets_the_ending_of_its_format() -> None:

@@ -74,6 +74,17 @@ def test_everything_right_is_everything_and_what_is_left_out_counts(tmp_path: Pa
     assert report.exit_code == 1
 
 
+@pytest.mark.parametrize(("mark", "points"), [(",", 3), (".", 0)])
+def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, mark: str, points: int) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/7"),), seed=1, decimal_mark=mark)
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    # δ = 10, −9 and −21/5 = −4.2
+    rows = [("Ann", "", "1", "a", "10; -9,0; -4,2"), ("Ben", "", "1", "a", "10; -9.0; -4.2")]
+    report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
+    assert student(report, "Ann").score.points == points
+    assert student(report, "Ben").score.points == 3
+
+
 def test_cheating_earns_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path, versions=2)
     a, b = made.versions
@@ -189,7 +200,7 @@ def test_an_id_that_was_not_printed_is_not_told(tmp_path: Path) -> None:
 def test_entries_that_are_the_same_in_every_draw_earn_nothing(tmp_path: Path, answer: str, share: Fraction) -> None:
     # (b) asks for Ã = [−5 −6; 0 1]: 1 − 12/(2·√1) = −5, (3 − 12·√1) + 6·1 − 3 = −6; the last row is 0 1 in every draw.
     path = tmp_path / "answers.csv"
-    path.write_text(f'{HEAD}Ann,,linearise-affine/1/1,b,"{answer}"\n')
+    path.write_text(f'{HEAD}Ann,,linearise-affine/1/1562,b,"{answer}"\n')
     (part,) = [part for part in verify([path]).parts if part.part == "b"]
     assert part.score.points == share * part.score.of
     rules = Settings(rules=Rules(partial="all"))
@@ -312,11 +323,11 @@ def test_answers_that_leave_something_open_earn_nothing(tmp_path: Path) -> None:
 
 
 def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
-    # linearise-affine/1/1 (b) is [−5 −6; 0 1], see above; its last row is the same in every draw.
+    # linearise-affine/1/1562 (b) is [−5 −6; 0 1], see above; its last row is the same in every draw.
     asked = (
-        Asked(id="linearise-affine/1/1", partial="entries"),
-        Asked(id="linearise-affine/1/1", partial=("entries", "all", "entries")),
-        Asked(id="linearise-affine/1/1"),
+        Asked(id="linearise-affine/1/1562", partial="entries"),
+        Asked(id="linearise-affine/1/1562", partial=("entries", "all", "entries")),
+        Asked(id="linearise-affine/1/1562"),
     )
     path = tmp_path / "exam.json"
     path.write_bytes(written(manifest(plan(Blueprint(problems=asked, seed=7)))))
@@ -325,4 +336,4 @@ def test_partial_points_are_given_part_by_part(tmp_path: Path) -> None:
     shares = [part.score.share for part in ann.parts if part.part == "b"]
     assert shares == [Fraction(1, 2), 0, 0]
     with pytest.raises(UsageError, match="Partial is given for 1 part, and linearise-affine has 3 here"):
-        plan(Blueprint(problems=(Asked(id="linearise-affine/1/1", partial=("all",)),), seed=7))
+        plan(Blueprint(problems=(Asked(id="linearise-affine/1/1562", partial=("all",)),), seed=7))

@@ -1,12 +1,15 @@
 """What a family's draws promise: numbers with which roots and logarithms come out, worked out here by themselves."""
 
+import math
 from collections.abc import Iterator
 from fractions import Fraction
 from math import isqrt
 from typing import Any
 
+import rldrill
 from rldrill.problems.catalogue import family
 from rldrill.problems.draws import Draws
+from rldrill.problems.expressions import worked_out
 from rldrill.problems.family import trusted
 
 
@@ -57,5 +60,89 @@ def test_tosses_have_logarithms_of_2_and_3_alone() -> None:
             for number in (*coin, sum(coin)):
                 assert 6**9 % number == 0, coin
             assert sum(coin) > 3
-        if len(tosses) > 1:
+        if len(tosses) == 1:
+            assert heads != tails  # or a fair coin fits best
+        else:
             assert len({Fraction(*coin) for coin in tosses.values()}) == len(tosses)
+
+
+def worth(text: str, letters: dict[str, float]) -> float:
+    """An expression of a robot, read as Python reads it."""
+    functions = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
+    return float(worked_out(text, letters, functions, float))
+
+
+def test_the_next_value_rises_towards_what_is_wanted_and_the_state_matters() -> None:
+    for given in drawn("ddp-backward", (1, 2)):
+        ((name, dynamics),) = given.dynamics.items()
+        letters = {letter: float(value) for letter, value in given.constants.items()}
+        letters |= {letter: float(value.number) for letter, value in {**given.state, **given.action}.items()}
+        target = 0.0 if "w - x" in dynamics else letters["w"]
+        assert (target - worth(dynamics, letters)) * given.gradient[0] > 0, given
+        above, below = (worth(dynamics, letters | {name: letters[name] + h}) for h in (1e-4, -1e-4))
+        assert abs(above - below) / 2e-4 > 1e-3, given
+
+
+def values_of_the_next_states(given: Any) -> list[Fraction]:
+    """What the states of a backup diagram are worth that have branches, from the leaves upwards."""
+    worth = {state: Fraction(value) for state, value in given.values.items()}
+    below = {state: {a: Fraction(value) for a, value in row.items()} for state, row in given.action_values.items()}
+    for state in given.inner:
+        below[state] = {
+            action: sum(
+                Fraction(row.probability) * (Fraction(row.reward) + Fraction(given.gamma) * worth[row.next])
+                for row in given.dynamics.outcomes[state, action]
+            )
+            for action in given.dynamics.actions[state]
+        }
+        worth[state] = mean_or_best(given, state, below[state])
+    return [mean_or_best(given, state, row) for state, row in below.items()]
+
+
+def mean_or_best(given: Any, state: str, row: dict[str, Fraction]) -> Fraction:
+    if given.policy is None:
+        return max(row.values())
+    return sum((Fraction(given.policy[state][action]) * each for action, each in row.items()), Fraction(0))
+
+
+def test_no_two_next_states_of_a_backup_diagram_are_worth_the_same() -> None:
+    deep = [given for given in drawn("backup-diagram-value", (2, 3)) if given.known is None]
+    several = [values for values in map(values_of_the_next_states, deep) if len(values) > 1]
+    assert len(several) > 10
+    for values in several:
+        assert len(set(values)) == len(values)
+
+
+def test_the_name_of_a_backup_diagram_can_be_told_from_its_legend() -> None:
+    for level in (1, 2, 3):
+        for seed in range(20):
+            question = str(rldrill.draw("backup-diagram-name", level, seed).question())
+            assert "A grey square is a terminal state." in question
+
+
+def test_the_weights_of_a_softmax_policy_make_a_difference_in_every_state() -> None:
+    for name, levels in (("reinforce", (2, 3)), ("reinforce-baseline", (2, 3)), ("actor-critic", (2,))):
+        for given in drawn(name, levels, 40):
+            bases = [int(str(weight).removeprefix("ln ")) if str(weight) != "0" else 1 for weight in given.theta]
+            for rows in given.features.values():
+                chances = [math.prod(base**x for base, x in zip(bases, row, strict=True)) for row in rows.values()]
+                assert len(set(chances)) > 1, given
+
+
+def test_the_weight_at_which_two_actions_are_worth_the_same_is_not_0() -> None:
+    for given in drawn("linear-policy", (3,)):
+        if given.at is None:
+            continue
+        place = [isinstance(weight, str) for weight in given.theta].index(True)
+        known = [Fraction(0) if isinstance(weight, str) else Fraction(weight) for weight in given.theta]
+        for row in given.features.values():
+            first, second = ([Fraction(x) for x in features] for features in row.values())
+            lead = sum(weight * (one - two) for weight, one, two in zip(known, first, second, strict=True))
+            assert lead != 0, given
+            assert first[place] != second[place]
+
+
+def test_whoever_has_a_place_goes_left_or_right_or_stays() -> None:
+    for given in drawn("linear-value", (2, 3)):
+        if given.bumps is not None:
+            assert set(given.actions) <= {"left", "right", "stay"}

@@ -157,3 +157,18 @@ def test_no_draw_takes_a_change_that_can_be_understood_in_two_ways() -> None:
         given: Any = draw("backup-diagram-name", 3, seed).problem.given
         if given.shows in ("expected-sarsa", "q-learning", "bellman-optimality-v", "bellman-optimality-q"):
             assert given.change not in ("sampled", "everything")
+
+
+def test_no_two_branches_of_a_tree_look_alike() -> None:
+    """Whoever takes one subtree for the other comes to another value."""
+    for seed in range(40):
+        given = draw("backup-diagram-value", 2, seed).problem.given
+        leaves = [tuple(row.values()) for row in given.action_values.values()]
+        assert len(set(leaves)) == len(leaves)
+
+
+def test_the_second_question_about_a_change_does_not_answer_the_first() -> None:
+    for seed in range(40):
+        given = draw("backup-diagram-name", 3, seed).problem.given
+        assert given.target not in given.options
+        assert given.change not in given.changes

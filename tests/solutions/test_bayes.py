@@ -16,6 +16,7 @@ import rldrill
 from asking import solved
 from rldrill.problems.draws import Draws
 from rldrill.problems.errors import FileError
+from rldrill.problems.scenes import SCENES
 from rldrill.solutions.answers.judging import judge
 from rldrill.solutions.drawing import draw
 
@@ -390,3 +391,43 @@ def test_the_factorials_of_an_evidence_are_known_by_heart() -> None:
         for level in (2, 3):
             working = str(rldrill.draw("model-comparison", level, seed).working("a"))
             assert max(map(int, findall(r"\d+", working))) <= 720
+
+
+def test_likelihoods_are_of_a_model_that_is_named_and_their_logarithms_are_taken_apart() -> None:
+    for level in (2, 3):
+        for seed in range(25):
+            exercise = rldrill.draw("bic", level, seed)
+            given_, working = exercise.problem.given, str(exercise.working())
+            assert "ln p(shared)" not in working
+            assert not findall(r"≈ -?\d+(?![.\d])", working.replace("−", "-")), exercise.id
+            if given_.data is None:  # type: ignore[attr-defined]
+                continue
+            question = str(exercise.question())
+            assert ("n counts all of them" in question) == (given_.criterion == "BIC")  # type: ignore[attr-defined]
+            for name in given_.names:  # type: ignore[attr-defined]
+                lines = working.split(f"ln p(D_z|{name}, θ̂) = ")[1].split("\n\n")[0].splitlines()
+                together, apart, _ = [line for line in lines if line.strip().startswith("=")]  # and the sum of these
+                assert "1 − " not in together, exercise.id
+                assert "ln(" not in apart, exercise.id
+
+
+def test_heads_of_all_coins_are_added_and_every_coin_has_its_own_estimate() -> None:
+    working = str(rldrill.read({"family": "bic", "given": {"data": {
+        "tosses": {"red": [16, 2], "blue": [2, 4]}, "models": ["shared", "own"],
+    }}}).working("a"))  # fmt: skip
+    assert "n₁ = 16 + 2 = 18 heads and n₀ = 2 + 4 = 6 tails of all coins" in working
+    assert "θ̂_(red) = 16/(16 + 2)" in working
+    assert "= 18·ln(3/4) + 6·ln(1/4)" in working
+    assert "ln(8/9) = 3 ln 2 − 2 ln 3" in working
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_what_a_sensor_reads_fits_the_place(level: int) -> None:
+    """The wider a door is open the more light there is, the deeper in a crater the less."""
+    for seed in range(40):
+        given_ = draw("bayes-filter", level, seed).problem.given
+        for scene in SCENES:
+            if scene.told == given_.story and scene.trend:
+                for reading, row in given_.likelihood.items():
+                    way = scene.trend if reading == scene.readings[0] else -scene.trend
+                    assert list(row.values()) == sorted(row.values(), reverse=way < 0)

@@ -9,6 +9,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rldrill
 from asking import solved
 from rldrill.audit.figures import largest
 from rldrill.problems.errors import FileError
@@ -116,3 +117,21 @@ def test_the_rotation_and_the_origin_of_a_pose_are_worked_out_in_parts_of_their_
 def test_the_numbers_of_a_maml_step_grow_with_the_level() -> None:
     first, second = (median(largest(draw("maml-step", level, seed)) for seed in range(40)) for level in (1, 2))
     assert first <= second
+
+
+def test_a_figure_with_a_length_that_is_not_known_says_that_it_is_not_to_scale() -> None:
+    for level in (1, 2, 3):
+        for seed in range(20):
+            exercise = rldrill.draw("forward-kinematics", level, seed)
+            is_open = "w" in map(str, exercise.problem.given.lengths)  # type: ignore[attr-defined]
+            text = " ".join(str(exercise.question()).split())
+            assert ("not to scale" in text) == is_open
+
+
+def test_the_outer_step_of_maml_says_which_derivative_it_takes() -> None:
+    for level in (1, 2, 3):
+        for seed in range(8):
+            exercise = rldrill.draw("maml-step", level, seed)
+            working = str(exercise.working())
+            assert "∇_θLᵢ(θ)" in working
+            assert working.count("dJ/dθ = Σᵢ") == 1, exercise.id

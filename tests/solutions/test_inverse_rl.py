@@ -207,3 +207,14 @@ def test_quotients_in_a_letter_are_brought_to_a_common_denominator() -> None:
     total = in_one_fraction(to_sympy(3 / (2 - q)) + sympy.Rational(1, 2))
     assert total is not None
     assert unicode(typeset(total)) == "(2 − q + 6)/(4 − 2q)"
+
+
+def test_the_aim_of_apprenticeship_is_recalled_where_it_is_asked_whether_it_is_reached() -> None:
+    for level in (1, 2, 3):
+        for seed in range(15):
+            exercise = rldrill.draw("apprenticeship", level, seed)
+            *before, last = (str(exercise.working(part.label)) for part in exercise.parts)
+            stops = exercise.problem.given.tolerance is not None  # type: ignore[attr-defined]
+            assert ("μ(π) ≈ μ(π_E)" in last) == stops
+            assert (": yes, it" in last or ": no, it" in last) == stops
+            assert not any("≈ μ(π_E)" in each for each in before)

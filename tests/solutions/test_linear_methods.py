@@ -294,7 +294,7 @@ def test_letters_of_a_system_may_be_those_of_formulas() -> None:
     answers = solved("linearise", **circuit)
     assert entries(answers["a"]) == [-3, fmpq(-3, 2), 1, 0]
     assert entries(answers["b"]) == [fmpq(1, 2), 0]
-    written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[2])
+    written = unicode_text(rldrill.read({"family": "linearise", "given": circuit}).working("a")[3])
     assert written.startswith("∂f₁/∂i = −R/L = ")
     plan = {"dynamics": {"g": "g + i*u^2"}, "constants": {"i": 1}, "state": {"g": 1}, "action": {"u": 1},
             "reward": "-(g^2 + 2*u^2)", "gradient": [-1], "hessian": [[-2]], "second_order": True}  # fmt: skip
@@ -507,7 +507,8 @@ def test_of_an_arm_at_rest_only_the_derivatives_that_count_are_worked_out(seed: 
     exercise = rldrill.draw("linearise", 3, seed)
     assume("D" in exercise.solution.problem.given.where and "θ_2" in exercise.solution.problem.given.state)
     text = "\n".join(unicode_text(block) for block in exercise.working())
-    assert "What multiplies ∂M₁/∂θ₂, ∂M₃/∂θ₂ and ∂D/∂θ₂ is 0 at the operating point, since n₁ = 0 and n₂ = 0." in text
+    assert "What multiplies ∂M₁/∂θ₂, ∂M₃/∂θ₂ and ∂D/∂θ₂ is 0 at the operating point, since" in text
+    assert "n₁ = 0 and n₂ = 0." in text
     assert "∂D/∂θ₂ =" not in text
     assert "∂n₁/∂θ₂ = m₂l₁l₂ cos(θ₂)(2ω₁ω₂ + ω₂²)" in text  # in the order of n₁ itself
 
@@ -528,3 +529,30 @@ def test_one_state_and_one_action_need_no_matrices(seed: int, level: int) -> Non
     text = "\n".join(unicode_text(block) for block in exercise.working())
     assert not [sign for sign in "ᵀΣξᵢⱼ⁻" if sign in text]
     assert "Qₐₐ < 0" in text
+
+
+def test_entries_of_the_step_are_asked_for_before_the_constant_and_then_the_new_column() -> None:
+    for level in (2, 3):
+        for seed in range(6):
+            exercise = rldrill.draw("linearise-affine", level, seed)
+            *steps, constant, column = exercise.parts
+            assert steps
+            assert all("A_Δ" in part.ask or "B_Δ" in part.ask for part in steps)
+            assert constant.points <= 6, exercise.id
+            assert (constant.ask, column.ask[:14]) == ("What is $C$?", "What is column")
+            answers = exercise.solve()
+            size = answers[constant.label].nrows()
+            assert entries(answers[column.label]) == [*entries(answers[constant.label]), 1]
+            assert entries(answers[column.label])[size] == 1
+            text = " ".join(str(exercise.question()).split())
+            assert "B̃" not in text
+            assert "the constant 1 is made part of the state" in text
+
+
+def test_a_price_that_is_found_is_put_into_the_reward() -> None:
+    for seed in range(25):
+        exercise = rldrill.draw("lqr-reward", 3, seed)
+        if exercise.problem.given.total is not None:  # type: ignore[attr-defined]
+            *_, line = exercise.solution.lines_of("b")
+            assert isinstance(line, Equality)
+            assert unicode_text(line.equation()).count("=") == 2, exercise.id

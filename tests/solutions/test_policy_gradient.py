@@ -377,3 +377,42 @@ def test_the_entropy_of_a_policy_is_a_third_question() -> None:
     assert [part.label for part in question.parts] == ["a", "b", "c"]
     assert question.solve()["c"] == sympy.log(2)  # both actions with 1/2
     assert [part.label for part in rldrill.read({"family": "softmax-policy", "given": given}).parts] == ["a", "b"]
+
+
+def test_a_factor_of_time_is_left_out_only_where_there_is_one() -> None:
+    for name in ("reinforce", "reinforce-baseline", "actor-critic"):
+        for level in (1, 2, 3):
+            for seed in range(10):
+                exercise = rldrill.draw(name, level, seed)
+                question = " ".join(str(exercise.question()).split())
+                assert ("no further factor" in question) == (exercise.problem.given.gamma != 1)  # type: ignore[attr-defined]
+
+
+def test_the_gradient_with_a_baseline_is_stated_before_the_scores() -> None:
+    for level in (1, 2, 3):
+        for seed in range(6):
+            working = str(rldrill.draw("reinforce-baseline", level, seed).working("b"))
+            assert working.index("∇_θJ(θ) ≈ Σ") < working.index("h(s, a)")
+            assert working.count("∇_θJ(θ) ≈ Σ") == 1
+
+
+def test_the_weight_that_is_found_is_taken_for_what_it_is() -> None:
+    for seed in range(40):
+        exercise = rldrill.draw("softmax-policy", 3, seed)
+        given_ = exercise.problem.given
+        if given_.odds is None:  # type: ignore[attr-defined]
+            continue
+        place = list(map(str, given_.theta)).index("ln x") + 1  # type: ignore[attr-defined]
+        x = exercise.solve()["a"]
+        assert f"θ{'₀₁₂₃'[place]} = ln({x})" in str(exercise.working("b")).replace(f"ln {x}", f"ln({x})"), exercise.id
+
+
+def test_of_two_values_one_is_the_greater_of_three_the_greatest() -> None:
+    for name in ("linear-policy", "linear-value"):
+        for level in (1, 2):
+            for seed in range(10):
+                exercise = rldrill.draw(name, level, seed)
+                given_, working = exercise.problem.given, str(exercise.working())
+                rows = getattr(given_, "actions", None) or next(iter(given_.features.values()))  # type: ignore[attr-defined]
+                assert ("has the greatest value" in working) <= (len(rows) > 2), exercise.id
+                assert ("has the greater value" in working) <= (len(rows) == 2), exercise.id
