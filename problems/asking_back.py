@@ -132,7 +132,9 @@ def updates_of(found: Mapping[str, Any], worth: Worth) -> list[Update]:
     return [*updates(found["values"], moves, run.terminal, found["alpha"], found["gamma"], worth)]
 
 
-def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str, Any]:
+def draw_forward(
+    rng: Draws, visits: str, count: int, worth: Worth, rates: Callable[[Draws], Rates] = draw_rates
+) -> dict[str, Any]:
     """A run with its action values, α and γ: no TD error is 0, and no value hard to read.
 
     Args:
@@ -140,14 +142,15 @@ def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str,
         visits: the order of visits, as ``draw_action_run`` takes it.
         count: how many actions there are.
         worth: what a next state is worth to the target, by its action values and the action taken there.
+        rates: what draws α and γ.
     """
-    alpha, gamma, unit = draw_rates(rng)
+    alpha, gamma, unit = rates(rng)
     run, table = draw_action_run(rng, visits, count, same=True)
     rows = draw_rows(rng, tuple(table), tuple(next(iter(table.values()))), unit)
     following = (*run.actions[1:], None)
     moves = list(map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, following))
     if not readable(rows, moves, run.terminal, alpha, gamma, worth):
-        return draw_forward(rng, visits, count, worth)
+        return draw_forward(rng, visits, count, worth, rates)
     return {"trajectory": run, "values": rows, "alpha": alpha, "gamma": gamma}
 
 

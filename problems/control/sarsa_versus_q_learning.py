@@ -6,7 +6,7 @@ from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from rldrill.problems.asking_back import Worth, draw_forward, updates_of
+from rldrill.problems.asking_back import Rates, Worth, draw_forward, draw_rates, updates_of
 from rldrill.problems.document import Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import Exact, Parameter, shown
@@ -80,7 +80,8 @@ def first_that_reads_again(run: Trajectory) -> int | None:
 def draw(level: int, rng: Draws) -> Given:
     """One transition; then some that come back to a pair; then the step size follows from a target."""
     visits = {1: ("ab",), 2: ("aba", "abac", "abcb", "aba."), 3: ("abac", "abcb", "aba.", "abab")}[level]
-    found = draw_forward(rng, rng.choice(visits), 2 if level == 1 else 3, _best)
+    rates = _sought_rates if level == 3 else draw_rates
+    found = draw_forward(rng, rng.choice(visits), 2 if level == 1 else 3, _best, rates)
     given = Given(**found, word=rng.choice(rng.choice(_WORDS)))
     if len({tuple(row.values()) for row in given.values.values()}) < len(given.values):
         return draw(level, rng)
@@ -90,6 +91,13 @@ def draw(level: int, rng: Draws) -> Given:
         return given
     known = _targets(found, _taken)[first_that_reads_again(given.trajectory) or 0]
     return given.model_copy(update={"known": known, "alpha": Parameter("alpha")}) if known else draw(level, rng)
+
+
+def _sought_rates(rng: Draws) -> Rates:
+    """A step size that is not guessed, and a discount."""
+    alpha = rng.fraction("1/2", "1/3", "2/3", "1/4", "3/4", "1/5", "2/5", "3/5")
+    gamma = rng.fraction(*(number for number in ("1/2", "1/4", "3/4") if Fraction(number) != alpha))
+    return Rates(alpha, gamma, gamma.denominator)
 
 
 def _best(row: Mapping[str, Fraction], _: str) -> Fraction:

@@ -1,6 +1,7 @@
 """What is drawn tells whether somebody has understood: the point of a question cannot be missed by accident."""
 
 import re
+from collections import Counter
 from fractions import Fraction
 from typing import Any
 
@@ -33,6 +34,8 @@ def test_a_step_size_is_asked_for_from_a_target_that_hangs_on_it() -> None:
         pairs = [*zip(given.trajectory.states, given.trajectory.actions, strict=False)]
         assert any(pair in pairs[: time - 1] for time, pair in enumerate(pairs) if time > 1)
         assert given.known != 0
+    sizes = Counter(draw("sarsa-versus-q-learning", 3, seed).answers["a"] for seed in range(40))
+    assert max(sizes.values()) < 20  # no step size is a good guess
 
 
 def test_up_to_which_reward_a_policy_is_optimal_hangs_on_what_follows() -> None:
