@@ -1,6 +1,6 @@
 """Runs whose updates stay readable, and questions that ask back: for the step size or the discount, from a value."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Annotated, Any, NamedTuple, Self
 
@@ -76,6 +76,14 @@ class BackMoves(AskingBack, ActionMoves):
     """Transitions that need not join, with the action values before them."""
 
 
+class Update(NamedTuple):
+    """What an update reads and gives: the worth of the next state, the TD error, and the new value."""
+
+    ahead: Fraction
+    gap: Fraction
+    value: Fraction
+
+
 class Rates(NamedTuple):
     """A step size and a discount, and the unit of which action values are multiples, so that updates are readable."""
 
@@ -99,17 +107,34 @@ def readable(
     rows: Rows, moves: Iterable[ActionMove], terminal: tuple[str, ...], alpha: Fraction, gamma: Fraction, worth: Worth
 ) -> bool:
     """Whether every update changes a value, and to a number that is easily read."""
+    return all(
+        gap != 0 and value.denominator <= 100 and abs(value.numerator) <= 300
+        for _, gap, value in updates(rows, moves, terminal, alpha, gamma, worth)
+    )
+
+
+def updates(
+    rows: Rows, moves: Iterable[ActionMove], terminal: tuple[str, ...], alpha: Fraction, gamma: Fraction, worth: Worth
+) -> Iterator[Update]:
+    """The updates that moves make, one after the other, with the values that are current then."""
     values = {state: {**row} for state, row in rows.items()}
     for state, action, entered, reward, following in moves:
         ahead = Fraction(0) if entered in terminal else worth(values[entered], following or "")
         gap = reward + gamma * ahead - values[state][action]
         values[state][action] += alpha * gap
-        if gap == 0 or values[state][action].denominator > 100 or abs(values[state][action].numerator) > 300:
-            return False
-    return True
+        yield Update(ahead, gap, values[state][action])
 
 
-def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str, Any]:
+def updates_of(found: Mapping[str, Any], worth: Worth) -> list[Update]:
+    """The updates of a run that was drawn with all its numbers."""
+    run: Trajectory = found["trajectory"]
+    moves = map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, (*run.actions[1:], None))
+    return [*updates(found["values"], moves, run.terminal, found["alpha"], found["gamma"], worth)]
+
+
+def draw_forward(
+    rng: Draws, visits: str, count: int, worth: Worth, rates: Callable[[Draws], Rates] = draw_rates
+) -> dict[str, Any]:
     """A run with its action values, α and γ: no TD error is 0, and no value hard to read.
 
     Args:
@@ -117,14 +142,15 @@ def draw_forward(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str,
         visits: the order of visits, as ``draw_action_run`` takes it.
         count: how many actions there are.
         worth: what a next state is worth to the target, by its action values and the action taken there.
+        rates: what draws α and γ.
     """
-    alpha, gamma, unit = draw_rates(rng)
+    alpha, gamma, unit = rates(rng)
     run, table = draw_action_run(rng, visits, count, same=True)
     rows = draw_rows(rng, tuple(table), tuple(next(iter(table.values()))), unit)
     following = (*run.actions[1:], None)
     moves = list(map(ActionMove, run.states, run.actions, run.states[1:], run.rewards, following))
     if not readable(rows, moves, run.terminal, alpha, gamma, worth):
-        return draw_forward(rng, visits, count, worth)
+        return draw_forward(rng, visits, count, worth, rates)
     return {"trajectory": run, "values": rows, "alpha": alpha, "gamma": gamma}
 
 

@@ -102,10 +102,9 @@ def _told(fault: Mapping[str, Any]) -> str:
     says = _SAYS.get(kind, str(fault["msg"]).removeprefix("Value error, ").removesuffix("."))
     if kind not in _SAYS:
         return says
-    length = len(given) if isinstance(given, str) else 0
     listed = f"[{_brief(given)}]" if isinstance(given, str | int) else "[1, 2]"
     about = {key: str(value).lower() if key == "class_name" else value for key, value in told.items()}
-    return says.format(**about, given=_shown(given), listed=listed, length=length)
+    return says.format(**about, given=_shown(given), listed=listed, length=len(str(given)))
 
 
 def _counted(kind: str, count: int, told: Mapping[str, Any]) -> str:

@@ -368,7 +368,8 @@ class _Parser:
 
     def _mixed(self, token: _Token) -> Node:
         """A whole number and a fraction after it: 1 3/4, 1¾."""
-        around = {self._tokens[self._next - 2].kind if self._next > 1 else "(", self._token.kind}
+        # Before the first sign stands the last one, the end, as it were.
+        around = {self._tokens[self._next - 2].kind, self._token.kind}
         if not around <= _LOOSE:
             message = "A whole number and a fraction may be read in two ways here; put brackets around them."
             raise self._error(message, token)

@@ -4,6 +4,9 @@ from rldrill.problems.document import Paragraph, joined
 from rldrill.problems.exact import Parameter, Scalar, shown
 from rldrill.problems.family import Givens
 
+#: With which reward the return from a time begins.
+RETURN_DEFINED = "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$."
+
 
 def discount(gamma: Scalar | tuple[Scalar, ...]) -> str:
     """The sentence that gives the discount, or that of every step."""
@@ -32,7 +35,7 @@ def trace_parameter(lam: Scalar) -> str:
 def exploration(epsilon: Scalar | None) -> str:
     """The sentence that gives the exploration rate."""
     if epsilon is None or isinstance(epsilon, Parameter):
-        return "The exploration rate $ε$ is left open."
+        return "The exploration rate $ε$, between $0$ and $1$, is left open."
     return f"The exploration rate is $ε = {shown(epsilon)}$."
 
 

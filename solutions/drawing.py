@@ -6,6 +6,7 @@ from contextlib import nullcontext
 from typing import Any
 
 from pydantic import ValidationError
+from sympy import Rational
 
 from rldrill.problems.catalogue import OWN
 from rldrill.problems.catalogue import family as family_of
@@ -17,10 +18,14 @@ from rldrill.problems.identity import MAX_SEED, Identity, split_id
 from rldrill.solutions.answers.rule import apart
 from rldrill.solutions.exact import NoSolution, digits, is_zero, parameters
 from rldrill.solutions.solution import Solution, solve
+from rldrill.solutions.work import Elimination, Equality
 
 ATTEMPTS = 2000
 #: The most digits, above and below the line together, that an answer may have at each level.
 MOST_DIGITS = {1: 4, 2: 7, 3: 9}
+
+#: The largest whole number that a linear system is solved with at each level: denominators are cleared there.
+MOST_ELIMINATED = {1: 300, 2: 300}
 
 
 def draw(family: Family | str, level: int = 1, seed: int = 0) -> Solution:
@@ -97,10 +102,21 @@ def flaws(solution: Solution) -> Iterator[str]:
             yield f"({part.label}) is zero"
         if not part.ties and any(isinstance(content, tuple) and len(content) > 1 for content in cells.values()):
             yield f"({part.label}) has tied best actions"
+    if level in MOST_ELIMINATED and _eliminated(solution) > MOST_ELIMINATED[level]:
+        yield "a linear system is solved with numbers that are too large"
     for misconception in solution.applicable:
         answers = solution.answers_with(misconception)
         if answers is not None and not distinguishable(solution, answers):
             yield f"{misconception.name} gives the right answer"
+
+
+def _eliminated(solution: Solution) -> int:
+    """The largest whole number, above a line or below it, with which linear systems are solved."""
+    systems = [line for line in solution.lines if isinstance(line, Elimination)]
+    sides = [side for system in systems for line in system.lines() if isinstance(line, Equality)
+             for side in (line.left, *line.rights)]  # fmt: skip
+    numbers = [number for side in sides for number in side.atoms(Rational)]
+    return max((max(abs(number.p), number.q) for number in numbers), default=0)
 
 
 def distinguishable(solution: Solution, answers: Mapping[str, Any]) -> bool:

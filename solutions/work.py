@@ -14,7 +14,7 @@ from rldrill.problems.notations import LECTURE, Writing, in_use, is_linear
 from rldrill.problems.parts import label as part_label
 from rldrill.problems.pictures import Picture
 from rldrill.solutions.exact import ZERO, NoSolution, Value, sign, simplest, tidy
-from rldrill.solutions.formula.common_denominator import in_one_fraction
+from rldrill.solutions.formula.common_denominator import brackets_in_one_fraction, in_one_fraction
 from rldrill.solutions.formula.compiling import DivisionError, value_of
 from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
@@ -98,7 +98,8 @@ class Step(_Applied):
             after = list(multiplied_out(without))
             before = [] if after else multiplied_out(without_slots(written))
             together = in_one_fraction(short)
-            apart = (together, long_sum(short), entry_by_entry(short))
+            brackets = short if together is None else brackets_in_one_fraction(short)
+            apart = (brackets, together, long_sum(short), entry_by_entry(short))
             added = [each for each in apart if each is not None and each != short]
             rights += [*map(alone, (*before, short, without, *after, *added)), shown_value(self.value)]
         distinct = _without_detours(rights)

@@ -27,7 +27,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Optimal values"
 SOURCE = "Sutton & Barto 2018, section 3.6"
-REVISION = 5
+REVISION = 6
 
 
 class Optimal(Givens):

@@ -13,7 +13,7 @@ from rldrill.problems.valued import deterministic, draw_mixed, draw_valued, poli
 
 TITLE = "Action values of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.2"
-REVISION = 4
+REVISION = 5
 
 
 class Given(ModelAndPolicy):

@@ -28,7 +28,7 @@ from rldrill.problems.valued import draw_mixed, draw_values, draw_worth
 
 TITLE = "Value of a policy"
 SOURCE = "Sutton & Barto 2018, sections 3.5 and 4.1"
-REVISION = 5
+REVISION = 6
 
 
 class Given(ModelAndPolicy):
@@ -125,8 +125,8 @@ def _left_open(rng: Draws) -> Given:
     even, gamma = Fraction(1, 2), rng.fraction("1/2", "2/3")
     if after == (second, setting.terminal):
         worth = (rewards[2] + rewards[3]) / (2 - gamma)
-        if rewards[2] + gamma * worth == rewards[3]:  # both are worth the same, whatever their probabilities
-            return _left_open(rng)
+        if rewards[2] + gamma * worth == rewards[3] or not worth:  # their probabilities, or γ and what leads there,
+            return _left_open(rng)  # would not matter
     if letter == "policy":
         onward, back = setting.actions[:2]
         name = back if first in after else onward

@@ -138,7 +138,7 @@ def question(given: Given) -> Question:
         ),
     ]
     if given.forks:
-        ask = "Which state $s'(s)$ does an optimal path visit next, from every state $s$ with a choice?"
+        ask = "Which state $s'(s)$ does an optimal path visit next, from each state $s$ with a choice?"
         parts.append(Part(ask, Policy(given.forks, "s'")))
     if given.through is not None:
         ask = f"What is the greatest return of a path from {given.start} to {given.goal} that visits {given.through}?"

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
-from rldrill.problems.exact import Exact, Open, Parameter, Scalar, dot, shown
+from rldrill.problems.exact import Exact, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import Named, PolicyField, check_chances, check_keys, policy_table, values_table
@@ -80,14 +80,14 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _to_find(rng: Draws, setting: Setting) -> Given:
-    """A probability that two states share, an action value, or the probability that makes two states equal."""
+    """A probability that two states share, or the probability or the action value that makes two states equal."""
     states = setting.states[:2]
     kind = rng.choice(("share", "missing", "equal"))
-    actions = setting.actions[: 3 if kind == "missing" else 2]
+    actions = setting.actions[:2]
+    if kind == "missing":
+        return _without_one(rng, states, setting.actions[: 2 + rng.below(2)])
     values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
     p: tuple[Scalar, ...] = (Parameter("p"), Parameter("1-p"))
-    if kind == "missing":
-        return _without_one(rng, states[0], values[states[0]])
     chance = rng.fraction("1/4", "3/4", "1/3", "2/3", "2/5", "3/5")
     ways = [p, rng.choice((p, p[::-1])) if kind == "share" else p[::-1]]
     policy = {state: dict(zip(actions, way, strict=True)) for state, way in zip(states, ways, strict=True)}
@@ -100,12 +100,22 @@ def _to_find(rng: Draws, setting: Setting) -> Given:
     return Given(values=values, policy=policy, known={states[0]: mean})
 
 
-def _without_one(rng: Draws, state: str, row: dict[str, Fraction]) -> Given:
-    """The value of a state is known, but not that of one of its actions."""
-    chances = rng.split(len(row), (4, 5, 10))
-    shown_row: dict[str, Scalar] = {**row, rng.choice(tuple(row)): Parameter("x")}
-    policy = dict(zip(row, chances, strict=True))
-    return Given(values={state: shown_row}, policy={state: policy}, known={state: dot(chances, row.values())})
+def _without_one(rng: Draws, states: tuple[str, ...], actions: tuple[str, ...]) -> Given:
+    """The value of one action is missing with which both states are worth the same."""
+    values = {state: dict(zip(actions, rng.distinct(len(actions), -6, 12), strict=True)) for state in states}
+    policy = {state: dict(zip(actions, rng.split(len(actions), (4, 5, 10)), strict=True)) for state in states}
+    (first, second), hidden = states, rng.choice(actions)
+    rest = sum((policy[second][a] * values[second][a] for a in actions if a != hidden), Fraction(0))
+    worth = sum((policy[first][a] * values[first][a] for a in actions), Fraction(0))
+    missing = (worth - rest) / policy[second][hidden]
+    if missing.denominator > 1 or abs(missing) > _LARGEST or policy[first] == policy[second]:
+        return _without_one(rng, states, actions)
+    row: dict[str, Scalar] = {**values[second], hidden: Parameter("x")}
+    return Given(values={first: values[first], second: row}, policy=policy, equal=True)
+
+
+#: No action value that is asked for is larger.
+_LARGEST = 20
 
 
 def question(given: Given) -> Question:

@@ -135,9 +135,10 @@ def question(given: Given) -> Question:
         ),
     )
     where = f'"{given.state}"'
-    valued = "If these action values are those of the policy, what is"
+    taken_for = f"Take these action values for $Q^π${', whatever $ε$ is' if in_open(given) else ''}."
+    valued = f"{taken_for} What is"
     if given.state_value is not None:
-        worth = f"These action values are those of the policy, and $V^π({where}) = {shown(given.state_value)}$."
+        worth = f"Take these action values for $Q^π$: then $V^π({where}) = {shown(given.state_value)}$."
         return Question(blocks, (Part(f"{worth} What is the exploration rate $ε$?", Number()),))
     if given.taken:
         action, chance = given.taken
@@ -147,6 +148,6 @@ def question(given: Given) -> Question:
         every = f"With what probability $π(a|{where})$ is each action taken{in_open(given)}?"
         asked = [Part(every, Values(f"π(·|{where})", tuple(given.values)))]
     if given.valued:
-        valued = f"With this $ε$: {valued[0].lower()}{valued[1:]}" if given.taken else valued
-        asked.append(Part(f"{valued} $V^π({where})${in_open(given)}?", Number()))
+        with_it = " with this $ε$" if given.taken else ""
+        asked.append(Part(f"{valued} $V^π({where})${with_it}{in_open(given)}?", Number()))
     return Question(blocks, tuple(asked))

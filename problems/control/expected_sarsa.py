@@ -1,10 +1,10 @@
 """The action values after Expected Sarsa updates along a run, for a given or an ε-greedy policy."""
 
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from rldrill.problems.asking_back import BackRun, Worth, back_asked, draw_back, draw_forward
+from rldrill.problems.asking_back import BackRun, Worth, back_asked, draw_back, draw_forward, updates_of
 from rldrill.problems.document import Block, Paragraph
 from rldrill.problems.draws import Draws
 from rldrill.problems.exact import OpenProbability, Parameter, dot
@@ -18,7 +18,10 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Expected Sarsa"
 SOURCE = "Sutton & Barto 2018, section 6.6"
-REVISION = 6
+REVISION = 7
+
+#: The largest number above a line or below it in an update with numbers.
+_LARGEST = 300
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -78,16 +81,25 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 1 or (level == 2 and rng.chance(Fraction(1, 2))):
         chances = rng.split(level + 1, (4, 5))
         visits = "ab" if level == 1 else rng.choice(("aba", "abc", "abb"))
-        found = draw_forward(rng, visits, level + 1, lambda row, _: dot(chances, row.values()))
+        found = _legible(rng, visits, level + 1, lambda row, _: dot(chances, row.values()))
         policy = {state: dict(zip(row, chances, strict=True)) for state, row in found["values"].items()}
         entered = found["trajectory"].states[1:]
         return FixedPolicy(policy={state: row for state, row in policy.items() if state in entered}, **found)
     visits = rng.choice(("aba", "abc", "abb") if level == 2 else ("ab", "abc", "abc."))
     epsilon = _drawn_epsilon(rng)
-    found = draw_forward(rng, visits, 3, _greedily(epsilon))
+    found = _legible(rng, visits, 3, _greedily(epsilon))
     while level == 2 and not all(sum(row.values()) - max(row.values()) for row in found["values"].values()):
-        found = draw_forward(rng, visits, 3, _greedily(epsilon))  # what exploring earns must not cancel
+        found = _legible(rng, visits, 3, _greedily(epsilon))  # what exploring earns must not cancel
     return EpsilonGreedy(epsilon=epsilon if level == 2 else Parameter("epsilon"), **found)
+
+
+def _legible(rng: Draws, visits: str, count: int, worth: Worth) -> dict[str, Any]:
+    """A run whose numbers are small also on the way to every update."""
+    while True:
+        found = draw_forward(rng, visits, count, worth)
+        numbers = [number for ahead, gap, _ in updates_of(found, worth) for number in (ahead, gap)]
+        if all(max(abs(number.numerator), number.denominator) <= _LARGEST for number in numbers):
+            return found
 
 
 def _back(rng: Draws) -> Given:

@@ -111,7 +111,7 @@ def draw(level: int, rng: Draws) -> Given:
         pair = rng.choice(_PAIRS)
         actions = both if rng.chance(Fraction(1, 2)) else both[::-1]
         chances = [dict(zip(actions, (Fraction(text), 1 - Fraction(text)), strict=True)) for text in pair]
-        behaviour[state], target[state] = chances
+        behaviour[state], target[state] = ({action: row[action] for action in both} for row in chances)
     given = Given(
         episodes=tuple(
             _episode(rng, setting, (first, second)[:length], tuple(islice(left, length))) for length in lengths
@@ -191,8 +191,8 @@ def question(given: Given) -> Question:
     left_open = [name for name in given.parameters() if name != "gamma"]
     blocks = (
         Paragraph(
-            "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. They take "
-            "action $a$ in state $s$ with these probabilities:"
+            "An agent has followed the behaviour policy $b$ to learn the value of the target policy $π$. The "
+            "two policies take action $a$ in state $s$ with these probabilities:"
         ),
         policy_table(given.target, b=given.behaviour),
         *(
@@ -201,7 +201,7 @@ def question(given: Given) -> Question:
         ),
         Paragraph(
             f"{discount(given.gamma)} The agent has followed $b$ for "
-            f"{f'these {len(given.episodes)} episodes' if several else 'this episode'}:"
+            f"{f'these {len(given.episodes)} episodes' if several else 'episode $1$'}:"
         ),
         *_runs(given.episodes),
         *terminal_note(tuple(dict.fromkeys(state for episode in given.episodes for state in episode.terminal))),
@@ -212,7 +212,7 @@ def question(given: Given) -> Question:
         return Question(
             blocks,
             (
-                Part(f"What is the importance sampling ratio $ρ_1$ of the episode{in_open(given)}?", Number()),
+                Part(f"What is the importance sampling ratio $ρ_1$ of episode $1${in_open(given)}?", Number()),
                 Part(
                     f"What is the ordinary importance sampling estimate of {value} from this episode{in_open(given)}?",
                     Number(),

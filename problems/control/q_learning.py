@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import Tag
 
-from rldrill.problems.asking_back import BackMoves, BackRun, back_asked, draw_back, draw_forward
+from rldrill.problems.asking_back import BackMoves, BackRun, back_asked, draw_back, draw_forward, updates_of
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
@@ -23,7 +23,7 @@ from rldrill.problems.settings import draw_setting
 
 TITLE = "Q-learning"
 SOURCE = "Sutton & Barto 2018, section 6.5"
-REVISION = 7
+REVISION = 8
 DISTRACTORS = (
     "values.*",  # a table has the values of other pairs, too
     "trajectory.actions.*",  # the last action is Sarsa's business
@@ -63,8 +63,15 @@ def draw(level: int, rng: Draws) -> Given:
             found = draw_back(rng, draw_setting(rng), 3, _ahead, rng.choice(("alpha", "gamma")))
         else:
             found = draw_forward(rng, rng.choice(_VISITS[level]), 2 if level == 1 else 3, _ahead)
-        if _best_differ(found):
+        if _best_differ(found) and (back or level == 1 or _best_changes(found)):
             return AlongRun(**found)
+
+
+def _best_changes(found: Mapping[str, Any]) -> bool:
+    """Whether an update reads a greatest value that has changed: somebody who reads the old one is found out."""
+    run = found["trajectory"]
+    old = [Fraction(0) if state in run.terminal else max(found["values"][state].values()) for state in run.states[1:]]
+    return [update.ahead for update in updates_of(found, _ahead)] != old
 
 
 def _best_differ(found: Mapping[str, Any]) -> bool:

@@ -26,7 +26,7 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Iterative policy evaluation"
 SOURCE = "Sutton & Barto 2018, section 4.1"
-REVISION = 7
+REVISION = 8
 
 
 class Given(ModelAndPolicy, Sweeps):
@@ -88,11 +88,11 @@ def draw(level: int, rng: Draws) -> Given:
 
 
 def _readable(given: Given, gamma: Fraction, below: int) -> bool:
-    """Whether all probabilities and the number of sweeps matter, and the numbers are small, also below the line."""
+    """Whether chances, sweeps and, in place, every new value matter, and the numbers are small below the line, too."""
     values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
     for _ in range(given.sweeps):
-        values = _swept(given, values, gamma)
-        if not values:
+        before, values = values, _swept(given, values, gamma)
+        if not values or (given.in_place and any(values[state] == before[state] for state in values)):
             return False
     small = all(value.denominator <= below and abs(value.numerator) <= 300 for value in values.values())
     return small and _swept(given, values, gamma) not in ({}, values)

@@ -28,7 +28,7 @@ from rldrill.problems.valued import (
 
 TITLE = "Policy iteration"
 SOURCE = "Sutton & Barto 2018, section 4.3"
-REVISION = 5
+REVISION = 6
 
 #: How far above its bound the reward is that policy iteration goes on with.
 _ABOVE = tuple(range(1, 13))
@@ -104,8 +104,22 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
         return _draw_threshold(gamma, rng)
     shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
     others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-3, 5)
-    mdp, policy, _ = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
+    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
+    while not _looks_ahead(mdp, values, gamma):
+        mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
     return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
+
+
+def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:
+    """Whether neither the rewards alone nor the next values alone show which policy improvement gives."""
+    ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
+    at_once = {pair: worth(mdp, pair, {}, gamma) for pair in mdp.pairs}
+    later = {pair: ahead[pair] - at_once[pair] for pair in mdp.pairs}
+    best, *others = (
+        [max(actions, key=lambda action: found[state, action]) for state, actions in mdp.actions.items()]
+        for found in (ahead, at_once, later)
+    )
+    return best not in others
 
 
 def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
@@ -115,14 +129,27 @@ def _draw_threshold(gamma: Fraction, rng: Draws) -> Threshold:
     mdp, start, values = draw_valued(rng, draw_setting(rng), shape, gamma, (-4, -1), forked="own")
     pair = rng.choice([(state, action) for state, action in mdp.pairs if action != start[state]])
     row = rng.choice(mdp.outcomes[pair])
+    if not _needs_values(mdp, pair, start[pair[0]], values):
+        return _draw_threshold(gamma, rng)
     unpaid = opened(mdp, row)
     bound = Fraction(row.reward) + (values[pair[0]] - worth(mdp, pair, values, gamma)) / Fraction(row.probability)
+    if bound in {0, *(each.reward for each in mdp.transitions)}:  # it could be read off the table
+        return _draw_threshold(gamma, rng)
     for above in rng.shuffled(_ABOVE):
         improved = deterministic(start | {pair[0]: pair[1]})
         better = policy_values(with_reward(unpaid, bound + above), improved, gamma)
-        if bound and bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
+        if bound + above <= _LARGEST and all(value and value.denominator <= 2 for value in better.values()):
             return Threshold(mdp=unpaid, start=start, gamma=gamma, reward=bound + above)
     return _draw_threshold(gamma, rng)
+
+
+def _needs_values(mdp: Model, pair: tuple[str, str], chosen: str, values: dict[str, Fraction]) -> bool:
+    """Whether what follows the two actions is worth different numbers: else the rewards alone say which is better."""
+    after, own = (
+        sum(Fraction(row.probability) * values.get(row.next, 0) for row in mdp.outcomes[each])
+        for each in (pair, (pair[0], chosen))
+    )
+    return after != own
 
 
 def question(given: Rounds | Threshold) -> Question:

@@ -18,7 +18,10 @@ from rldrill.problems.valued import draw_values, tells_apart, worth
 
 TITLE = "Value iteration"
 SOURCE = "Sutton & Barto 2018, section 4.4"
-REVISION = 6
+REVISION = 7
+
+#: The largest denominator of a value after one sweep.
+_FINEST = 5
 
 
 class Given(Sweeps):
@@ -90,18 +93,18 @@ def draw(level: int, rng: Draws) -> Given:
         in_place=not over_actions and rng.chance(Fraction(1, 2)),
         action_values=over_actions,
     )
-    return draw(level, rng) if not over_actions and _is_over(given, gamma) else given
+    return draw(level, rng) if not over_actions and not _is_telling(given, gamma) else given
 
 
-def _is_over(given: Given, gamma: Fraction) -> bool:
-    """Whether one sweep more changes nothing, so that it does not matter how many there are."""
+def _is_telling(given: Given, gamma: Fraction) -> bool:
+    """Whether one sweep more changes something, so that it matters how many there are; after one, numbers are short."""
     values = dict(given.start or dict.fromkeys(given.mdp.states, Fraction(0)))
     for _ in range(given.sweeps + 1):
         old = dict(values)
         for state, actions in given.mdp.actions.items():
             ahead = values if given.in_place else old
             values[state] = max(worth(given.mdp, (state, action), ahead, gamma) for action in actions)
-    return values == old
+    return values != old and (given.sweeps > 1 or all(value.denominator <= _FINEST for value in old.values()))
 
 
 def _paying(rng: Draws, mdp: Model, scale: int) -> Model:

@@ -11,7 +11,7 @@ from rldrill.problems.exact import Discount, Discounts, Exact, Open, Parameter, 
 from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction, plain
 from rldrill.problems.parts import Choice, Number, Numbers, Part
-from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.phrases import RETURN_DEFINED, check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 from rldrill.problems.runs import per_step
 
@@ -148,10 +148,6 @@ def _equally_good(rng: Draws) -> Compared:
     return Compared(rewards=first, others=(now, later + gamma.denominator * times), gamma=Parameter("gamma"))
 
 
-#: With which reward the return from a time begins.
-_DEFINED = "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$."
-
-
 def question(given: Single | Compared) -> Question:
     """All returns as a vector, or one of them and then the return from the start; or two episodes to compare."""
     if isinstance(given, Compared):
@@ -161,7 +157,7 @@ def question(given: Single | Compared) -> Question:
     if given.known is not None:
         told += f" The return from the start is $R_0 = {shown(given.known)}$."
     run = f"An episode has the rewards ${_listed(given.rewards)}$ and ends at $T = {end}$."
-    blocks = (Paragraph(f"{run} {_DEFINED} {told}"),)
+    blocks = (Paragraph(f"{run} {RETURN_DEFINED} {told}"),)
     if given.known is not None:
         return Question(blocks, (letter_asked(given),))
     if given.time is None:

@@ -8,7 +8,7 @@ from rldrill.problems.exact import Discount, Open, Parameter, Scalar, shown
 from rldrill.problems.family import Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Number, Part
-from rldrill.problems.phrases import check_one_open, discount, in_open
+from rldrill.problems.phrases import RETURN_DEFINED, check_one_open, discount, in_open
 from rldrill.problems.reversible import Reversible, letter_asked, unknown
 
 TITLE = "Return without an end"
@@ -115,8 +115,7 @@ def question(given: Given) -> Question:
     letter = "The reward $x$ is left open. " if "x" in given.letters else ""
     more = unknown(
         given,
-        "Here $R_t = r_{t+1} + γ r_{t+2} + …$ is the return from time $t$. "
-        f"{letter}{discount(given.gamma)[:-1]}{limits}",
+        f"{RETURN_DEFINED} {letter}{discount(given.gamma)[:-1]}{limits}",
     )
     if given.known is not None:
         more += f" The return from the start is $R_0 = {shown(given.known)}$."

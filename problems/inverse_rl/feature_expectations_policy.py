@@ -21,7 +21,7 @@ from rldrill.problems.phrases import discount, in_open
 
 TITLE = "Feature expectations of a policy"
 SOURCE = "Abbeel & Ng 2004, section 2"
-REVISION = 5
+REVISION = 6
 
 
 class Given(Givens):

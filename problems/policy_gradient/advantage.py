@@ -27,7 +27,7 @@ from rldrill.problems.settings import Shape, draw_outcomes, draw_setting, draw_v
 
 TITLE = "Advantage"
 SOURCE = "Schulman et al. 2016, section 2"
-REVISION = 6
+REVISION = 7
 
 
 class Lookahead(Givens):
@@ -144,9 +144,15 @@ def draw(level: int, rng: Draws) -> Given:
             terminal=tuple(state for state in states if state == setting.terminal),
         )
         values = {state: rng.nonzero(-3, 8) for state in setting.states if state in states}
-        return AlongRun(
-            run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=rng.fraction("1/2", "2/3", "1")
-        )
+        gamma = rng.fraction("1/2", "2/3", "1")
+        worths = [values.get(state, Fraction(0)) for state in states]
+        errors = [
+            reward + gamma * after - here
+            for reward, here, after in zip(run.rewards, worths[:-1], worths[1:], strict=True)
+        ]
+        if not all(errors):
+            return draw(level, rng)  # an estimate would not depend on what it is made of
+        return AlongRun(run=Run(trajectory=run, values=values, lam=Parameter("lambda")), gamma=gamma)
     setting = draw_setting(rng)
     actions = setting.actions[: 1 + level]
     state = rng.choice(setting.states)
@@ -223,7 +229,8 @@ def _along(given: AlongRun) -> Question:
         values_table(run.values),
         Paragraph(
             "Advantages are estimated by generalised advantage estimation (GAE) from the TD errors of this trajectory: "
-            f"it ends at $T = {len(times)}$, so the last one is $δ_{{{len(times) - 1}}}$. The values are not updated."
+            f"it {'ends' if run.trajectory.ends else 'breaks off'} at $T = {len(times)}$, so the last one is "
+            f"$δ_{{{len(times) - 1}}}$. The values are not updated."
         ),
     )
     ask = f"What are the estimates ${', '.join(estimates)}${in_open(given)}?"

@@ -19,7 +19,7 @@ from rldrill.problems.settings import draw_places
 
 TITLE = "Batch TD(0) and batch Monte Carlo"
 SOURCE = "Sutton & Barto 2018, section 6.3"
-REVISION = 4
+REVISION = 5
 
 
 class Observed(Givens):

@@ -11,7 +11,7 @@ from rldrill.problems.family import Givens, Question
 from rldrill.problems.fractions import Fraction
 from rldrill.problems.models import values_table
 from rldrill.problems.parts import Number, Numbers, Part, Values
-from rldrill.problems.phrases import in_open
+from rldrill.problems.phrases import RETURN_DEFINED, in_open
 from rldrill.problems.runs import (
     ActionRun,
     Episode,
@@ -171,7 +171,7 @@ def question(given: Given) -> Question:
     table = action_values_table(given.values) if isinstance(given, OfActions) else values_table(given.values)
     blocks = (
         *run_situation(given, table),
-        Paragraph(told),
+        Paragraph(f"{told} {RETURN_DEFINED}" if given.in_parts else told),
     )
     if isinstance(given, OfStates) and given.known is not None:
         return Question(blocks, sought_parts(given))

@@ -76,18 +76,13 @@ def draw(level: int, rng: Draws) -> Given:
     if level == 2:
         alpha = rng.fraction("1/2", "1/3") if count < 4 else Fraction(1, 2)
         return Given(values={a: value}, visits=tuple((a, each) for each in returns), alpha=alpha)
-    kind = rng.below(4)
+    kind = rng.below(3)
     if kind == 0:
         few = returns[:3]  # with a fourth the powers of α are no pleasure
         return Given(values={a: value}, visits=tuple((a, each) for each in few), alpha=Parameter("alpha"))
-    if kind == 1:  # the step size from one visit
-        alpha = rng.fraction("1/2", "1/3", "1/4", "2/3", "1/5", "3/4")
-        first = rng.fitting(-9, 12, lambda each: each != value and (alpha * (each - value)).denominator == 1)
-        known = value + alpha * (first - value)
-        return Given(values={a: value}, visits=((a, first),), alpha=Parameter("alpha"), known=known)
     hidden = rng.below(count)
     visits = tuple((a, each if index != hidden else Parameter("x")) for index, each in enumerate(returns))
-    if kind == 2:
+    if kind == 1:
         alpha, known = Fraction(1, 2), value
         for each in returns:
             known += alpha * (each - known)

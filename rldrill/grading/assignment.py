@@ -48,6 +48,7 @@ class Assignment:
 
         exam = read_exam(manifest)[0]
         self.title, self.partial, self.scale = exam.head.title, exam.partial, exam.scale
+        self.commas = exam.head.decimal_mark == ","
         self._ids_printed = exam.layout.ids
         self.versions = {each.code: each for each in printed(manifest)}
         self._all: Printed | None = None

@@ -53,12 +53,14 @@ class Rules:
         repeated: which of several answers of a student to one part counts; "" refuses the later ones.
         causes: whether it is searched for what wrong answers come from.
         keys: whether the right answers are written.
+        commas: whether the exam was written with decimal commas, so that answers may have them.
     """
 
     partial: str = "entries"
     repeated: str = ""
     causes: bool = True
     keys: bool = False
+    commas: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,9 +320,10 @@ class _Problem:
     def _text(self, part: Part, entry: Entry) -> str:
         """What was typed for a part, with points for decimal commas where only so it can be read.
 
-        The file has to allow it: its columns are parted by semicolons, and no answer in it has a decimal point.
+        The exam has to be written with them, or the file has to allow it: its columns are parted by semicolons, and
+        no answer in it has a decimal point.
         """
-        if not entry.commas:
+        if not (entry.commas or self._rules.commas):
             return entry.text
         pointed = _COMMA.sub(r"\1.\2", entry.text)
         if pointed == entry.text or self._readable(part, entry.text):

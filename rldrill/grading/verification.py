@@ -132,7 +132,8 @@ class _Run:
         """How single answers are marked: the exam's rule for parts of points goes before the usual one."""
         repeated = "" if self._settings.hand_ins in (None, "best") else self._settings.hand_ins
         rules = replace(self._settings.rules, repeated=repeated)
-        return rules if self._assignment is None else replace(rules, partial=self._assignment.partial)
+        exam = self._assignment
+        return rules if exam is None else replace(rules, partial=exam.partial, commas=exam.commas)
 
     def students(self, handed: Sequence[HandedIn]) -> Iterator[_Student]:
         """Who answered, in the order of the files; then who is on the roster and did not."""

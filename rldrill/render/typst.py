@@ -1,6 +1,8 @@
 """Blocks as Typst. They call functions of ``PREAMBLE``, which must stand before them."""
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from rldrill.problems.document import Beside, Block, Document, Equation, Heading, Paragraph, Table
 from rldrill.problems.mathematics import EMPTY, Math
@@ -8,6 +10,7 @@ from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.typst import SHORT, quoted, relation, text, typst
 from rldrill.render.mathematics.typst_breaks import breakable
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.mathematics.width import width, width_of_line
 from rldrill.render.pictures.typst import picture, width_of
 from rldrill.render.typst_files import typst_file
 from rldrill.render.unicode import unicode_text
@@ -16,6 +19,12 @@ from rldrill.render.unicode import unicode_text
 PAGE = 40.0
 #: Signs are taken for as wide as most are not; in widths of the type, and how many points that is.
 _SIGN, _PADDING, _GAP, _POINTS = 0.65, 1.4, 1.2, 10.0
+#: The same in the cells of tables, which hold words and small letters more often.
+_IN_CELLS = 0.6
+#: Blocks side by side have the whole line, which equations may share with points and a letter before them.
+_WHOLE = 1.2
+#: So far apart, at least, tables stand that each have a sentence above them.
+_BETWEEN = 2.0
 
 PREAMBLE = typst_file("rldrill.render", "blocks.typ") + typst_file("rldrill.render.pictures", "pictures.typ")
 
@@ -40,7 +49,7 @@ def block(item: Block, room: float = PAGE) -> str:
             )
             said = unicode_text(item)
             first = "" if left == EMPTY else typst(left)
-            if _SIGN * len(said) <= room:
+            if width_of_line(left, rights, signs) <= room:
                 return _on_a_line(said, " ".join([first, *_links(item)]))
             return f"#chain({quoted(said)}, ${first}${links})\n"
         case Beside(blocks):
@@ -61,16 +70,17 @@ def _width(item: Block) -> float:
         case Table(header, rows):
             columns = zip(header, *rows, strict=True)
             signs = sum(max(len(unicode_text(Paragraph(cell))) for cell in column) for column in columns)
-            return _SIGN * signs + _PADDING * len(header)
+            return _IN_CELLS * signs + _PADDING * len(header)
         case Picture():
             return width_of(item) / _POINTS
+        case Equation(left, rights, signs):
+            return width_of_line(left, rights, signs)
         case _:
             return math.inf
 
 
 def _side_by_side(blocks: Document, room: float) -> str:
-    width = sum(_width(item) + _GAP for item in blocks)
-    fits = width <= room
+    fits = sum(map(_width, blocks)) + _GAP * (len(blocks) - 1) <= _WHOLE * room
     bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item, room) for item in blocks)
     inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
     return f"#{'abreast' if fits else 'beside'}({inside})\n"
@@ -81,27 +91,71 @@ def _apart(items: tuple[Math, ...], room: float) -> str:
     if all(len(unicode(item)) <= 2 * SHORT for item in items):
         return f"#flow({', '.join(f'({quoted(unicode(item))}, ${typst(item)}$)' for item in items)})\n"
     return "".join(
-        _on_a_line(said, typst(item))
-        if _SIGN * len(said := unicode(item)) <= room
-        else f"#chain({quoted(said)}, $$, ($$, {breakable(item)}))\n"
+        _on_a_line(unicode(item), typst(item))
+        if width(item) <= room
+        else f"#chain({quoted(unicode(item))}, $$, ($$, {breakable(item)}))\n"
         for item in items
     )
 
 
 def document(blocks: Document, room: float = PAGE) -> str:
-    """Blocks one under the other; short equations that follow each other share a line. ``room`` as for a block."""
+    """Blocks one under the other; short equations and narrow tables that follow each other share a line.
+
+    ``room`` as for a block.
+    """
     result: list[str] = []
     waiting: list[str] = []
-    for item in (*blocks, None):
+    for item in (*_announced_together(blocks, room), None):
         if isinstance(item, Equation) and _is_short(item):
             waiting.append(f"({quoted(unicode_text(item))}, ${line(item)}$)")
             continue
         if waiting:
             result.append(f"#flow({', '.join(waiting)})\n")
             waiting = []
-        if item is not None:
+        if isinstance(item, _Announced):
+            widths = ", ".join(f"{each:.1f}em" for each in item.widths)
+            bodies = "".join(f"[{block(words)}{block(table)}]" for words, table in item.pairs)
+            result.append(f"#announced(({widths})){bodies}\n")
+        elif item is not None:
             result.append(block(item, room))
     return "".join(result)
+
+
+@dataclass(frozen=True, slots=True)
+class _Announced:
+    """Narrow tables side by side, each below the sentence that announces it, and how wide each is at most."""
+
+    pairs: tuple[tuple[Paragraph, Table], ...]
+    widths: tuple[float, ...]
+
+
+def _announced_together(blocks: Document, room: float) -> Iterator[Block | _Announced]:
+    """The blocks, those side by side that announced tables are narrow enough for."""
+    at = 0
+    while at < len(blocks):
+        pairs: list[tuple[Paragraph, Table]] = []
+        widths: list[float] = []
+        while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (wide := _width_of(*pair)) <= room:
+            pairs.append(pair)
+            widths.append(wide + _BETWEEN)
+        if len(pairs) > 1:
+            yield _Announced(tuple(pairs), tuple(widths))
+            at += 2 * len(pairs)
+        else:
+            yield blocks[at]
+            at += 1
+
+
+def _pair(blocks: Document) -> tuple[Paragraph, Table] | None:
+    match blocks:
+        case (Paragraph(words) as first, Table() as table, *_) if words.endswith(":"):
+            return first, table
+    return None
+
+
+def _width_of(words: Paragraph, table: Table) -> float:
+    """How wide a table is with its sentence above it, on two lines at most."""
+    return max(_width(table), _SIGN * len(unicode_text(words)) / 2)
 
 
 def _is_short(equation: Equation) -> bool:

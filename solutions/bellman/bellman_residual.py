@@ -1,18 +1,21 @@
-"""The residual of every state from the given values; they are right where all residuals are 0."""
+"""The residual of every state from the given values; they are right where all residuals are 0: that gives a reward."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from rldrill.problems.bellman.bellman_residual import Given
+from rldrill.problems.bellman.bellman_residual import Claimed, Given, Sought
 from rldrill.problems.document import joined
+from rldrill.problems.exact import shown
 from rldrill.problems.fractions import Fraction
+from rldrill.problems.models import Model
+from rldrill.problems.valued import with_reward, worth
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact, is_zero
+from rldrill.solutions.exact import NoSolution, Value, exact, is_zero
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.numerics import np
 from rldrill.solutions.optimality import optimum
-from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, swept, tensors
+from rldrill.solutions.oracle import Answers, at, lookahead, optimal_values, root, swept, tensors
 from rldrill.solutions.policy_values import evaluated
 from rldrill.solutions.reward_processes import fitting
 from rldrill.solutions.sheet.bellman import (
@@ -21,6 +24,7 @@ from rldrill.solutions.sheet.bellman import (
     BELLMAN_V,
     FORGOT_GAMMA,
     MAX_FOR_MEAN,
+    Q_STAR_FROM_V,
     RESIDUAL_MEAN,
     RESIDUAL_SIGN,
 )
@@ -28,7 +32,15 @@ from rldrill.solutions.work import Work
 
 
 def solve(given: Given, work: Work) -> None:
-    """One backup of every state, compared with what the values say."""
+    """One backup of every state, compared with what the values say; or the reward that makes them agree."""
+    if isinstance(given, Sought):
+        _of_reward(given, work)
+    else:
+        _of_claim(given, work)
+
+
+def _of_claim(given: Claimed, work: Work) -> None:
+    """All residuals, and what they say of the values."""
     residuals = _residuals(given, work)
     if not given.verdict:
         return
@@ -48,7 +60,52 @@ def solve(given: Given, work: Work) -> None:
     work.answer(not wrong)
 
 
-def _totals(given: Given) -> Mapping[str, Value]:
+def _of_reward(given: Sought, work: Work, *, kept: bool = False) -> None:
+    """The reward with which the equation holds where it is earned, too; the residuals with a number for it.
+
+    Args:
+        given: the problem.
+        work: where the steps are written.
+        kept: whether the action whose reward is asked for is still taken with the number, best or not.
+    """
+    _demand_sense(given)
+    mdp, row, letter = given.mdp, given.row, str(given.row.reward)
+    gamma, V = exact(given.gamma), knowns.state_values(given.values, given.mdp.terminal)
+    known = knowns.model(mdp) | {"gamma": gamma, "V": V}
+    others = [state for state in mdp.states if state != row.state]
+    residuals = {state: work.step(BELLMAN_OPTIMALITY_RESIDUAL, s=state, **known) for state in others}
+    work.say(f"Whatever ${letter}$ is, the equation holds in {joined(others)}. In {row.state} the actions are worth:")
+    worths = {a: work.step(Q_STAR_FROM_V, s=row.state, a=a, **known) for a in mdp.actions[row.state]}
+    less = [action for action in worths if action != row.action]
+    of_state = f'$V("{row.state}")$'
+    told = f"{joined(less).capitalize()} {'is' if len(less) == 1 else 'are'} worth less than {of_state}"
+    work.say(f"{told}, so {row.action} must reach it:")
+    work.answer(work.equate(letter, worths[row.action], V[row.state]))
+    work.say(f"With ${letter} = {shown(given.reward)}$ only the residual of {row.state} changes:")
+    taken = [each for each in mdp.transitions if not kept or each.state != row.state or each.action == row.action]
+    closed = with_reward(Model(transitions=tuple(taken), terminal=mdp.terminal), given.reward)
+    now = knowns.model(closed) | {"gamma": gamma, "V": V}
+    residuals[row.state] = work.step(BELLMAN_OPTIMALITY_RESIDUAL, s=row.state, **now)
+    work.answer({state: residuals[state] for state in mdp.states})
+
+
+def _demand_sense(given: Sought) -> None:
+    """Demand that the equations hold but for the reward that is asked for, and that it follows from them.
+
+    Raises:
+        NoSolution: it is not so.
+    """
+    mdp, row, gamma = given.mdp, given.row, Fraction(given.gamma)
+    values = {state: Fraction(value) for state, value in given.values.items()}
+    for state in mdp.states:
+        best = max(worth(mdp, (state, a), values, gamma) for a in mdp.actions[state] if (state, a) != row[:2])
+        if state != row.state and best != values[state]:
+            raise NoSolution(f"values: with no reward are they optimal, for {state!r} is worth {best} by the others")
+        if state == row.state and best >= values[state]:
+            raise NoSolution(f"values: the reward does not follow, for another action in {state!r} is worth as much")
+
+
+def _totals(given: Claimed) -> Mapping[str, Value]:
     """The true values without discount."""
     if given.optimal:
         return optimum(given.mdp, Fraction(1)).values
@@ -56,7 +113,7 @@ def _totals(given: Given) -> Mapping[str, Value]:
     return evaluated(Work(), BELLMAN_V, given.mdp, known)
 
 
-def _residuals(given: Given, work: Work) -> dict[str, Value]:
+def _residuals(given: Claimed, work: Work) -> dict[str, Value]:
     formula, letters = fitting(BELLMAN_OPTIMALITY_RESIDUAL if given.optimal else BELLMAN_RESIDUAL, given.mdp)
     known = knowns.model_and_policy(given.mdp, given.chances, given.gamma) | letters
     values = knowns.state_values(given.values, given.mdp.terminal)
@@ -66,15 +123,28 @@ def _residuals(given: Given, work: Work) -> dict[str, Value]:
 
 
 def _policy_mixes(given: Given) -> bool:
-    return any(chance not in (0, 1) for row in given.chances.values() for chance in row.values())
+    return isinstance(given, Claimed) and any(
+        chance not in (0, 1) for row in given.chances.values() for chance in row.values()
+    )
 
 
 def _wrong(given: Given) -> bool:
-    return any(_residuals(given, Work()).values())
+    return isinstance(given, Sought) or any(_residuals(given, Work()).values())
 
 
 def _wrong_in_part(given: Given) -> bool:
-    return given.verdict and _wrong(given) and not all(_residuals(given, Work()).values())
+    if isinstance(given, Sought) or not given.verdict:
+        return False
+    return _wrong(given) and not all(_residuals(given, Work()).values())
+
+
+def _another_is_best(given: Given) -> bool:
+    if isinstance(given, Claimed):
+        return False
+    closed, values = with_reward(given.mdp, given.reward), {s: Fraction(value) for s, value in given.values.items()}
+    state, action = given.row[:2]
+    worths = {a: worth(closed, (state, a), values, Fraction(given.gamma)) for a in given.mdp.actions[state]}
+    return worths[action] < max(worths.values())
 
 
 @slip(
@@ -82,9 +152,19 @@ def _wrong_in_part(given: Given) -> bool:
     "The values are right only if the residual is 0 in every state.",
     when=_wrong_in_part,
 )
-def one_state(given: Given, work: Work) -> None:
+def one_state(given: Claimed, work: Work) -> None:
     """Right as soon as one equation holds."""
     work.answer(any(map(is_zero, _residuals(given, work).values())))
+
+
+@slip(
+    "action-kept",
+    "With another reward another action may be best: the maximum is taken over all actions again.",
+    when=_another_is_best,
+)
+def action_kept(given: Sought, work: Work) -> None:
+    """The residual with the action whose reward has become too small."""
+    _of_reward(given, work, kept=True)
 
 
 MISCONCEPTIONS = (
@@ -93,11 +173,28 @@ MISCONCEPTIONS = (
     RESIDUAL_MEAN,
     FORGOT_GAMMA,
     one_state,
+    action_kept,
 )
 
 
 def oracle(given: Given) -> Answers:
     """One sweep on arrays; for the verdict, the true values by sweeps until nothing changes."""
+    return _claim_tried(given) if isinstance(given, Claimed) else _reward_tried(given)
+
+
+def _reward_tried(given: Sought) -> Answers:
+    """The reward from two trials, for the action's worth is linear in it; one sweep on arrays with the number."""
+    mdp, gamma = given.mdp, at(given.gamma)
+    states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
+    names = tuple(dict.fromkeys(action for _, action in mdp.outcomes))
+    place = states.index(given.row.state), names.index(given.row.action)
+    V = np.array([at(given.values.get(state, 0)) for state in states])
+    reward = root(lambda x: float(lookahead(*tensors(mdp, states, x), V, gamma)[place] - V[place[0]]))
+    return reward, lookahead(*tensors(mdp, states, at(given.reward)), V, gamma)[:n].max(axis=1) - V[:n]
+
+
+def _claim_tried(given: Claimed) -> Answers:
+    """The residuals, and the verdict."""
     mdp = given.mdp
     states, n = (*mdp.states, *mdp.terminal), len(mdp.states)
     P, R = tensors(mdp, states)

@@ -82,7 +82,10 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         verb = "is" if len(less) == 1 else "are"
         work.say(f"{joined(less).capitalize()} {verb} worth less than ${to_sympy(target)}$.")
     if others := {end: action for action, end in ends.items() if end != value}:
-        more = {end: work.value(Q_STAR_FROM_V, s=state, a=best, **known, V=V | {row.state: end}) for end in others}
+        more = {}
+        for end in others:
+            work.say(f"With $y = {to_sympy(end)}$ {best} is worth:")
+            more[end] = work.step(Q_STAR_FROM_V, s=state, a=best, **known, V=V | {row.state: end})
         told = joined([f"${to_sympy(more[end])}$ with $y = {to_sympy(end)}$" for end in others])
         too_much = f"{best.capitalize()} would be worth {told}, more than ${to_sympy(target)}$"
         work.say(f"{too_much}: so $y = {to_sympy(value)}$ is right.")
@@ -99,11 +102,12 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
         )
     work.say(f'Only {row.action} can be worth $V^*("{row.state}") = {to_sympy(V[row.state])}$:')
     work.answer(work.equate(str(row.reward), worths[row.action], V[row.state]))
-    beaten = [
-        f"{action} (${to_sympy(work.value(Q_STAR_FROM_V, s=state, a=action, **known, V=V))}$)"
-        for action in mdp.actions[state]
-        if action != best
-    ]
+    rest = {}
+    for action in mdp.actions[state]:
+        if action != best:
+            calculated = work.step if action in ends else work.value  # else it has been, for it does not depend on y
+            rest[action] = calculated(Q_STAR_FROM_V, s=state, a=action, **known, V=V)
+    beaten = [f"{action} (${to_sympy(number)}$)" for action, number in rest.items()]
     compared = f", more than {joined(beaten)}" if beaten else ""
     work.say(f'{best.capitalize()} is worth $V^*("{state}") = {to_sympy(target)}${compared}.')
     work.answer({state: (best,)})
@@ -111,11 +115,10 @@ def _sought(given: Sought, work: Work, chosen: Chosen) -> None:
     rivals = [action for action in mdp.actions[row.state] if action != row.action]
     start = {state: best, row.state: max(rivals, key=worths.__getitem__)}
     policy = {each: start[each] for each in mdp.states}
-    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy)
-    for other in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=other, V=V, **knowns.model(given.without), gamma=known["gamma"])
-    work.say(f"With these values {row.action} is as good in {row.state} as the best of the others if")
+    V = _iterated(Optimal(mdp=given.without, gamma=given.gamma), work, policy, "the best of the actions left")
+    work.say(f"With these values {row.action} is worth in {row.state}:")
     worth = work.step(Q_STAR_FROM_V, s=row.state, a=row.action, **known, V=V)
+    work.say("This is as much as the best of the others is worth there if")
     least = work.equate(str(row.reward), worth, V[row.state])
     work.say(f"What {row.action} is worth grows with ${row.reward}$, so this is the smallest one.")
     work.answer(least)
@@ -125,12 +128,11 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     """Policy iteration, its last values put into the optimality equation, and what follows."""
     mdp, best = given.mdp, optimum(given.mdp, given.gamma)
     if evaluation is evaluated and given.gamma != 1 and len(mdp.states) <= _WRITTEN_OUT:
-        values = _iterated(given, work, of_two_steps(mdp, Fraction(given.gamma)))
+        first = of_two_steps(mdp, Fraction(given.gamma))
+        values = _iterated(given, work, first, "what would be best if two steps were left")
     else:
         values = _of_the_best(given, work, best, evaluation)
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    for state in mdp.states:
-        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
     if best.unlike_sweeps:
         work.say(
             "Value iteration that begins with 0 does not come to them: in {} it settles at {}.".format(
@@ -146,11 +148,11 @@ def _optimal(given: Optimal, work: Work, evaluation: Evaluation) -> None:
     work.answer({(s, a): work.step(Q_STAR_FROM_V, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
 
 
-def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> dict[str, Value]:
-    """Policy iteration from a policy, to the last values."""
+def _iterated(given: Optimal, work: Work, policy: dict[str, str], why: str) -> dict[str, Value]:
+    """Policy iteration from a policy, which takes what the words say, to the last values, held against the equation."""
     mdp = given.mdp
     known = knowns.model(mdp) | {"gamma": exact(given.gamma)}
-    work.say(f"Policy iteration may start with any policy; here with $π_0$: {_told(policy)}.")
+    work.say(f"Policy iteration may start with any policy; here with $π_0$, which takes {why}: {_told(policy)}.")
     for number in count():
         evaluate, improve, _ = of_round(number)
         values = evaluated(work, evaluate, mdp, known | {"pi": policy})
@@ -161,7 +163,12 @@ def _iterated(given: Optimal, work: Work, policy: dict[str, str]) -> dict[str, V
             work.step(improve, s=state, V=values, into=numbered(pi, number + 1), **known)
         policy = {s: policy[s] if policy[s] in actions else actions[0] for s, actions in greedy.items()}
         work.say(f"This changes the policy, so $π_{{{number + 1}}}$ is evaluated: {_told(policy)}.")
-    work.say(f"No action is better than that of $π_{{{number}}}$: its values solve the optimality equation.")
+    work.say(
+        f"Is another action better than that of $π_{{{number}}}$? Its values are put into the optimality equation:"
+    )
+    for state in mdp.states:
+        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **known)
+    work.say(f"The greatest values are those of $π_{{{number}}}$ again, so no action is better: they are optimal.")
     return values
 
 
@@ -176,6 +183,8 @@ def _of_the_best(given: Optimal, work: Work, best: Optimum, evaluation: Evaluati
         else ""
     )
     work.say(f"{endless}Put into the optimality equation, no other action is better, so these are the optimal values:")
+    for state in mdp.states:
+        work.step(BELLMAN_OPTIMALITY_V, s=state, V=values, **knowns.model(mdp), gamma=exact(given.gamma))
     return values
 
 

@@ -1,6 +1,7 @@
 """The values of the states as a linear system, then one average for every action."""
 
 from rldrill.problems.bellman.policy_action_value import Given
+from rldrill.problems.document import joined
 from rldrill.solutions import knowns
 from rldrill.solutions.oracle import Answers, swept
 from rldrill.solutions.policy_values import Evaluation, evaluated, of_states, one_backup, terminal_value
@@ -21,7 +22,14 @@ def solve(given: Given, work: Work, evaluation: Evaluation = evaluated) -> None:
     known = knowns.model_and_policy(mdp, given.chances, given.gamma)
     values = evaluation(work, BELLMAN_V, mdp, known)
     values |= work.answer(of_states(mdp, values))
-    work.answer({(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs})
+    worths = {(s, a): work.step(BELLMAN_Q, s=s, a=a, V=values, **known) for s, a in mdp.pairs}
+    only = {
+        s: a for s, row in given.chances.items() for a, chance in row.items() if chance == 1 and len(mdp.actions[s]) > 1
+    }
+    if only:
+        same = joined([f'$Q^π("{state}", "{action}") = V^π("{state}")$' for state, action in only.items()])
+        work.say(f"Where $π$ takes only one action, that action is worth what the state is worth: {same}.")
+    work.answer(worths)
 
 
 MISCONCEPTIONS = (

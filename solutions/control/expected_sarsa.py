@@ -1,9 +1,11 @@
 """Expected Sarsa along a run: the policy in the next state, then the update, with the values then current."""
 
+from sympy import Add, Mul
+
 from rldrill.problems.control.expected_sarsa import EpsilonGreedy, FixedPolicy, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.asking_back import answer_along, oracle_along
-from rldrill.solutions.exact import ONE, ZERO, Value, exact, parameters, to_sympy
+from rldrill.solutions.exact import ONE, ZERO, Value, exact, to_sympy
 from rldrill.solutions.greedy import best_actions, epsilon_greedy
 from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
@@ -14,7 +16,7 @@ from rldrill.solutions.sheet.control import (
     SAMPLE_FOR_EXPECTATION,
     UNWEIGHTED_EXPECTATION,
 )
-from rldrill.solutions.work import Work
+from rldrill.solutions.work import Equality, Work
 
 MISCONCEPTIONS = (MAX_FOR_EXPECTATION, SAMPLE_FOR_EXPECTATION, UNWEIGHTED_EXPECTATION, EXPECTED_FORGOT_GAMMA)
 
@@ -36,10 +38,12 @@ def solve(given: Given, work: Work) -> None:
 
 
 def _tell_mean(work: Work, state: str, chances: dict[str, Value], values: dict[str, Value]) -> None:
-    """What the next state is worth on average: the innermost bracket of the update, as far as it is a number."""
-    mean = sum((chances[action] * values[action] for action in values), ZERO)
-    if not parameters(mean):
-        work.say(f"Under the policy, the mean of the action values in {state} is ${to_sympy(mean)}$.")
+    """What the next state is worth on average: the innermost bracket of the update, worked out before it."""
+    terms = [Mul(to_sympy(chances[action]), to_sympy(values[action]), evaluate=False) for action in values]
+    if len(terms) > 1:
+        work.say(f"Under the policy the action values in {state} have this mean:")
+        mean = sum((chances[action] * values[action] for action in values), ZERO)
+        work.lines.append(Equality(Add(*terms, evaluate=False), (mean,)))
 
 
 def _policy(

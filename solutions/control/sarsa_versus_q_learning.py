@@ -1,13 +1,15 @@
-"""Both targets along a run, each method with its own copy of the table."""
+"""Both targets along a run, each method with its own copy of the table; or the step size from one, then the others."""
 
 from collections.abc import Callable
 from typing import Any
 
-from rldrill.problems.control.sarsa_versus_q_learning import Given
+from rldrill.problems.control.sarsa_versus_q_learning import Given, first_that_reads_again
+from rldrill.problems.exact import shown
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value
+from rldrill.solutions.exact import Value, exact
 from rldrill.solutions.formula.formula import Formula, slip
-from rldrill.solutions.numerics import np
+from rldrill.solutions.numerics import Array, np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.control import (
     Q_LEARNING_TARGET,
@@ -42,12 +44,20 @@ _WHY = {
 }  # fmt: skip
 
 
+def _asks_for_targets(given: Given) -> bool:
+    return given.known is None
+
+
+def _asks_back(given: Given) -> bool:
+    return given.known is not None
+
+
 def _of_policies(given: Given) -> bool:
     return given.word in ("on-policy", "off-policy")
 
 
 def solve(given: Given, work: Work) -> None:
-    """The targets of the one method, then of the other; then the word."""
+    """The targets of the one method, or the step size from one of them; the targets of the other; then the word."""
     _compare(given, work, _LETTERS[given.word])
 
 
@@ -55,12 +65,22 @@ def _targets(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
     return tuple(target for _, target in _along(given, work, formula))
 
 
-def _along(given: Given, work: Work, formula: Formula) -> list[tuple[dict[str, Any], Value]]:
-    """What is known at every transition, and the target; of the table is moved what a later target may read."""
-    known = knowns.action_run(given)
+def _along(
+    given: Given, work: Work, formula: Formula, alpha: Value | None = None, steps: int | None = None
+) -> list[tuple[dict[str, Any], Value]]:
+    """What is known at every transition, and the target; of the table is moved what a later target may read.
+
+    Args:
+        given: the run.
+        work: where the steps are written.
+        formula: the target of the method.
+        alpha: the step size, where the run leaves it open.
+        steps: after how many transitions it is enough, if not after all.
+    """
+    known = knowns.action_run(given) | ({} if alpha is None else {"alpha": alpha})
     run = given.trajectory
     found = [(known, work.step(formula, t=0, **known))]
-    for time, pair in enumerate(zip(run.states[:-2], run.actions, strict=False)):
+    for time, pair in enumerate([*zip(run.states[:-2], run.actions, strict=False)][: steps and steps - 1]):
         if pair[0] in run.states[time + 2 :]:
             known = known | {"Q": known["Q"] | {pair: _moved(work, time, *found[-1])}}
         found.append((known, work.step(formula, t=time + 1, **known)))
@@ -79,16 +99,31 @@ def _compare(
     numbers: Callable[[Given, Work, Formula], tuple[Value, ...]] = _targets,
 ) -> None:
     """The numbers that the formula of each method leads to, and the letter of the method that the word means."""
-    for formula in formulas:
-        found = numbers(given, work, formula)
-        work.answer(found[0] if len(found) == 1 else found)
+    sarsa, q_learning = formulas
+    if given.known is None:
+        for formula in formulas:
+            found = numbers(given, work, formula)
+            work.answer(found[0] if len(found) == 1 else found)
+    else:
+        alpha = _step_size(given, work, sarsa)
+        work.answer(tuple(target for _, target in _along(given, work, q_learning, alpha)))
     work.say(_WHY[given.word])
     work.answer(letter)
+
+
+def _step_size(given: Given, work: Work, formula: Formula) -> Value:
+    """The step size, from the first target that reads a value that it has moved."""
+    time = first_that_reads_again(given.trajectory) or 0
+    *_, (_, target) = _along(given, work, formula, steps=time + 1)
+    work.say(f"$y_{{{time}}}$ is known to be ${shown(given.known or 0)}$:")
+    alpha: Value = work.answer(work.equate("alpha", target, exact(given.known or 0)))
+    return alpha
 
 
 @slip(
     "targets-swapped",
     "It is the other way round: Sarsa's target has the value of the action taken, Q-learning's the greatest value.",
+    when=_asks_for_targets,
 )
 def targets_swapped(given: Given, work: Work) -> None:
     """The targets of the other method."""
@@ -102,10 +137,26 @@ def _updates(given: Given, work: Work, formula: Formula) -> tuple[Value, ...]:
 @slip(
     "update-for-target",
     "The target is what the old value is moved towards; α and the old value come in only when it is moved.",
+    when=_asks_for_targets,
 )
 def update_for_target(given: Given, work: Work) -> None:
     """The values that were moved towards the targets."""
     _compare(given, work, _LETTERS[given.word], numbers=_updates)
+
+
+@slip(
+    "old-table-of-q-learning",
+    "Q-learning moves its table after every transition, and its later targets read the values that it has moved.",
+    when=_asks_back,
+)
+def old_table(given: Given, work: Work) -> None:
+    """Q-learning's targets are all read from the table before the run."""
+    _step_size(given, work, SARSA_TARGET)
+    known = knowns.action_run(given)
+    times = range(len(given.trajectory.rewards))
+    work.answer(tuple(work.step(Q_LEARNING_TARGET, t=time, **known) for time in times))
+    work.say(_WHY[given.word])
+    work.answer(_LETTERS[given.word])
 
 
 @slip(
@@ -142,6 +193,7 @@ def said_neither(given: Given, work: Work) -> None:
 MISCONCEPTIONS = (
     targets_swapped,
     update_for_target,
+    old_table,
     SARSA_TARGET_FORGOT_GAMMA,
     Q_LEARNING_TARGET_FORGOT_GAMMA,
     policy_swapped,
@@ -151,18 +203,30 @@ MISCONCEPTIONS = (
 
 
 def oracle(given: Given) -> Answers:
-    """Each method as a policy of the next action: the one taken, or the one at the top of the sorted row."""
-    answers: list[object] = []
-    run = given.trajectory
-    for greedy in (False, True):
-        rows = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
-        targets = np.array([at(reward) for reward in run.rewards])
-        for time, (state, after) in enumerate(zip(run.states, run.states[1:], strict=False)):
-            if after not in run.terminal:
-                chosen = sorted(rows[after], key=rows[after].__getitem__)[-1] if greedy else run.actions[time + 1]
-                targets[time] += at(given.gamma) * rows[after][chosen]
-            old = rows[state][run.actions[time]]
-            rows[state][run.actions[time]] = (1 - at(given.alpha)) * old + at(given.alpha) * targets[time]
-        answers.append(targets)
+    """Each method as a policy of the next action; the step size from two trials, for the target is linear in it."""
     letters = {"on": "A", "off": "B", "model-free": "C", "boot": "C"}
-    return [*answers, next((letter for word, letter in letters.items() if given.word.startswith(word)), "D")]
+    letter = next((letter for word, letter in letters.items() if given.word.startswith(word)), "D")
+    if given.known is None:
+        return [_tried(given, greedy=False), _tried(given, greedy=True), letter]
+    place = first_that_reads_again(given.trajectory) or 0
+    low, high = (_tried(_with(given, Fraction(trial)), greedy=False)[place] for trial in ("1/4", "3/4"))
+    alpha = 1 / 4 + (at(given.known) - low) / (high - low) / 2
+    return [alpha, _tried(_with(given, Fraction(alpha).limit_denominator(10**6)), greedy=True), letter]
+
+
+def _with(given: Given, alpha: Fraction) -> Given:
+    return given.model_copy(update={"alpha": alpha, "known": None})
+
+
+def _tried(given: Given, *, greedy: bool) -> Array:
+    """The targets with the next action that was taken, or with the one at the top of the sorted row."""
+    run = given.trajectory
+    rows = {state: {action: at(value) for action, value in row.items()} for state, row in given.values.items()}
+    targets = np.array([at(reward) for reward in run.rewards])
+    for time, (state, after) in enumerate(zip(run.states, run.states[1:], strict=False)):
+        if after not in run.terminal:
+            chosen = sorted(rows[after], key=rows[after].__getitem__)[-1] if greedy else run.actions[time + 1]
+            targets[time] += at(given.gamma) * rows[after][chosen]
+        old = rows[state][run.actions[time]]
+        rows[state][run.actions[time]] = (1 - at(given.alpha)) * old + at(given.alpha) * targets[time]
+    return targets

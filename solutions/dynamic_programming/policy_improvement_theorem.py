@@ -74,6 +74,7 @@ def _compared(given: Given, work: Work, values: Mapping[str, Value], worth: Any)
     worth = work.answer(worth)
     gaps = {state: sign(worth[state, a] - values[state]) for state, a in given.pairs}
     told = []
+    work.say("The theorem asks for this in every state:")
     for state, gap in gaps.items():
         holds = "<" if gap < 0 else "≥"
         work.step(POLICY_IMPROVEMENT_THEOREM, sign=holds, s=state, V=values, pi1=given.other)

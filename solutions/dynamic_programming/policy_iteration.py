@@ -61,13 +61,18 @@ def _of_rounds(given: Rounds, work: Work, evaluation: Evaluation) -> None:
         for state, actions in best.items():
             if policy[state] in actions and len(actions) > 1:
                 work.say(f"In {state} there is a tie: the old action, {policy[state]}, is kept.")
-        improved = work.answer(_improved(policy, best))
+        found = _improved(policy, best)
+        work.say(f"So $π_{{{number + 1}}}$ is {joined([f'{actions[0]} in {s}' for s, actions in found.items()])}.")
+        improved = work.answer(found)
         policy = {state: actions[0] for state, actions in improved.items()}
         changed = policy != before
     optimal = not changed and is_optimal(mdp, given.gamma, values)
     last = f"π_{{{given.rounds - 1}}}"
     if changed:
-        work.say(f"The last improvement gave a better policy, so ${last}$ is not optimal.")
+        state = next(state for state in mdp.states if policy[state] != before[state])
+        worth = work.value(of_round(given.rounds - 1)[2], s=state, a=policy[state], V=values, **known)
+        more = f"{policy[state]} is worth ${told(worth)}$ by $V^{{{last}}}$, more than ${told(values[state])}$"
+        work.say(f"In {state}, {more}: so ${last}$ is not optimal.")
     elif optimal:
         work.say(f"The last improvement changed nothing: ${last}$ is greedy for its own values, so it is optimal.")
     else:

@@ -1,37 +1,74 @@
 """Quotients in a letter left open, brought to a common denominator before they are added."""
 
 from functools import reduce
+from operator import add, mul
 
-import sympy
+from flint import fmpq
 from sympy import Add, Expr, Mul, Pow
 
-from rldrill.solutions.exact import ordered
+from rldrill.solutions.exact import is_rational, ordered, simplest, to_sympy
 from rldrill.solutions.formula.node import Node
 from rldrill.solutions.formula.putting_in import evaluated
+from rldrill.solutions.rational import common_denominator, generator
+from rldrill.solutions.value import Value
 
 
 def in_one_fraction(expression: Expr) -> Expr | None:
     """A sum of quotients in one letter as one fraction, whose numerator is still to be added up; None if it is none."""
-    letters = expression.free_symbols
-    if not expression.is_Add or (expression.has(Node) and any(_is_open(node) for node in expression.atoms(Node))):
+    if not expression.is_Add or len(expression.free_symbols) != 1 or any(map(_is_open, expression.atoms(Node))):
         return None
-    if len(letters) != 1:
+    values = [_value(evaluated(term)) for term in expression.args]
+    known = [value for value in values if value is not None]
+    below = common_denominator(known) if len(known) == len(values) else None
+    if below is None or is_rational(below):
         return None
-    values = [evaluated(term) for term in expression.args]
-    if not all(isinstance(value, Expr) and value.is_rational_function(*letters) for value in values):
+    return _over([_in_order(value * below) for value in known], below)
+
+
+def brackets_in_one_fraction(expression: Expr) -> Expr:
+    """A sum of products, with one fraction in place of every bracket that adds quotients in a letter."""
+    if not expression.is_Add:
+        return expression
+    return Add(*(_with_brackets_added(term) for term in expression.args), evaluate=False)
+
+
+def _with_brackets_added(term: Expr) -> Expr:
+    if not term.is_Mul or not any(in_one_fraction(factor) for factor in term.args):
+        return term
+    factors = [_added(factor) if in_one_fraction(factor) else factor for factor in term.args]
+    return Mul(*factors, evaluate=False)
+
+
+def _added(bracket: Expr) -> Expr:
+    """The value of a bracket, as one fraction."""
+    value = _value(evaluated(bracket))
+    below = None if value is None else common_denominator([value])
+    return bracket if value is None or below is None else _over([_in_order(value * below)], below)
+
+
+def _over(above: list[Expr], below: Value) -> Expr:
+    top = Add(*above, evaluate=False) if len(above) > 1 else above[0]
+    return Mul(top, Pow(_in_order(below), -1, evaluate=False), evaluate=False)
+
+
+def _in_order(value: Value) -> Expr:
+    return ordered(to_sympy(simplest(value)))
+
+
+def _value(expression: Expr) -> Value | None:
+    """An expression of numbers and one letter as a value; None where there is something else in it, such as a root."""
+    if expression.is_Rational:
+        return fmpq(int(expression.p), int(expression.q))
+    if expression.is_Symbol:
+        return generator(expression.name)
+    if expression.is_Pow and expression.exp.is_Integer:
+        base = _value(expression.base)
+        return None if base is None else base ** int(expression.exp)
+    if not (expression.is_Add or expression.is_Mul):
         return None
-    quotients = [sympy.fraction(sympy.cancel(value)) for value in values]
-    below = [denominator for _, denominator in quotients]
-    shared = reduce(sympy.lcm, below)
-    if not shared.free_symbols or len({denominator for denominator in below if denominator.free_symbols}) == len(
-        {shared}
-    ) == len(set(below)):
-        return None
-    shared = sympy.expand(shared)
-    if ordered(shared).args[0].could_extract_minus_sign():  # 1 − γ, not −1 + γ
-        shared = sympy.expand(-shared)
-    above = [ordered(sympy.expand(sympy.cancel(value * shared))) for value in values]
-    return Mul(Add(*above, evaluate=False), Pow(ordered(shared), -1, evaluate=False), evaluate=False)
+    values = [_value(argument) for argument in expression.args]
+    known = [value for value in values if value is not None]
+    return reduce(add if expression.is_Add else mul, known) if len(known) == len(values) else None
 
 
 def _is_open(node: Node) -> bool:

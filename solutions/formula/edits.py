@@ -89,12 +89,12 @@ def edits(right: Expr) -> tuple[Edit, ...]:
             found[once] = Edit(kind, right, part, None, (*within, over), once)
         for kind, new, changed, instead in _changes(part):
             edited = _replaced(right, path, new)
-            if edited == right or edited in found:
+            if edited in found:
                 continue
             once = _replaced(right, path, Cases(_here(within), new, part)) if within else None
             found[edited] = Edit(kind, edited, changed, instead, within, once)
     for kind, edited, changed, instead in _exchanged(right):
-        if edited != right and edited not in found:
+        if edited not in found:
             found[edited] = Edit(kind, edited, changed, instead)
     return tuple(found.values())
 

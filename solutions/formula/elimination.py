@@ -9,7 +9,9 @@ from sympy import Expr
 
 from rldrill.solutions.closed_forms import rational
 from rldrill.solutions.exact import ONE, Value, digits, is_rational, ordered, parameters, simplest, to_sympy
+from rldrill.solutions.formula.common_denominator import in_one_fraction
 from rldrill.solutions.formula.equations import Affine
+from rldrill.solutions.formula.typesetting import typeset
 from rldrill.solutions.rational import common_denominator
 
 Sides = tuple[Expr, tuple[Expr, ...]]
@@ -55,7 +57,7 @@ def elimination(names: Names, equations: Mapping[Hashable, Any]) -> Iterator[str
             value = side
             for other in side.factors:
                 value = _affine(_without(value, other) + values[other] * value.factors[other])
-            yield _times(names[key], scale), (_written(side, names, values), _written(value, names))
+            yield _times(names[key], scale), _added(_written(side, names, values), _written(value, names))
             values[key] = yield from _divided(key, (scale, value), names)
 
 
@@ -86,9 +88,17 @@ def _put_in(
     others = tuple(_terms(rest, names, factor))
     multiplied = (_sum(*others, _times(names[known], share, each)),) if factor != 1 else ()
     put_in = _sum(*others, _times(_written(instead, names), share))
-    yield _times(names[key], scale, factor), (*multiplied, put_in, _written(after, names))
+    yield _times(names[key], scale, factor), (*multiplied, *_added(put_in, _written(after, names)))
     equation = simplest(scale * factor), after
     return (yield from _collected(key, equation, names)) if key in after.factors else equation
+
+
+def _added(put_in: Expr, value: Expr) -> tuple[Expr, ...]:
+    """A right side and its value; between them the common denominator, where quotients in a letter are added."""
+    together = in_one_fraction(put_in)
+    if together is None or typeset(together) == typeset(value):
+        return put_in, value
+    return put_in, together, value
 
 
 def _divided(key: Hashable, equation: _Multiple, names: Names) -> Generator[Sides, None, Affine]:

@@ -93,7 +93,9 @@ def _put_in(entry: Expr) -> Expr:
 
 def _products_of_numbers(terms: list[Expr]) -> list[Expr]:
     """The terms of a sum of numbers that were matrices, such as (−1)·(−3)·2·(−3/8), where one has many factors."""
-    long = any(sum(map(_is_number, Mul.make_args(term))) > 2 for term in terms)
+    factors = [Mul.make_args(term) for term in terms]
+    matrices = any(isinstance(factor, MatrixLeaf) for each in factors for factor in each)
+    long = matrices and any(sum(map(_is_number, each)) > 2 for each in factors)
     return [_product_of_numbers(term) for term in terms] if long else terms
 
 

@@ -49,6 +49,8 @@ def _traces(
     """One step for every time and every state that was visited by then; the other traces are still 0."""
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
     known = {"S": dict(enumerate(given.states)), "gamma": read(given.gamma), "lam": read(given.lam)}
+    if times.start == 0:
+        work.say("The trace of a state that was not visited yet is $0$; its lines are left out.")
     for time in times:
         reached = dict.fromkeys(given.states[: time + 1], ZERO)
         before = reached | traces

@@ -74,6 +74,8 @@ def _learned(
     values = {state: read(value) for state, value in given.values.items()} | dict.fromkeys(run.terminal, ZERO)
     traces: Traces = {}
     formula = REPLACING_TRACE if given.replacing else ELIGIBILITY_TRACE
+    if len(given.visited) > 1:
+        work.say("The trace of a state that was not visited yet is $0$; its lines are left out.")
     for time, state in enumerate(run.states[:-1]):
         work.say(f"The transition from {state} to {run.states[time + 1]}:")
         before = traces | {state: traces.get(state, ZERO)}

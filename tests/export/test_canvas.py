@@ -24,7 +24,7 @@ PACKAGE = "{http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1}"
 META = "{http://canvas.instructure.com/xsd/cccv1p0}"
 #: Numbers, words to choose from, a picture, an open parameter, yes or no.
 PROBLEMS = (
-    "td-zero/2/7",
+    "td-zero/2/234",
     "value-iteration/2/1",
     "policy-value/3/1",
     "principle-of-optimality/1/2",
@@ -109,7 +109,7 @@ def test_a_number_is_right_by_our_tolerance() -> None:
         told = [each.tag.removeprefix(QTI) for each in condition.iter()]
         assert told == ["or", "varequal", "and", "vargte", "varlte"]
     value, low, high = (Decimal(numbers[0].findtext(f".//{QTI}or//{QTI}{tag}") or 0) for tag in told[1:2] + told[3:])
-    # δ₀ = 4 + 1/2·8 − (−2) = 10, and 10.0 allows 0.05
+    # δ₀ = 8 + 1/2·(−4) − (−4) = 10, and 10.0 allows 0.05
     assert (value, low, high) == (10, Decimal("9.95"), Decimal("10.05"))
 
 
@@ -143,7 +143,7 @@ def test_what_is_told_is_there_and_only_practice_tells_the_working(*, practice: 
         told += "general_incorrect_fb" in there
     assert told
     mistakes = items()[1].findtext(f"{QTI}itemfeedback[@ident='general_incorrect_fb']//{QTI}mattext") or ""
-    assert "<p>6: It looks as if rₜ₊₁ is missing" in mistakes  # 1/2·8 − (−2) without the 4
+    assert "<p>2: It looks as if rₜ₊₁ is missing" in mistakes  # 1/2·(−4) − (−4) without the 8
     assert not re.search(r"<p>10\D", mistakes)
 
 

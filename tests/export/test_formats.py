@@ -27,7 +27,7 @@ from rldrill.problems.errors import UsageError
 from rldrill.render.html import Html
 
 PROBLEMS = [
-    "td-zero/2/7",
+    "td-zero/2/234",
     "value-iteration/2/1",
     "policy-value/3/1",
     "principle-of-optimality/1/2",
@@ -110,7 +110,7 @@ def test_every_box_of_moodle_has_the_key_the_tolerance_and_the_mistakes(tmp_path
 def test_points_of_moodle_are_shared_as_those_of_the_parts(tmp_path: Path) -> None:
     text = ElementTree.fromstring(written("moodle", tmp_path))[1].findtext("questiontext/text") or ""
     weights = [int(weight) for weight in re.findall(r"\{(\d+):NUMERICAL", text)]
-    first, second = rldrill.load("td-zero/2/7").parts
+    first, second = rldrill.load("td-zero/2/234").parts
     assert sum(weights[:3]) * second.points == sum(weights[3:]) * first.points
 
 
@@ -147,7 +147,7 @@ def test_an_item_of_qti_has_the_key_the_tolerance_and_the_points(tmp_path: Path)
     # δ₀ = 4 + 1/2·8 − (−2) = 10, and 10.0 allows 0.05
     assert (right.findtext(f"{QTI}baseValue"), right.get("tolerance")) == ("10", "0.05 0.05")
     assert wrong
-    parts = rldrill.load("td-zero/2/7").parts
+    parts = rldrill.load("td-zero/2/234").parts
     worth = [float(each.findtext(f"{QTI}baseValue") or 0) for each in item.iter(f"{QTI}sum")]
     assert sum(worth) == pytest.approx(sum(part.points for part in parts), rel=1e-4)
 
@@ -189,7 +189,7 @@ def test_markdown_and_json_leave_the_answers_of_an_exam_out(tmp_path: Path) -> N
     assert not any("answer" in part or "mistakes" in part for problem in problems for part in problem["parts"])
     assert not any("id" in problem for problem in problems)  # whoever has the ID has the key
     (first, *_) = json.loads(written("json", tmp_path))["versions"][0]["problems"]
-    assert first["parts"][0]["answer"]["exact"] == ["10", "-9", "-21/5"]  # δ₁ = −5 + 1/2·8 − 8, δ₂ = 2 − 31/5
+    assert first["parts"][0]["answer"]["exact"] == ["10", "-5", "6"]  # δ₁ = −6 + 1/2·(−2) − (−2), δ₂ = 4 − (−2)
 
 
 @cache
@@ -283,11 +283,18 @@ def test_an_empty_corner_of_a_table_is_no_heading() -> None:
 
 
 #: Two models to choose from, yes or no, and two matrices with one row, of two entries and of one.
-OTHER_KINDS = ("bic/1/0", "policy-improvement-theorem/1/0", "lqr-gain/2/3")
+OTHER_KINDS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("bic", {"fitted": {"small": {"likelihood": "1/4", "k": 1}, "large": {"likelihood": "1/2", "k": 3}}, "n": 4}),
+    ("policy-improvement-theorem", {
+        "mdp": {"transitions": [["a", "x", "end", 1, 1], ["a", "y", "end", 1, 2]], "terminal": ["end"]},
+        "policy": {"a": "x"}, "other": {"a": "y"}, "values": {"a": 1}, "gamma": "1/2",
+    }),
+    ("lqr-gain", {"A": [[1, 0], [0, 1]], "B": [[1], [1]], "R": 1, "P": [[-1, 0], [0, -2]], "start": [1, 2]}),
+)  # fmt: skip
 
 
 def other_kinds(versions: int = 1, person: Person | None = None) -> Exam:
-    exercises = tuple(map(rldrill.load, OTHER_KINDS))
+    exercises = tuple(rldrill.read({"family": family, "given": given}) for family, given in OTHER_KINDS)
     codes = (version_code(number) for number in range(versions))
     return Exam(Head(title="t"), 1, tuple(Version(code, exercises, (0, 1, 2), person=person) for code in codes))
 
@@ -344,6 +351,11 @@ def test_each_version_has_a_file_of_its_own_unless_the_format_holds_them_all(tmp
         assert [version_path(exam, path, FORMATS[format_], each).name for each in exam.versions] == [
             *names, *names[:1] * (len(exam.versions) - len(names)),
         ]  # fmt: skip
+
+
+def test_other_programs_take_all_versions_at_once_and_people_one_each() -> None:
+    assert {name for name, each in FORMATS.items() if each.whole} == {"moodle", "qti", "canvas", "anki", "json"}
+    assert {name for name, each in FORMATS.items() if not each.whole} == {"html", "latex", "markdown", "docx"}
 
 
 def test_a_name_gets_the_ending_of_its_format() -> None:

@@ -26,7 +26,7 @@ var said = (text) => {
 """
 #: One problem for every form of answer: whole numbers, e, roots, logarithms, open parameters, words.
 PROBLEMS = [
-    "td-zero/2/7", "value-iteration/2/1", "policy-value/3/1", "softmax-policy/2/1",
+    "td-zero/2/234", "value-iteration/2/1", "policy-value/3/1", "softmax-policy/2/1",
     "rbf/3/1", "lqr-backward/3/1", "bandit/2/1", "lambda-return/3/1", "principle-of-optimality/1/2",
 ]  # fmt: skip
 
@@ -126,14 +126,14 @@ def test_the_bound_itself_is_right_and_what_lies_beyond_is_not() -> None:
 
 
 def test_a_typical_mistake_is_told() -> None:
-    exercise = rldrill.load("td-zero/2/7")
+    exercise = rldrill.load("td-zero/2/234")
     wrong = exercise.diagnosing.wrong_answers("a", 1)[0]
     verdict = judged(task(exercise, exercise.parts[0]), typed_cells(exercise, "a", wrong.answer))
     assert (verdict["outcome"], verdict["says"]) == ("misconception", wrong.sentence)
 
 
 def test_what_is_unreadable_is_named_by_its_box() -> None:
-    exercise = rldrill.load("td-zero/2/7")
+    exercise = rldrill.load("td-zero/2/234")
     verdict = judged(task(exercise, exercise.parts[0]), ["1", "one", "2"])
     assert verdict["outcome"] == "unreadable"
     assert verdict["says"].startswith("entry 2: ")

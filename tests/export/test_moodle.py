@@ -27,7 +27,7 @@ from rldrill.export.asked import cells
 from rldrill.export.moodle import _escaped, moodle_exam
 
 PROBLEMS = (
-    "td-zero/2/7", "value-iteration/2/1", "principle-of-optimality/1/2", "markov-property/2/1", "softmax-policy/2/1",
+    "td-zero/2/234", "value-iteration/2/1", "principle-of-optimality/1/2", "markov-property/2/1", "softmax-policy/2/1",
     "td-lambda-backward/2/1", "optimal-policy-from-q/2/1",
 )  # fmt: skip
 NUMBER = r"-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -167,5 +167,5 @@ def test_files_are_beside_the_text_that_calls_them() -> None:
 def test_points_are_shared_as_those_of_the_parts() -> None:
     (_, question, *_) = questions()
     weights = [weight for weight, _, _ in boxes(question.findtext("questiontext/text") or "")]
-    first, second = rldrill.load("td-zero/2/7").parts
+    first, second = rldrill.load("td-zero/2/234").parts
     assert Fraction(sum(weights[:3]), sum(weights)) == Fraction(first.points, first.points + second.points)

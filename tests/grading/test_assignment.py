@@ -74,6 +74,17 @@ def test_everything_right_is_everything_and_what_is_left_out_counts(tmp_path: Pa
     assert report.exit_code == 1
 
 
+@pytest.mark.parametrize(("mark", "points"), [(",", 3), (".", 0)])
+def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, mark: str, points: int) -> None:
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/7"),), seed=1, decimal_mark=mark)
+    (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
+    # δ = 10, −9 and −21/5 = −4.2
+    rows = [("Ann", "", "1", "a", "10; -9,0; -4,2"), ("Ben", "", "1", "a", "10; -9.0; -4.2")]
+    report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
+    assert student(report, "Ann").score.points == points
+    assert student(report, "Ben").score.points == 3
+
+
 def test_cheating_earns_nothing(tmp_path: Path) -> None:
     path, made = exam(tmp_path, versions=2)
     a, b = made.versions

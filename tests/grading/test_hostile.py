@@ -23,6 +23,7 @@ from rldrill.grading.verification import Settings, verify
 from rldrill.problems.errors import FileError, UserError
 
 HEAD = "student,problem,part,answer\n"
+ID = "td-zero/1/62590"
 #: The answers that take long, to every part of every family where the benchmark is run by itself.
 HOSTILE = runpy.run_path(str(Path(__file__).parents[2] / "benchmarks" / "hostile.py"))
 
@@ -69,7 +70,8 @@ def test_a_fraction_that_became_a_date_is_recognised_and_said(tmp_path: Path, da
 
 def test_escape_codes_are_never_echoed(tmp_path: Path) -> None:
     evil = "\x1b]0;mine\x07\x9b31m\u202e"
-    content = f"{HEAD}Ann,td-zero/1/62590,a,{evil}\nA{evil},td-zero/1/62590,a,1\nBen,{evil},a,1\nBen,td-zero/1/62590,{evil},1\n"
+    rows = (f"Ann,{ID},a,{evil}", f"A{evil},{ID},a,1", f"Ben,{evil},a,1", f"Ben,{ID},{evil},1")
+    content = HEAD + "".join(f"{row}\n" for row in rows)
     path = written(tmp_path, "a.csv", content)
     report = verify([path])
     texts = [form.written(report, "key") for form in (data, github, gradescope, junit, page, tables, text)]

@@ -24,7 +24,7 @@ CI = ROOT / "examples" / "ci"
 
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
-    """A folder with an exam of td-zero/1/62590 and return/1/430, 1 and 2 points, the first right; rldrill in the path."""
+    """A folder with an exam of two problems, of 1 and 2 points, the first answered right; rldrill in the path."""
     made = plan(Blueprint(problems=(Asked(id="td-zero/1/62590"), Asked(id="return/1/430")), seed=7))
     (tmp_path / "exam.json").write_bytes(written(manifest(made)))
     (tmp_path / "ann.answers.toml").write_text('"1" = "21/4"\n["2"]\na = "10"\n')

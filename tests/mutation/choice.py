@@ -17,6 +17,9 @@ MOST = 4000
 #: The rank of tests that have nothing to do with a change, as far as names tell.
 _NOT = 5
 
+#: What writes pages and the steps on them.
+_WRITING = {("rldrill", "render"), ("solutions", "formula")}
+
 #: What test files import that start other programs or look at PDFs: their tests come last of their rank.
 _DEAR = {"pexpect", "printed", "subprocess", "terminals"}
 
@@ -101,7 +104,7 @@ class Choice:
             file, _, rest = test.partition("::")
             function, _, case = rest.partition("[")
             uses = self._of(file).get(function, Uses())
-            writes = path.parts[:2] == ("rldrill", "render") and Path(file).name == "test_pages.py"
+            writes = path.parts[:2] in _WRITING and Path(file).name == "test_pages.py"
             named = _is_named(file, path.stem)
             if writes or patterns[0].search(case) or made & uses.texts or (named and not made):
                 yield 0

@@ -8,7 +8,10 @@ from rldrill.audit.checking import Finding, examine
 from rldrill.problems.catalogue import family
 from rldrill.problems.errors import FileError
 from rldrill.problems.family import Problem
+from rldrill.solutions.exact import is_rational, to_sympy
+from rldrill.solutions.formula.putting_in import evaluated
 from rldrill.solutions.solution import solve
+from rldrill.solutions.work import Step
 
 FILTER: dict[str, Any] = {
     "belief": {"a": "q", "b": "1-q"}, "motion": {"go": {"a": {"a": 1}, "b": {"b": "1/2", "a": "1/2"}}},
@@ -109,13 +112,16 @@ ACTIONS: dict[str, Any] = {
     "trajectory": {"states": ["a", "b"], "actions": ["x", "y"], "rewards": [4]},
     "values": {"a": {"x": 10, "y": 2}, "b": {"x": 8, "y": 6}}, "alpha": "1/2", "gamma": "1/2",
 }  # fmt: skip
+VALUED_RUN: dict[str, Any] = {
+    "trajectory": {"states": ["a", "b"], "rewards": [4]}, "values": {"a": 4, "b": 2}, "alpha": "1/2", "gamma": "1/2",
+}  # fmt: skip
 ENDED = {"states": ["a", "end"], "actions": ["x"], "rewards": [4], "terminal": ["end"]}
 BIC: dict[str, Any] = {
     "fitted": {"a": {"likelihood": "1/4", "k": 1}, "b": {"likelihood": "1/2", "k": 2}}, "n": 2,
 }  # fmt: skip
 COINS: dict[str, Any] = {"data": {"tosses": {"c": [1, 1000]}, "models": ["fair", "shared"]}}
 BORDER = {"n": None, "border": "more"}
-BARS: dict[str, Any] = {"pulls": [["x", 5], ["x", 9], ["x", 7], ["y", 2]], "between": ["x", "y"]}
+PULLED: dict[str, Any] = {"pulls": [["x", 5], ["x", 9], ["x", 7], ["y", 2]], "between": ["x", "y"]}
 
 GO = {"a": "x", "b": "x"}
 # V(b) = 2 and V(a) = 1 + 1/2·2.
@@ -158,7 +164,7 @@ def first(**said: Any) -> dict[str, Any]:
 
 
 COIN: dict[str, Any] = {"coin": {"heads": 1, "tails": 0, "a": 1, "b": 1}}
-SAMPLE_: dict[str, Any] = {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": "1/2", "noise": "1/2"}}}
+MEASURED: dict[str, Any] = {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": "1/2", "noise": "1/2"}}}
 LINE: dict[str, Any] = {"line": {"points": [[0, 2], [1, 3]]}}
 CLAIMED: dict[str, Any] = {"mdp": VALUED["mdp"], "values": {"a": 1, "b": 2}, "gamma": "1/2", "optimal": True}
 LOOP: dict[str, Any] = {"mdp": {"transitions": [["a", "x", "b", 1, 1], ["b", "x", "a", 1, 2]]}, "average": True}
@@ -292,7 +298,7 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("linear-value", LINEAR, {"features": None}, "features"),
     ("linear-value", LINEAR | {"action": "x"}, {"action": "z"}, "action: 'z' is not among the actions"),
     ("linear-value", LINEAR, {"actions": ["x", "x"]}, "actions: one is named twice"),
-    ("linear-value", LINEAR, {"theta": [3, 1, 2]}, "1 features and 2 actions need 2 weights, not 3"),
+    ("linear-value", LINEAR, {"theta": [3, 1, 2]}, "here 1·2 = 2, not 3"),
     ("linear-value", LINEAR | {"theta": ["w", 1]}, {"features": [0]}, "the feature that belongs to w must be given"),
     ("linear-value", LINEAR | {"theta": ["w", 1]}, {"action": "x"}, "action: its vector is only asked for where"),
     ("linear-value", BETWEEN, {"bumps": {"centres": [[0], [4]], "width": 3}}, "position: it can only be found between"),
@@ -351,6 +357,7 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("sarsa", ACTIONS | {"trajectory": ENDED}, {"trajectory": ENDED | {"actions": ["x", "y"]}},
      "trajectory: the run ends in 'end', so no action is taken there"),
     ("sarsa", ACTIONS | {"trajectory": ENDED}, {"values": {"a": {"x": 10}, "end": {"x": 1}}}, "'end'"),
+    ("bic", BIC, {"criterion": "DIC"}, "'DIC' is not possible here; write 'BIC' or 'AIC'"),
     ("bic", BIC, {"n": None}, "n, the number of data, is needed with fitted models, and with them only"),
     ("bic", BIC | {"n": None, "criterion": "AIC"}, {"criterion": "BIC"}, "n, the number of data, is needed"),
     ("bic", COINS, {"n": 5}, "n, the number of data, is needed with fitted models, and with them only"),
@@ -415,9 +422,9 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("model-fitting", COIN, {"coin": {"heads": 1, "tails": 0, "a": 1, "b": "1/2"}}, "a and b must be at least 1"),
     ("model-fitting", COIN, LINE, "give one of coin, sample and line"),
     ("model-fitting", COIN, {"coin": None}, "give one of coin, sample and line"),
-    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 1, "noise": 0}}},
+    ("model-fitting", MEASURED, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 1, "noise": 0}}},
      "above 0"),
-    ("model-fitting", SAMPLE_, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 0, "noise": 1}}},
+    ("model-fitting", MEASURED, {"sample": {"values": [6, 4], "prior": {"mean": 4, "variance": 0, "noise": 1}}},
      "above 0"),
     ("model-fitting", LINE, {"line": {"points": [[1, 2], [1, 3]]}},
      "points: all x are the same, so no slope fits best"),
@@ -513,8 +520,16 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
      "has a missing value itself"),
     ("optimal-policy-from-q", KNOWN_Q, {"terminal": ["end", "b"]},
      "values: 'b' is terminal, so no action can be taken"),
-    ("bandit", BARS, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
-    ("bandit", BARS, {"between": ["y", "x"]}, "between: "),
+    ("maml-step", MAML, {"beta": 0}, "beta"),
+    ("maml-step", MAML, {"tasks": [[0, 5]]}, "tasks: a curvature is not above 0"),
+    ("return-infinite", {"first": [1], "repeated": [2], "gamma": "1/2"}, {"gamma": 1}, "must be below 1, or rewards"),
+    ("return", {"rewards": [1, 2], "gamma": "1/2", "time": 1}, {"time": 2}, "time is 2, but the episode ends at 2"),
+    ("return", {"rewards": [1, 2], "gamma": ["1/2", "1/3"], "time": 1}, {"gamma": ["1/2"]}, "2 rewards need as many"),
+    ("td-zero", VALUED_RUN | {"td_errors": True}, {"known": 3, "alpha": "alpha"}, "td_errors: they are not asked for"),
+    ("td-zero", VALUED_RUN, {"values": {"a": 4}}, "the value of 'b' is missing"),
+    ("td-zero", VALUED_RUN, {"values": {"a": 4, "b": 2, "c": 1}}, "the value is given for 'c'"),
+    ("bandit", PULLED, {"between": ["x", "z"]}, "between: 'z' was never pulled"),
+    ("bandit", PULLED, {"between": ["y", "x"]}, "between: "),
 ]  # fmt: skip
 
 
@@ -538,7 +553,11 @@ def test_what_goes_together_is_read_and_what_does_not_is_told(
 
 @pytest.mark.parametrize(("name", "given"), READ)
 def test_what_is_read_is_solved_with_the_formulas_as_without_them(name: str, given: dict[str, Any]) -> None:
+    solution = solve(Problem(family(name), family(name).read(given)))
     found = Finding(family(name), 1)
-    examine(solve(Problem(family(name), family(name).read(given))), found)
+    examine(solution, found)
     assert not found.disagreements
     assert not found.refused
+    for line in solution.lines:
+        if isinstance(line, Step) and is_rational(line.value):
+            assert to_sympy(line.value) == evaluated(line.put_in), line.equation()

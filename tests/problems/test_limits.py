@@ -188,14 +188,29 @@ def test_the_largest_is_read_and_the_next_is_refused(limit: str) -> None:
 
 def test_an_actor_with_weights_for_each_state_may_go_on() -> None:
     states = [f"s{number}" for number in range(10)]
-    weights = {state: [int(other == state) for other in states] for state in states}
+    # The first weight is the same for both actions, so that it stands in no exponent.
+    weights = {state: [1, *(int(other == state) for other in states)] for state in states}
     family("actor-critic").read(
         {
             "trajectory": {"states": states, "actions": ["left"] * 9, "rewards": [1] * 9, "terminal": ["s9"]},
-            "values": dict.fromkeys(states, 0), "theta": [0] * 10, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
-            "features": {state: {"left": weights[state], "right": [0] * 10} for state in states[:9]},
+            "values": dict.fromkeys(states, 0), "theta": [0] * 11, "alpha": "1/2", "beta": "1/2", "gamma": "1/2",
+            "features": {state: {"left": weights[state], "right": [1] + [0] * 10} for state in states[:9]},
         }
     )  # fmt: skip
+
+
+def test_a_weight_that_was_never_moved_does_not_hide_one_that_was() -> None:
+    def given(*states: str) -> dict[str, Any]:
+        features = {"a": {"left": [1, 0], "right": [2, 0]}, "b": {"left": [1, 1], "right": [2, 2]}}
+        steps = len(states)
+        run = {"states": [*states, "end"], "actions": ["left"] * steps, "rewards": [1] * steps, "terminal": ["end"]}
+        values = dict.fromkeys(set(states), 1)
+        rates = {"alpha": "1/2", "beta": "1/2", "gamma": "1/2"}
+        return {"trajectory": run, "values": values, "theta": [0, 0], "features": features} | rates
+
+    family("actor-critic").read(given("a", "a", "b"))
+    with pytest.raises(FileError, match="the weights of 4 steps would stand in each other's exponents"):
+        family("actor-critic").read(given("a", "a", "a", "b"))
 
 
 def test_two_hundred_characters_of_a_number_are_read() -> None:
@@ -208,3 +223,11 @@ def test_more_than_a_million_transitions_of_a_pomdp_file_are_not_written_out() -
     # 1001 states, each with a way to each: 1 002 001.
     with pytest.raises(ValueError, match="line 5: T: there are more than 1000000 transitions; write a smaller model"):
         read_pomdp("discount: 0.5\nvalues: reward\nstates: 1001\nactions: 1\nT: * uniform\nR: * : * : * 1\n")
+
+
+@pytest.mark.parametrize(("horizon", "asked"), [(1, 1), (2, 2), (12, 12), (13, 12), (20, 12)])
+def test_matrices_are_asked_for_as_long_as_there_are_letters(horizon: int, asked: int) -> None:
+    # Of 26 letters two go to each of twelve times, and one to the first action.
+    given = family("lqr-backward").read(lqr(1, horizon))
+    assert [*given.asked] == [*reversed(range(asked))]  # type: ignore[attr-defined]
+    assert len(family("lqr-backward").question(given).parts) == 2 * asked + 1

@@ -27,8 +27,8 @@ class Given(Givens):
         (phrases.trace_parameter, HALF, "The parameter is $λ = 1/2$."),
         (phrases.trace_parameter, Parameter("lambda"), "The parameter $λ$ is left open."),
         (phrases.exploration, HALF, "The exploration rate is $ε = 1/2$."),
-        (phrases.exploration, Parameter("epsilon"), "The exploration rate $ε$ is left open."),
-        (phrases.exploration, None, "The exploration rate $ε$ is left open."),
+        (phrases.exploration, Parameter("epsilon"), "The exploration rate $ε$, between $0$ and $1$, is left open."),
+        (phrases.exploration, None, "The exploration rate $ε$, between $0$ and $1$, is left open."),
     ],
 )
 def test_a_number_is_given_or_left_open(said: object, number: object, sentence: str) -> None:

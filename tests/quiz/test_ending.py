@@ -101,7 +101,11 @@ def test_what_was_tried_and_seen_is_not_forgotten(state: State, given_up: bool, 
 
 
 def test_yes_or_no_is_missed_at_once() -> None:
-    exercise = rldrill.load("policy-improvement-theorem/1/0")
+    given = {
+        "mdp": {"transitions": [["a", "x", "end", 1, 1], ["a", "y", "end", 1, 2]], "terminal": ["end"]},
+        "policy": {"a": "x"}, "other": {"a": "y"}, "values": {"a": 1}, "gamma": "1/2",
+    }  # fmt: skip
+    exercise = rldrill.read({"family": "policy-improvement-theorem", "given": given})
     record = Record.of(exercise)
     record.answer(record.parts[1], "maybe")
     assert record.parts[1].state is State.OPEN

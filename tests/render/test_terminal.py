@@ -2,7 +2,7 @@
 
 import pytest
 
-from rldrill.problems.document import Equation
+from rldrill.problems.document import Equation, Paragraph
 from rldrill.problems.mathematics import Accent, operator, row, variable
 from rldrill.render.mathematics.unicode import GLUE, inline
 from rldrill.render.terminal import PIPED, console, plain, wrapped
@@ -46,3 +46,10 @@ def test_a_formula_of_48_signs_stays_in_one_piece_and_a_longer_one_may_be_broken
     assert (len(short), len(long)) == (48, 49)
     assert inline(f"${short}$", glued=True) == short.replace(" ", GLUE)
     assert inline(f"${long}$", glued=True) == long
+
+
+def test_brackets_and_colons_of_a_text_are_no_commands(capsys: pytest.CaptureFixture[str]) -> None:
+    text = "[bold] [red]states[/red] :warning: 12"
+    assert plain((Paragraph(text),)) == text
+    console().print(text)
+    assert capsys.readouterr().out.strip() == text

@@ -179,3 +179,22 @@ def test_whatever_is_too_wide_is_broken_or_shrunk(wide: Callable[[], Math], tmp_
 def test_a_wide_table_is_shrunk(tmp_path: Path) -> None:
     line = tuple(f"rattling{index}" for index in range(20))
     assert_inside(pdf(SETUP + block(Table(line, (line, line)))), tmp_path, 2)
+
+
+_TABLE = Table(("$s$", "$V(s)$"), (("low", "1"), ("high", "2")))
+
+
+def test_narrow_tables_stand_side_by_side_each_below_the_sentence_that_announces_it() -> None:
+    first, second = Paragraph("The policy is:"), Paragraph("The values are:")
+    together = document((first, _TABLE, second, _TABLE))
+    assert together.startswith("#announced((")
+    assert together.index("policy") < together.index("values")  # as they are read
+    assert not document((first, _TABLE, Paragraph("They are known."), _TABLE)).count("#announced")
+    wide = Table(tuple("abcdefghijklmnopqr"), (tuple("abcdefghijklmnopqr"),))
+    assert not document((first, wide, second, _TABLE)).count("#announced")
+
+
+def test_three_narrow_tables_stand_on_as_many_lines_as_they_need() -> None:
+    pair = (Paragraph("So it is:"), _TABLE)
+    assert document(pair * 3).count("#announced") == 1
+    assert document(pair * 8).count("#announced") == 2

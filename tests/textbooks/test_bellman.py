@@ -173,6 +173,22 @@ def test_a_terminal_state_may_have_its_0_among_given_values(name: str, more: dic
         solved(name, **{**known, "values": {"a": 4, "end": 2}})
 
 
+def test_the_reward_with_which_values_are_optimal_by_hand() -> None:
+    # In b: max{4; 3} = 4. In a: x + 1/2·4 = 5, so x = 3. With x = −2: max{−2 + 2; 1} − 5 = −4.
+    rows = [["a", "go", "b", 1, "x"], ["a", "stay", "end", 1, 1], ["b", "go", "end", 1, 4], ["b", "stay", "end", 1, 3]]
+    claim = {
+        "mdp": {"transitions": rows, "terminal": ["end"]},
+        "values": {"a": 5, "b": 4},
+        "gamma": "1/2",
+        "reward": -2,
+    }
+    assert solved("bellman-residual", **claim) == {"a": 3, "b": {"a": -4, "b": 0}}
+    with pytest.raises(FileError, match="with no reward are they optimal, for 'b' is worth 4 by the others"):
+        solved("bellman-residual", **claim | {"values": {"a": 5, "b": 6}})
+    with pytest.raises(FileError, match="the reward does not follow, for another action in 'a' is worth as much"):
+        solved("bellman-residual", **claim | {"values": {"a": 1, "b": 4}})
+
+
 def test_numbers_found_from_a_backup_by_hand() -> None:
     # x + 1/2·4 = 5; 2 + 4γ = 3 + 2γ; 4p + 2(1 − p) = 7/2.
     def rows(first: str, second: str) -> dict[str, Any]:

@@ -141,6 +141,20 @@ def test_both_targets_by_hand() -> None:
     assert (answers["a"], answers["b"], answers["c"]) == (1, 7, "A")
 
 
+def test_the_step_size_from_a_target_of_sarsa_by_hand() -> None:
+    # Sarsa: y₀ = 2 + 1/2·2 = 3, Q(a, go) ← 1 + 2α, y₁ = 4 + 1/2·(1 + 2α) = 5, so α = 1/2.
+    # Q-learning: y₀ = 2 + 1/2·6 = 5, Q(a, go) ← 1 + 1/2·4 = 3, y₁ = 4 + 1/2·max{3; 2} = 11/2.
+    run = {"states": ["a", "b", "a"], "actions": ["go"] * 3, "rewards": [2, 4]}
+    values = {"a": {"go": 1, "stay": 2}, "b": {"go": 2, "stay": 6}}
+    back = {"trajectory": run, "values": values, "gamma": "1/2", "alpha": "alpha", "known": 5}
+    answers = solved("sarsa-versus-q-learning", **back)
+    assert (answers["a"], answers["b"]) == (fmpq(1, 2), (5, fmpq(11, 2)))
+    with pytest.raises(FileError, match="no target of Sarsa reads an updated value, so alpha does not follow"):
+        solved("sarsa-versus-q-learning", **back | {"trajectory": run | {"actions": ["go", "go", "stay"]}})
+    with pytest.raises(FileError, match="leave alpha open, which is asked for then"):
+        solved("sarsa-versus-q-learning", **back | {"alpha": "1/2"})
+
+
 def test_ucb_by_hand() -> None:
     # Eq. 2.10 at t = 7 with c = 2: averages 3, 1, 5 after 2, 3, 1 pulls.
     pulls = [["x", 2], ["y", 0], ["z", 5], ["x", 4], ["y", 1], ["y", 2]]

@@ -1,0 +1,113 @@
+"""What is drawn tells whether somebody has understood: the point of a question cannot be missed by accident."""
+
+import re
+from collections import Counter
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import rldrill
+from rldrill.solutions.drawing import draw
+from tests.problems.test_promises import drawn
+
+
+def q_learning_targets(given: Any, alpha: Fraction, *, moved: bool) -> list[Fraction]:
+    rows = {state: {a: Fraction(value) for a, value in row.items()} for state, row in given.values.items()}
+    run, found = given.trajectory, []
+    for time, reward in enumerate(run.rewards):
+        after = run.states[time + 1]
+        found.append(reward + given.gamma * (0 if after in run.terminal else max(rows[after].values())))
+        if moved:
+            old = rows[run.states[time]][run.actions[time]]
+            rows[run.states[time]][run.actions[time]] = old + alpha * (found[-1] - old)
+    return found
+
+
+def test_the_table_that_q_learning_has_moved_is_read_again() -> None:
+    for given in drawn("sarsa-versus-q-learning", (2,)):
+        assert q_learning_targets(given, given.alpha, moved=True) != q_learning_targets(given, given.alpha, moved=False)
+
+
+def test_a_step_size_is_asked_for_from_a_target_that_hangs_on_it() -> None:
+    for given in drawn("sarsa-versus-q-learning", (3,)):
+        pairs = [*zip(given.trajectory.states, given.trajectory.actions, strict=False)]
+        assert any(pair in pairs[: time - 1] for time, pair in enumerate(pairs) if time > 1)
+        assert given.known != 0
+    sizes = Counter(draw("sarsa-versus-q-learning", 3, seed).answers["a"] for seed in range(40))
+    assert max(sizes.values()) < 20  # no step size is a good guess
+
+
+def test_up_to_which_reward_a_policy_is_optimal_hangs_on_what_follows() -> None:
+    for given in drawn("policy-iteration", (3,)):
+        row = given.row
+        after: list[dict[str, Fraction]] = []
+        for action in (row.action, given.start[row.state]):
+            after.append({each.next: each.probability for each in given.mdp.outcomes[row.state, action]})
+        assert after[0] != after[1]
+
+
+def test_the_reward_that_is_sought_is_not_one_of_the_table() -> None:
+    for seed in range(25):
+        solution = draw("policy-iteration", 3, seed)
+        given: Any = solution.problem.given
+        assert solution.answers["b"] not in {row.reward for row in given.mdp.transitions if row is not given.row}
+
+
+def test_a_reward_with_which_values_are_optimal_is_worked_out() -> None:
+    falls = 0
+    for given in drawn("bellman-residual", (3,)):
+        row, values = given.row, {state: Fraction(value) for state, value in given.values.items()}
+        rows = given.mdp.outcomes[row.state, row.action]
+        ahead = sum(each.probability * given.gamma * values.get(each.next, 0) for each in rows)
+        rest = sum(each.probability * each.reward for each in rows if each is not row)
+        right = (values[row.state] - ahead - rest) / row.probability
+        assert ahead != 0  # else γ and V of the next states would not matter
+        assert right not in {each.reward for each in given.mdp.transitions if each is not row}
+        falls += given.reward < right
+    assert 15 < falls < 60  # both: where it is best all the more, and where another action takes its place
+
+
+@pytest.mark.parametrize(
+    "family",
+    ["expected-sarsa", "policy-value", "policy-action-value", "policy-iteration", "batch-td-and-mc", "value-iteration",
+     "feature-expectations-policy"],
+)  # fmt: skip
+def test_no_working_of_the_first_levels_has_a_number_above_300(family: str) -> None:
+    for level in (1, 2):
+        for seed in range(8):
+            text = str(rldrill.draw(family, level, 900 + seed).working())
+            assert max(map(int, re.findall(r"\d+", text)), default=0) <= 300, (family, level, seed)
+
+
+def test_q_learning_reads_a_greatest_value_that_has_changed() -> None:
+    for given in drawn("q-learning", (2,)):
+        if given.outcome is None:
+            moved, kept = (q_learning_targets(given, given.alpha, moved=moved) for moved in (True, False))
+            assert moved != kept
+
+
+def test_sweeps_in_place_change_every_value() -> None:
+    for given in drawn("policy-evaluation", (2,)):
+        if given.in_place and given.sweeps == 1 and given.policy is not None:
+            values = dict(given.start)
+            for state, row in given.policy.items():
+                values[state] = sum(
+                    chance * move.probability * (move.reward + given.gamma * values.get(move.next, 0))
+                    for action, chance in row.items()
+                    for move in given.mdp.outcomes[state, action]
+                )
+                assert values[state] != given.start[state]
+
+
+def test_no_state_of_an_open_problem_is_worth_nothing() -> None:
+    for seed in range(40):
+        assert all(draw("policy-value", 3, seed).answers["a"].values()), seed
+
+
+def test_every_error_of_an_advantage_counts() -> None:
+    for given in drawn("advantage", (3,)):
+        run = given.run
+        worth = [run.values.get(state, Fraction(0)) for state in run.trajectory.states]
+        for time, reward in enumerate(run.trajectory.rewards):
+            assert reward + given.gamma * worth[time + 1] != worth[time]
