@@ -180,7 +180,8 @@ def _all_matters(drawn: Callable[[], Given]) -> Given:
         given = drawn()
         branches: list[list[Fraction]] = []
         _value(given, branches)
-        if all(len(set(row)) == len(row) for row in branches):
+        leaves = [tuple(row.values()) for row in given.action_values.values()]
+        if len(set(leaves)) == len(leaves) and all(len(set(row)) == len(row) for row in branches):
             return given
 
 
