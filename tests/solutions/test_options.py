@@ -169,10 +169,11 @@ def test_a_cross_term_in_every_convention(
 #: With β = 3/2 for A = 2, B = Q = N = 1, R = 3 and γ = 1/2; the roots are 4 and −1 in costs.
 WORDS = {
     "": ("P(γB²P − R) = (−Q + γA²P)·(γB²P − R) − (γBPA − N)²", "γB²P² + (γB²Q + (γA² − 1) R − 2γABN) P − (QR − N²) = 0",
-         "root is negative; a value", "is never positive, so P is that one", "other root, 1, is positive",
+         "one of them is negative; a value", "is never positive, so P is that one", "other root, 1, is positive",
          "it reads S = Q + γAᵀSA − (γAᵀSB + N) L."),
-    "xuKP": ("P(R + γB²P) = (Q + γA²P)·(R + γB²P) − (γBPA + N)²", "γB²P² − (γB²Q + (γA² − 1) R − 2γABN) P − (QR − N²) = 0",
-             "root is positive; a cost", "is never negative, so P is that one", "other root, −1, is negative"),
+    "xuKP": ("P(R + γB²P) = (Q + γA²P)·(R + γB²P) − (γBPA + N)²",
+             "γB²P² − (γB²Q + (γA² − 1) R − 2γABN) P − (QR − N²) = 0",
+             "one of them is positive; a cost", "is never negative, so P is that one", "other root, −1, is negative"),
 }  # fmt: skip
 
 
