@@ -67,7 +67,7 @@ def known(data: st.DataObject, expression: Expr) -> dict[str, Any]:
         "greedy": Anything(lambda _: data.draw(st.sampled_from([("slow",), ("fast",), ACTIONS]))),
         "At": Anything(matrix), "Bt": Anything(matrix), "Pt": Anything(matrix), "Rt": Anything(matrix),
     }  # fmt: skip
-    fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2}
+    fixed |= {"tau": 1, "episodes": (1, 2), "reward": 2, "run": 1}
     vectors = ("theta_vector", "gradient", "ones")
     fixed |= {"samples": (0, 1, 2), "dimensions": (1, 2), **{code: vector() for code in vectors}}
     fixed |= {code: Anything(vector) for code in ("f_vector", "phi_vector", "score")}
