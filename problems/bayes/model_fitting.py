@@ -245,7 +245,10 @@ def _line(line: Line) -> Question:
             header=("$x$", *(f"${shown(x)}$" for x, _ in line.points)),
             rows=(("$y$", *(f"${shown(y)}$" for _, y in line.points)),),
         ),
-        Paragraph("The model is a line with independent normal noise of the same variance: $y = θ_0 + θ_1 x + ε$."),
+        Paragraph(
+            "The model is a line with independent normal noise of mean $0$ and the same variance: "
+            "$y = θ_0 + θ_1 x + ε$."
+        ),
     )
     entries = Numbers(("θ̂_1", "θ̂_0"))
     ask = "What are the maximum likelihood (least squares) estimates of the slope $θ_1$ and the intercept $θ_0$?"

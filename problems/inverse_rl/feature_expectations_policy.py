@@ -233,7 +233,7 @@ def question(given: Given) -> Question:
     )
     if given.matched is not None:
         letter = shown(Parameter(given.asked_for))
-        expert = f"The expert's feature expectation from the start distribution is $μ(π_E) = {shown(given.matched)}$."
+        expert = f"The expert's feature expectation from the start distribution is $μ_1(π_E) = {shown(given.matched)}$."
         return Question(blocks, (Part(f"{expert} For which ${letter}$ does this policy match it?", Number()),))
     parts = [
         Part(
