@@ -469,7 +469,7 @@ def scalar_system(notation: Notation, *, discounted: bool, crossed: bool, modes:
         mixed: tuple[Expr, ...] = ()
         if crossed:
             cross = Mul(2, *ahead, A, B, N)
-            mixed = (Mul(cross, P, -1) if costs else Mul(cross, P), -(N**2))
+            mixed = (-Mul(cross, P) if costs else Mul(cross, P), -(N**2))
             beta_right = beta_right - cross
             product = product - N**2
         multiplied = (

@@ -184,3 +184,4 @@ def test_what_is_said_of_the_equation_follows_the_convention(convention: str) ->
     said = " ".join(plain(rldrill.read({"family": "lqr-infinite", "given": given}).working("a")).split())
     for words in WORDS[convention]:
         assert words in said
+    assert "·(−1)" not in said
