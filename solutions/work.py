@@ -20,7 +20,7 @@ from rldrill.solutions.formula.elimination import MOST_UNKNOWNS, elimination
 from rldrill.solutions.formula.equations import Affine, solve_linear
 from rldrill.solutions.formula.formula import Formula, Misconception
 from rldrill.solutions.formula.inverting import inverted
-from rldrill.solutions.formula.multiplying import multiplied_out
+from rldrill.solutions.formula.multiplying import entry_by_entry, multiplied_out
 from rldrill.solutions.formula.notation import Quantity
 from rldrill.solutions.formula.putting_in import indexed, long_sum, put_in, reduced, term_by_term, without_slots
 from rldrill.solutions.formula.typesetting import alone, tabular, typeset, typeset_value, vector
@@ -99,7 +99,8 @@ class Step(_Applied):
             before = [] if after else multiplied_out(without_slots(written))
             together = in_one_fraction(short)
             brackets = short if together is None else brackets_in_one_fraction(short)
-            added = [each for each in (brackets, together, long_sum(short)) if each is not None and each != short]
+            apart = (brackets, together, long_sum(short), entry_by_entry(short))
+            added = [each for each in apart if each is not None and each != short]
             rights += [*map(alone, (*before, short, without, *after, *added)), shown_value(self.value)]
         distinct = _without_detours(rights)
         left = typeset(self.left)

@@ -77,9 +77,9 @@ class Given(Givens):
         if self.action is not None and self.action not in self.actions:
             raise ValueError(f"action: {self.action!r} is not among the actions")
         if len(self.theta) != self.size * len(self.actions):
+            needed = f"{self.size}·{len(self.actions)} = {self.size * len(self.actions)}"
             raise ValueError(
-                f"theta: {self.size} features and {len(self.actions)} actions need "
-                f"{self.size * len(self.actions)} weights, not {len(self.theta)}"
+                f"theta: there is a weight for every feature and action, here {needed}, not {len(self.theta)}"
             )
         self._check_sought()
         return self

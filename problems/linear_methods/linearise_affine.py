@@ -6,7 +6,6 @@ from pydantic import Field, model_validator
 
 from rldrill.problems.draws import Draws
 from rldrill.problems.family import Question
-from rldrill.problems.fractions import Fraction
 from rldrill.problems.parts import Matrix, Part
 from rldrill.problems.robots import Entries, System, discretised, drawn_robot, situation, values_of
 
@@ -43,9 +42,7 @@ def draw(level: int, rng: Draws) -> Given:
     system = values_of(rng, robot)
     if level == 1:
         return Given(**system, step=step)
-    A = robot.varying["A"]
-    entries = Entries(A=A) if len(A) > 1 and rng.chance(Fraction(1, 2)) else Entries(**robot.varying)
-    return Given(**system, step=step, entries=entries)
+    return Given(**system, step=step, entries=Entries(**robot.varying))
 
 
 def question(given: Given) -> Question:

@@ -90,7 +90,7 @@ def _set(slot: Slot, exercise: Exercise) -> dict[str, int]:
             if amount < len(labels):
                 raise error(
                     slot.where,
-                    f"{slot.family} has {len(labels)} parts, and {amount} points do not give each of them one.",
+                    f"{slot.family} has {len(labels)} parts, each of which needs a point, and is given {amount}.",
                 )
             times = [minutes_of(exercise.solution, label) for label in labels]
             return dict(zip(labels, shared(times, amount), strict=True))

@@ -10,6 +10,7 @@ from rldrill.problems.pictures import Picture
 from rldrill.render.mathematics.typst import SHORT, quoted, relation, text, typst
 from rldrill.render.mathematics.typst_breaks import breakable
 from rldrill.render.mathematics.unicode import unicode
+from rldrill.render.mathematics.width import width, width_of_line
 from rldrill.render.pictures.typst import picture, width_of
 from rldrill.render.typst_files import typst_file
 from rldrill.render.unicode import unicode_text
@@ -48,7 +49,7 @@ def block(item: Block, room: float = PAGE) -> str:
             )
             said = unicode_text(item)
             first = "" if left == EMPTY else typst(left)
-            if _SIGN * len(said) <= room:
+            if width_of_line(left, rights, signs) <= room:
                 return _on_a_line(said, " ".join([first, *_links(item)]))
             return f"#chain({quoted(said)}, ${first}${links})\n"
         case Beside(blocks):
@@ -72,15 +73,14 @@ def _width(item: Block) -> float:
             return _IN_CELLS * signs + _PADDING * len(header)
         case Picture():
             return width_of(item) / _POINTS
-        case Equation():
-            return _SIGN * len(unicode_text(item))
+        case Equation(left, rights, signs):
+            return width_of_line(left, rights, signs)
         case _:
             return math.inf
 
 
 def _side_by_side(blocks: Document, room: float) -> str:
-    width = sum(map(_width, blocks)) + _GAP * (len(blocks) - 1)
-    fits = width <= _WHOLE * room
+    fits = sum(map(_width, blocks)) + _GAP * (len(blocks) - 1) <= _WHOLE * room
     bodies = (picture(item, shrinks=not fits) if isinstance(item, Picture) else block(item, room) for item in blocks)
     inside = ", ".join(f"[{body}]" for body in bodies if body)  # a picture that is too large is left out
     return f"#{'abreast' if fits else 'beside'}({inside})\n"
@@ -91,9 +91,9 @@ def _apart(items: tuple[Math, ...], room: float) -> str:
     if all(len(unicode(item)) <= 2 * SHORT for item in items):
         return f"#flow({', '.join(f'({quoted(unicode(item))}, ${typst(item)}$)' for item in items)})\n"
     return "".join(
-        _on_a_line(said, typst(item))
-        if _SIGN * len(said := unicode(item)) <= room
-        else f"#chain({quoted(said)}, $$, ($$, {breakable(item)}))\n"
+        _on_a_line(unicode(item), typst(item))
+        if width(item) <= room
+        else f"#chain({quoted(unicode(item))}, $$, ($$, {breakable(item)}))\n"
         for item in items
     )
 
@@ -113,7 +113,7 @@ def document(blocks: Document, room: float = PAGE) -> str:
             result.append(f"#flow({', '.join(waiting)})\n")
             waiting = []
         if isinstance(item, _Announced):
-            widths = ", ".join(f"{width:.1f}em" for width in item.widths)
+            widths = ", ".join(f"{each:.1f}em" for each in item.widths)
             bodies = "".join(f"[{block(words)}{block(table)}]" for words, table in item.pairs)
             result.append(f"#announced(({widths})){bodies}\n")
         elif item is not None:
@@ -135,9 +135,9 @@ def _announced_together(blocks: Document, room: float) -> Iterator[Block | _Anno
     while at < len(blocks):
         pairs: list[tuple[Paragraph, Table]] = []
         widths: list[float] = []
-        while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (width := _width_of(*pair)) <= room:
+        while (pair := _pair(blocks[at + 2 * len(pairs) :])) and sum(widths) + (wide := _width_of(*pair)) <= room:
             pairs.append(pair)
-            widths.append(width + _BETWEEN)
+            widths.append(wide + _BETWEEN)
         if len(pairs) > 1:
             yield _Announced(tuple(pairs), tuple(widths))
             at += 2 * len(pairs)

@@ -2,9 +2,12 @@
 
 from typing import Any
 
+import sympy
+
 from rldrill.problems.bayes.model_comparison import CoinModel, Given
 from rldrill.solutions import knowns
 from rldrill.solutions.exact import Value, exact, sign
+from rldrill.solutions.formula.nodes.leaves import leaf
 from rldrill.solutions.numerics import np
 from rldrill.solutions.oracle import Answers, at
 from rldrill.solutions.sheet.bayes import (
@@ -15,8 +18,9 @@ from rldrill.solutions.sheet.bayes import (
     MODEL_POSTERIOR,
     POSTERIOR_ODDS,
     few_values,
+    uniform_evidence,
 )
-from rldrill.solutions.work import Note, Work
+from rldrill.solutions.work import Equality, Note, Work
 
 MISCONCEPTIONS = (BEST_FIT,)
 
@@ -35,10 +39,20 @@ def solve(given: Given, work: Work) -> None:
             return
         odds = work.answer(odds)
     else:
+        joint = {name: evidence[name] * prior[name] for name in names}
+        products = [sympy.Mul(leaf(evidence[name]), leaf(prior[name]), evaluate=False) for name in names]
+        total = sum(joint.values(), exact(0))
+        work.say("The products $p(D_z|M) p(M)$ stand above the line, and their sum stands below it:")
+        work.lines.append(
+            Equality(
+                sympy.Add(*products, evaluate=False), (sympy.Add(*map(leaf, joint.values()), evaluate=False), total)
+            )
+        )
         work.answer({name: work.step(MODEL_POSTERIOR, M=name, **known) for name in names})
     if len(names) == 2:
         _by_the_odds(work, names, odds)
         return
+    work.say("All posteriors have the same number below the line, so what stands above it decides:")
     best = work.step(MODEL_COMPARISON, **known)
     told = f"“{best[0]}” is the most probable model" if len(best) == 1 else "No model is more probable than all others"
     work.say(f"{told}: {'yes' if best == names[:1] else 'no'}.")
@@ -60,10 +74,19 @@ def _evidence(work: Work, name: str, model: CoinModel, tosses: dict[str, Any]) -
         thetas, priors = ({i: exact(pair[which]) for i, pair in enumerate(model.thetas, 1)} for which in (0, 1))
         work.say(f"In “{name}” there are $n = {len(thetas)}$ values $θ_i$, with the probabilities $p(θ_i)$:")
         return work.step(few_values(), M=name, theta_at=thetas, prior_at=priors, n=len(thetas), **tosses)
+    if model.a == model.b == 1:
+        uniform = Note(
+            "If $θ$ is unknown, the evidence is the mean of the likelihood over the prior; with a uniform prior that "
+            "is $∫ θ^{n_1} (1 − θ)^{n_0} dθ$ from $0$ to $1$, an integral that is known:"
+        )
+        if uniform not in work.lines:
+            work.lines.append(uniform)
+        return work.step(uniform_evidence(), M=name, **tosses)
     integral = Note(
         "If $θ$ is unknown, the evidence is the mean of the likelihood, $∫ p(D_z|θ) p(θ) dθ$, over the prior "
         '$"Beta"(a, b)$. From $0$ to $1$, '
-        "$∫ θ^j (1 − θ)^k dθ = j! k!/(j + k + 1)!$, in the likelihood as in the prior, so it is:"
+        "$∫ θ^j (1 − θ)^k dθ = j! k!/(j + k + 1)!$. With $a − 1$ and $b − 1$ for $j$ and $k$ that is what the prior is "
+        "divided by; with $a + n_1 − 1$ and $b + n_0 − 1$ it is the integral of likelihood times prior:"
     )
     if integral not in work.lines:
         work.lines.append(integral)

@@ -4,8 +4,9 @@ from typing import Any
 
 from rldrill.problems.control.epsilon_greedy import Given
 from rldrill.problems.exact import shown
+from rldrill.problems.fractions import Fraction
 from rldrill.solutions import knowns
-from rldrill.solutions.exact import Value, exact
+from rldrill.solutions.exact import NoSolution, Value, exact, sign, told
 from rldrill.solutions.formula.formula import slip
 from rldrill.solutions.greedy import epsilon_greedy
 from rldrill.solutions.numerics import np
@@ -42,13 +43,25 @@ def _back(given: Given, work: Work, values: dict[str, Value]) -> None:
     chances = epsilon_greedy(work, given.state, values, exact(given.epsilon), only=needed)
     if given.taken:
         work.say(f"{given.taken.action} is taken with probability ${shown(given.taken.probability)}$:")
-        epsilon = work.answer(work.equate("epsilon", chances[given.taken.action], exact(given.taken.probability)))
+        epsilon = work.answer(_rate(work, chances[given.taken.action], given.taken.probability))
         if given.valued:
             _average(given, work, epsilon_greedy(work, given.state, values, epsilon))
     elif given.state_value is not None:
         worth = _value(given, work, chances)
         work.say(f"This value is ${shown(given.state_value)}$:")
-        work.answer(work.equate("epsilon", worth, exact(given.state_value)))
+        work.answer(_rate(work, worth, given.state_value))
+
+
+def _rate(work: Work, found: Value, wanted: Fraction) -> Value:
+    """The ε with which what was found is what is wanted.
+
+    Raises:
+        NoSolution: it is no probability.
+    """
+    epsilon = work.equate("epsilon", found, exact(wanted))
+    if work.misconception is None and (sign(epsilon) < 0 or sign(epsilon - 1) > 0):
+        raise NoSolution(f"no ε from 0 to 1 leads to {shown(wanted)}, only ε = {told(epsilon)}; change what is given")
+    return epsilon
 
 
 def _average(given: Given, work: Work, chances: dict[str, Value]) -> None:

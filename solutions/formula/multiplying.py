@@ -114,6 +114,34 @@ def _is_number(factor: Expr) -> bool:
     return bool(factor.is_Rational and factor != -1)
 
 
+def entry_by_entry(expression: Expr) -> Expr | None:
+    """A sum of matrices with a letter in them, its entries as sums that are still to be added up; else None."""
+    grids, signs = [], []
+    for term in Add.make_args(expression):
+        factors = [factor for factor in Mul.make_args(term) if factor != -1]
+        if len(factors) != 1 or not _is_grid(factors[0]):
+            return None
+        grids.append(_matrix(factors[0]))
+        signs.append(1 if len(factors) == len(Mul.make_args(term)) else -1)
+    rows, columns = grids[0].shape
+    if len(grids) < 2 or rows * columns > _ENTRIES or not any(grid.free_symbols for grid in grids):
+        return None
+    entries = [
+        [sign * grid[i, j] for sign, grid in zip(signs, grids, strict=True) if grid[i, j] != 0] or [sympy.S.Zero]
+        for i in range(rows)
+        for j in range(columns)
+    ]
+    if max(map(len, entries)) < 2:
+        return None
+    return Blocks(rows, *(sum_of([leaf(first), *map(_further, others)]) for first, *others in entries))
+
+
+def _further(entry: Expr) -> Expr:
+    """A term of a sum behind its first, with its sign before it."""
+    negative = entry.is_Rational and entry < 0
+    return Mul._from_args([sympy.S.NegativeOne, leaf(-entry)]) if negative else leaf(entry)
+
+
 def _multiples(terms: list[Expr]) -> list[Expr]:
     """The terms of a sum of vectors, each multiplied by what stands before it."""
     return list(map(_multiple, terms))

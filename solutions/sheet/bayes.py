@@ -547,6 +547,15 @@ def without_command() -> Formula:
 
 
 @cache
+def uniform_evidence() -> Formula:
+    """The evidence of a coin whose θ has a uniform prior."""
+    with evaluate(False):
+        return replace(
+            EVIDENCE, right=factorial(heads) * factorial(tails) / factorial(heads + tails + 1), also=(), note=""
+        )
+
+
+@cache
 def share_of_each() -> Formula:
     """The estimate of a coin where every coin has its own."""
     with evaluate(False):

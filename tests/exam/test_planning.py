@@ -180,11 +180,11 @@ def test_every_family_has_its_variety_counted() -> None:
 
 
 def test_points_that_do_not_fit_a_problem_are_said() -> None:
-    with pytest.raises(UsageError, match="Td-zero has 2 parts, and 1 points do not give each of them one"):
+    with pytest.raises(UsageError, match="Td-zero has 2 parts, each of which needs a point, and is given 1"):
         plan(Blueprint(problems=(Entry(family="td-zero", level=2, points=1),), seed=1))
     for points, said in (((1, 2, 3), "3 parts"), ((3,), "1 part")):
         with pytest.raises(UsageError, match=f"Points are given for {said}, and td-zero has 2 here"):
-            plan(Blueprint(problems=(Entry(id="td-zero/2/7", points=points),), seed=1))
+            plan(Blueprint(problems=(Entry(id="td-zero/2/234", points=points),), seed=1))
     exam = plan(Blueprint(problems=(Entry(family="td-zero", level=2, points=2),), seed=1))
     assert [part.points for part in exam.versions[0].exercises[0].parts] == [1, 1]
 

@@ -298,7 +298,7 @@ CASES: list[tuple[str, dict[str, Any], dict[str, Any], str]] = [
     ("linear-value", LINEAR, {"features": None}, "features"),
     ("linear-value", LINEAR | {"action": "x"}, {"action": "z"}, "action: 'z' is not among the actions"),
     ("linear-value", LINEAR, {"actions": ["x", "x"]}, "actions: one is named twice"),
-    ("linear-value", LINEAR, {"theta": [3, 1, 2]}, "1 features and 2 actions need 2 weights, not 3"),
+    ("linear-value", LINEAR, {"theta": [3, 1, 2]}, "here 1·2 = 2, not 3"),
     ("linear-value", LINEAR | {"theta": ["w", 1]}, {"features": [0]}, "the feature that belongs to w must be given"),
     ("linear-value", LINEAR | {"theta": ["w", 1]}, {"action": "x"}, "action: its vector is only asked for where"),
     ("linear-value", BETWEEN, {"bumps": {"centres": [[0], [4]], "width": 3}}, "position: it can only be found between"),

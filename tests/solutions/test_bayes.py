@@ -3,7 +3,7 @@
 from fractions import Fraction
 from json import dumps, loads
 from math import comb
-from re import findall
+from re import MULTILINE, findall
 from typing import Any
 
 import pytest
@@ -431,3 +431,20 @@ def test_what_a_sensor_reads_fits_the_place(level: int) -> None:
                 for reading, row in given_.likelihood.items():
                     way = scene.trend if reading == scene.readings[0] else -scene.trend
                     assert list(row.values()) == sorted(row.values(), reverse=way < 0)
+
+
+def test_what_stands_below_the_line_of_posteriors_is_added_up_before() -> None:
+    for seed in range(20):
+        for level in (2, 3):
+            exercise = rldrill.draw("model-comparison", level, seed)
+            if len(exercise.problem.given.models) > 2:  # type: ignore[attr-defined]
+                working = str(exercise.working("b"))
+                total = findall(r"= (\d+/\d+) *$", working.split("p(M|D_z)")[0], MULTILINE)[-1]
+                assert f"({total})" in working, exercise.id
+
+
+def test_a_uniform_prior_needs_one_integral() -> None:
+    flat = {"models": {"x": {}, "y": {"theta": "1/2"}}, "prior": {"x": "1/2", "y": "1/2"}, "heads": 0, "tails": 2}
+    exercise = rldrill.read({"family": "model-comparison", "given": flat})
+    assert exercise.solve()["a"]["x"] == fmpq(1, 3)
+    assert "(0!2!)/((0 + 2 + 1)!)" in str(exercise.working("a"))

@@ -157,6 +157,19 @@ def test_going_on_from_an_earlier_answer_is_right() -> None:
     assert judge(exercise.solution, "b", "9/4", {"a": wrong.value}).outcome is Outcome.FOLLOW_THROUGH
 
 
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"state_value": 7}, "no ε from 0 to 1 leads to 7, only ε = −2/5"),  # 6 − 5/2·ε = 7
+        ({"taken": ["y", "1/4"]}, "no ε from 0 to 1 leads to 1/4, only ε = 3/2"),  # 1 − ε/2 = 1/4
+    ],
+)
+def test_an_exploration_rate_that_is_no_probability_is_refused(asked: dict[str, Any], said: str) -> None:
+    given = {"values": {"x": 1, "y": 6}, "epsilon": "epsilon", **asked}
+    with pytest.raises(FileError, match=said):
+        rldrill.read({"family": "epsilon-greedy", "given": given})
+
+
 RUN: dict[str, Any] = {
     "trajectory": {"states": ["a", "b"], "actions": ["x"], "rewards": [1]},
     "values": {"a": {"x": 1}, "b": {"x": 2, "y": 3}},

@@ -89,7 +89,7 @@ VALUE = {"theta": [1, 2, 3, 4], "actions": ["x", "y"], "features": [1, 2], "acti
         ("rbf", {"position": [1], "centres": [[1]], "sigma": 0}, "the width must be above 0"),
         ("rbf", {"position": [], "centres": [[]], "sigma": 1}, "given.position"),
         ("piecewise-linear-rbf", {"position": [1], "centres": [[1]], "width": -1}, "it must be above 0, not -1"),
-        ("linear-value", VALUE | {"theta": [1, 2, 3]}, "2 features and 2 actions need 4 weights, not 3"),
+        ("linear-value", VALUE | {"theta": [1, 2, 3]}, "here 2·2 = 4, not 3"),
         ("linear-value", VALUE | {"action": "z"}, "'z' is not among the actions"),
         ("linear-value", VALUE | {"actions": ["x", "x"]}, "one is named twice"),
         ("linear-value", VALUE | {"features": None}, "give either features or bumps"),

@@ -556,3 +556,14 @@ def test_a_price_that_is_found_is_put_into_the_reward() -> None:
             *_, line = exercise.solution.lines_of("b")
             assert isinstance(line, Equality)
             assert unicode_text(line.equation()).count("=") == 2, exercise.id
+
+
+def test_matrices_with_a_letter_are_added_entry_by_entry() -> None:
+    # A = [0 1; −1 2], B = [0; 2], P₁ = −I: AᵀP₁A = [−1 2; 2 −5] and AᵀP₁B L₀ = [−4 8; 8 −16]/(4 + ρ).
+    exercise = rldrill.read({"family": "lqr-backward", "given": {
+        "A": [[0, 1], [-1, 2]], "B": [[0], [2]], "Q": [[1, 0], [0, 1]], "R": [["rho"]], "start": [-1, 4],
+        "horizon": 1,
+    }})  # fmt: skip
+    text = " ".join(str(exercise.working("b")).split())
+    assert "−1 − 1 + 4/(4 + ρ)" in text
+    assert "−1 − 5 + 16/(4 + ρ)" in text
