@@ -103,7 +103,7 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
     if level == 3:
         return _draw_threshold(gamma, rng)
     shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
-    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-3, 5)
+    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-2, 2)
     mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
     while not _looks_ahead(mdp, values, gamma):
         mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
@@ -111,13 +111,14 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
 
 
 def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:
-    """Whether neither the rewards alone nor the next values alone show which policy improvement gives."""
+    """Whether neither rewards alone, nor next values alone, nor both without γ show which policy improvement gives."""
     ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
     at_once = {pair: worth(mdp, pair, {}, gamma) for pair in mdp.pairs}
     later = {pair: ahead[pair] - at_once[pair] for pair in mdp.pairs}
+    together = {pair: at_once[pair] + later[pair] / gamma for pair in mdp.pairs}
     best, *others = (
         [max(actions, key=lambda action: found[state, action]) for state, actions in mdp.actions.items()]
-        for found in (ahead, at_once, later)
+        for found in (ahead, at_once, later, together)
     )
     return best not in others
 

@@ -1,6 +1,7 @@
 """Evaluation and improvement in turn; when improvement changes nothing, the policy is optimal."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from rldrill.problems.document import joined
@@ -148,7 +149,11 @@ def _evaluated_once(work: Work, formula: Formula, mdp: Model, known: Mapping[str
     return known["V"] or evaluated(work, formula, mdp, known)
 
 
-MISCONCEPTIONS = (stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD, Q_FORGOT_GAMMA)
+MISCONCEPTIONS = (
+    stops, one_sweep(solve), IMPROVEMENT_BY_VALUE, IMPROVEMENT_BY_REWARD,
+    # In rounds one action value is told beside the answers: it shows that a policy is not optimal, and changes nothing.
+    replace(Q_FORGOT_GAMMA, when=lambda given: isinstance(given, Threshold)),
+)  # fmt: skip
 
 
 def oracle(given: Given) -> Answers:

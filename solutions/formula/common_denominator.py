@@ -19,10 +19,17 @@ def in_one_fraction(expression: Expr) -> Expr | None:
         return None
     values = [_value(evaluated(term)) for term in expression.args]
     known = [value for value in values if value is not None]
-    below = common_denominator(known) if len(known) == len(values) else None
+    below = _below(known) if len(known) == len(values) else None
     if below is None or is_rational(below):
         return None
     return _over([_in_order(value * below) for value in known], below)
+
+
+def _below(values: list[Value]) -> Value | None:
+    """The common denominator, with whole coefficients."""
+    shared = common_denominator(values)
+    whole = None if shared is None else common_denominator([shared])
+    return None if shared is None or whole is None else shared * whole
 
 
 def brackets_in_one_fraction(expression: Expr) -> Expr:
@@ -42,7 +49,7 @@ def _with_brackets_added(term: Expr) -> Expr:
 def _added(bracket: Expr) -> Expr:
     """The value of a bracket, as one fraction."""
     value = _value(evaluated(bracket))
-    below = None if value is None else common_denominator([value])
+    below = None if value is None else _below([value])
     return bracket if value is None or below is None else _over([_in_order(value * below)], below)
 
 

@@ -40,6 +40,13 @@ def test_then_what_stands_above_the_common_denominator() -> None:
     assert unicode(typeset(together)) == "(12 − 3p − 8 − 5p)/(6 + 2p)"
 
 
+def test_the_denominator_has_whole_coefficients() -> None:
+    # 6 + (−54 + 132p)/(3 + 2p) = (18 + 12p − 54 + 132p)/(3 + 2p)
+    together = in_one_fraction(total(sympy.Integer(6), over(-54 + 132 * P, 3 + 2 * P)))
+    assert together is not None
+    assert unicode(typeset(together)) == "(18 + 12p − 54 + 132p)/(3 + 2p)"
+
+
 @pytest.mark.parametrize("expression", [total(P, HALF), total(over(P, sympy.Integer(2)), 1), over(P, 3 + P)])
 def test_where_no_letter_is_below_there_is_nothing_to_bring_together(expression: sympy.Expr) -> None:
     assert in_one_fraction(expression) is None

@@ -111,3 +111,9 @@ def test_every_error_of_an_advantage_counts() -> None:
         worth = [run.values.get(state, Fraction(0)) for state in run.trajectory.states]
         for time, reward in enumerate(run.trajectory.rewards):
             assert reward + given.gamma * worth[time + 1] != worth[time]
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_whether_a_policy_is_optimal_is_not_always_answered_alike(level: int) -> None:
+    verdicts = Counter([*draw("policy-iteration", level, seed).answers.values()][-1] for seed in range(40))
+    assert min(verdicts[True], verdicts[False]) > 5

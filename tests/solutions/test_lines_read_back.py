@@ -45,6 +45,8 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
             for each in line.lines():
                 if isinstance(each, Equality):
                     yield sides(each), found
+        if isinstance(line, Equality) and not any(map(is_matrix, line.rights)) and holds_by_itself(line):
+            continue
         if isinstance(line, Equality) and not any(map(is_matrix, line.rights)) and len(unknowns(line)) < 3:
             group.append(line)
             left, right = sides(line)[0], sides(line)[-1]
@@ -52,6 +54,12 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
                 yield from ((sides(each), {left: right}) for each in group)
                 group = []
     assert not group
+
+
+def holds_by_itself(line: Equality) -> bool:
+    """Whether nothing is solved: a value is calculated, whatever is left open."""
+    first, *others = sides(line)
+    return all(sympy.simplify(evaluated(first) - evaluated(other)) == 0 for other in others)
 
 
 def unknowns(line: Equality) -> set[Expr]:
