@@ -70,4 +70,4 @@ def test_states_are_told_apart_only_where_there_are_several() -> None:
     one = rldrill.read({"family": "linear-policy", "given": given})
     two = rldrill.read({"family": "linear-policy", "given": given | {"features": {"hall": rows, "door": rows}}})
     assert one.parts[0].ask == "For which $w$ do both actions have the same value?"
-    assert two.parts[0].ask == "In each state, for which $w$ do both actions have the same value?"
+    assert two.parts[0].ask == "For which weight $w(s)$ do both actions have the same value in the state $s$?"

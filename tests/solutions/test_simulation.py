@@ -79,7 +79,8 @@ def test_features_add_up_along_simulated_episodes(level: int, seed: int) -> None
     for time in range(200):
         total += gamma**time * features[states]
         states = walked(rows, states, rng)
-    for index, expected in enumerate(list(exercise.solve().values())[-1]):
+    (*_, expectations) = exercise.solve().values()
+    for index, expected in enumerate(expectations if given.size > 1 else [expectations]):
         assert_close(total[:, index], float(expected))
 
 

@@ -310,7 +310,7 @@ def test_features_until_an_end_that_is_reached_by_way_of_a_loop() -> None:
     # μ(a) = 1 + μ(b)/2 and μ(b) = 2 + μ(a).
     motion = {"a": {"b": "1/2", "end": "1/2"}, "b": {"a": 1}}
     answers = solved("feature-expectations-policy", **features_of({"a": [1], "b": [2]}, motion, terminal=["end"]))
-    assert answers == {"a": {"a": 4, "b": 6}, "b": (4,)}
+    assert answers == {"a": {"a": 4, "b": 6}, "b": 4}
 
 
 @pytest.mark.parametrize(
