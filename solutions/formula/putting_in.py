@@ -344,7 +344,8 @@ def _inner(term: Expr) -> Expr:
     if term.is_Pow and term.args[1] == sympy.S.Half and term.args[0].has(sympy.log):  # nothing gets simpler under it
         return term
     if term.is_Pow and (term.args[1] in (-1, sympy.S.Half) or (term.args[0].is_Add and term.args[1].is_Integer)):
-        return Pow(_worked_out(term.args[0]), term.args[1], evaluate=False)
+        base = _worked_out(term.args[0])
+        return base if base == 1 else Pow(base, term.args[1], evaluate=False)
     return _worked_out(term) if term.is_Add or isinstance(term, sympy.factorial) else term
 
 
