@@ -50,7 +50,7 @@ def equations(solution: Solution) -> Iterator[tuple[list[Expr], dict[Expr, Expr]
         if isinstance(line, Equality) and not any(map(is_matrix, line.rights)) and len(unknowns(line)) < 3:
             group.append(line)
             left, right = sides(line)[0], sides(line)[-1]
-            if left.is_Symbol and not right.has(left):  # γ = 3/4 ends it
+            if isinstance(left, sympy.Symbol | Quantity) and not right.has(left):  # γ = 3/4 ends it
                 yield from ((sides(each), {left: right}) for each in group)
                 group = []
     assert not group
