@@ -169,16 +169,16 @@ def test_twelve_problems_for_an_hour_take_seven_pages_at_most(tmp_path: Path) ->
 
 
 def test_room_follows_the_minutes_and_a_tick_gets_none() -> None:
-    long, short = draw("batch-td-and-mc", 3, 0), draw("markov-property", 1, 1)
+    long, short = draw("reinforce", 3, 0), draw("markov-property", 1, 1)
     rooms = {
         (item.problem.family.name, part.label): space_of(item, part, "normal")
         for item in (long, short)
         for part in item.parts
     }
-    assert rooms["batch-td-and-mc", "a"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
+    assert rooms["reinforce", "b"] == Fraction(32, 10)  # eight minutes of four millimetres, the most
     yes_no = next(part for part in short.parts if part.kind.name == "yes/no")
     assert rooms["markov-property", yes_no.label] == 0
-    part = long.parts[0]
+    part = long.parts[1]
     assert space_of(long, part, "none") == 0 < space_of(long, part, "tight") < space_of(long, part, "wide")
 
 

@@ -48,7 +48,7 @@ class Given(Givens):
 
 def draw(level: int, rng: Draws) -> Given:
     """Two states whose moves are certain; then moves that are not, or three states; then a value is missing."""
-    gamma = rng.choice(tuple(UNITS)[: max(level, 2)])
+    gamma = rng.choice(tuple(UNITS)[:level])
     states = 2 if level == 1 else 2 + rng.below(2)
     actions = 3 if states == 2 else 2
     shape = Shape(states=states, actions=actions, branches=min(level, 2), denominators=(2,))

@@ -103,11 +103,28 @@ def draw(level: int, rng: Draws) -> Rounds | Threshold:
     if level == 3:
         return _draw_threshold(gamma, rng)
     shape = Shape(states=2, actions=3 if level == 1 else 2 + rng.below(2), branches=level, denominators=(2,))
-    others = (-4, -1) if rng.chance(Fraction(1, 2) if level == 1 else Fraction(1, 10)) else (-2, 2)
-    mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
-    while not _looks_ahead(mdp, values, gamma):
+    optimal = rng.chance(Fraction(1, 2))
+    others = (-4, -1) if level == 1 and optimal else (-2, 2)
+    while True:
         mdp, policy, values = draw_valued(rng, draw_setting(rng), shape, gamma, others, forked="own")
-    return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
+        if _looks_ahead(mdp, values, gamma) and _settles(mdp, policy, gamma, level) == optimal:
+            return Rounds(mdp=mdp, start=policy, gamma=gamma, rounds=level)
+
+
+def _settles(mdp: Model, start: dict[str, str], gamma: Fraction, rounds: int) -> bool:
+    """Whether the last of so many rounds changes nothing: the policy that it evaluates is an optimal one."""
+    before = policy = dict(start)
+    for _ in range(rounds):
+        values = policy_values(mdp, deterministic(policy), gamma)
+        ahead = {pair: worth(mdp, pair, values, gamma) for pair in mdp.pairs}
+        before, policy = (
+            policy,
+            {
+                state: max(actions, key=lambda action: (ahead[state, action], action == policy[state]))
+                for state, actions in mdp.actions.items()
+            },
+        )
+    return before == policy
 
 
 def _looks_ahead(mdp: Model, values: dict[str, Fraction], gamma: Fraction) -> bool:

@@ -75,11 +75,13 @@ _EVEN = (Fraction(-4), Fraction(-2), Fraction(2), Fraction(4))
 _RUNS: tuple[tuple[str, int, bool], ...] = (
     ("ab.", 3, False), ("aba", 2, False), ("abc", 2, False), ("ab", 2, True), ("ab", 3, True),
 )  # fmt: skip
+#: The same at level 3, where a state comes again.
+_RETURNS = (("aba", 2, True), ("aba", 3, True), ("aab", 2, True))
 
 
 def draw(level: int, rng: Draws) -> Given:
     """One step of TD(0); then two of them, or one of Sarsa; then two of Sarsa, the step size left open."""
-    visits, size, sarsa = {1: ("ab", 2, False), 3: ("aba", 2, True)}.get(level) or rng.choice(_RUNS)
+    visits, size, sarsa = ("ab", 2, False) if level == 1 else rng.choice(_RUNS if level == 2 else _RETURNS)
     if sarsa:  # a state sees the same action again, so the first step counts in the second
         setting = draw_setting(rng)
         choices = setting.actions[:2]

@@ -55,7 +55,7 @@ def block(item: Block, room: float = PAGE) -> str:
         case Beside(blocks):
             return _side_by_side(blocks, room)
         case Picture():
-            return picture(item)
+            return picture(item, shrinks=_width(item) > room)
         case _:
             raise TypeError(f"{type(item).__name__} has no Typst")
 

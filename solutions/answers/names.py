@@ -67,9 +67,10 @@ def keys_named(name: str, keys: Sequence[Key]) -> list[Key]:
         if hits := matches(spread, spellings):
             return hits
     inner = _candidates(name)[1:]
-    for candidate in inner:  # Pr(new|new, worn): the pair stands behind the bar
+    for candidate in inner:  # Pr(new|new, worn): the pair stands behind the bar; ln p(D|shared, θ): the first name does
         _, bar, behind = candidate.partition("|")
-        if bar and not _single(keys) and (hits := matches(_spread(behind), spellings)):
+        meant = behind.partition(",")[0] if _single(keys) else _spread(behind)
+        if bar and (hits := matches(meant, spellings)):
             return hits
     return list(dict.fromkeys(hit for candidate in inner for hit in _beside(candidate, spellings, keys)))
 
