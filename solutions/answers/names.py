@@ -68,10 +68,11 @@ def keys_named(name: str, keys: Sequence[Key]) -> list[Key]:
             return hits
     inner = _candidates(name)[1:]
     for candidate in inner:  # Pr(new|new, worn): the pair stands behind the bar; ln p(D|shared, θ): the first name does
-        _, bar, behind = candidate.partition("|")
-        meant = behind.partition(",")[0] if _single(keys) else _spread(behind)
-        if bar and (hits := matches(meant, spellings)):
+        before, bar, behind = candidate.partition("|")
+        if bar and not _single(keys) and (hits := matches(_spread(behind), spellings)):
             return hits
+        if bar and _single(keys) and not matches(before, spellings):
+            return matches(behind.partition(",")[0], spellings)
     return list(dict.fromkeys(hit for candidate in inner for hit in _beside(candidate, spellings, keys)))
 
 

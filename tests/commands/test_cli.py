@@ -3,8 +3,10 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -91,6 +93,15 @@ def test_usage_errors_exit_2(arguments: list[str]) -> None:
     assert "Traceback" not in process.stderr
 
 
+@pytest.fixture
+def own_signals() -> Iterator[None]:
+    """What a command does with SIGPIPE does not outlast the test: the next write to a closed pipe would end pytest."""
+    before = signal.getsignal(signal.SIGPIPE)
+    yield
+    signal.signal(signal.SIGPIPE, before)
+
+
+@pytest.mark.usefixtures("own_signals")
 def test_an_error_of_our_own_exits_70_without_a_traceback(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -104,6 +115,7 @@ def test_an_error_of_our_own_exits_70_without_a_traceback(
     assert "Traceback" not in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("own_signals")
 def test_a_broken_family_is_a_sentence_to_its_author(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -76,10 +76,10 @@ def test_everything_right_is_everything_and_what_is_left_out_counts(tmp_path: Pa
 
 @pytest.mark.parametrize(("mark", "points"), [(",", 3), (".", 0)])
 def test_answers_to_an_exam_with_decimal_commas_may_have_them(tmp_path: Path, mark: str, points: int) -> None:
-    blueprint = Blueprint(problems=(Asked(id="td-zero/2/7"),), seed=1, decimal_mark=mark)
+    blueprint = Blueprint(problems=(Asked(id="td-zero/2/18"),), seed=1, decimal_mark=mark)
     (tmp_path / "exam.json").write_bytes(written(manifest(plan(blueprint))))
-    # δ = 10, −9 and −21/5 = −4.2
-    rows = [("Ann", "", "1", "a", "10; -9,0; -4,2"), ("Ben", "", "1", "a", "10; -9.0; -4.2")]
+    # α = 1/5, γ = 4/5: δ₀ = −5 + 4/5·5 − 5 = −6, V = 19/5; δ₁ = −1 + 4/5·10 − 19/5 = 3.2; δ₂ = 7 − 10 = −3
+    rows = [("Ann", "", "1", "a", "-6; 3,2; -3,0"), ("Ben", "", "1", "a", "-6; 3.2; -3.0")]
     report = graded(tmp_path, rows, Assignment(tmp_path / "exam.json"))
     assert student(report, "Ann").score.points == points
     assert student(report, "Ben").score.points == 3
